@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/* smear.h - motion-blurred 3D for machines without a GPU. The whole public interface.
+ *
+ * What it does. You give it meshes, a transform for each and a camera, once per frame. It remembers where
+ * everything was in the frame before, draws triangles in fixed point through a small rolling window of
+ * tile rows, blurs what moved, and hands finished bands of display pixels to your callback, top to bottom.
+ *
+ * What it does not. No malloc, no files, no floating point, no global state, no full-frame buffer (but for
+ * SMEAR_ACCUMULATE), no scene graph, no clock. It never reads the display back.
+ *
+ *     static uint64_t memory[SMEAR_MEMORY_SIZE(240, 240, 12, 600, 8) / 8];
+ *
+ *     static int flush(void *user, const smear_band *band) { ...send band->pixels...; return 0; }
+ *
+ *     smear_desc desc = { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8,
+ *                         .format = SMEAR_RGB565, .flush = flush };
+ *     smear_context *ctx;
+ *     int error = smear_init(&ctx, &desc, memory, sizeof memory);
+ *
+ *     for (;;) {
+ *         smear_begin(ctx, &(smear_frame){ .camera = &camera });
+ *         smear_submit(ctx, &(smear_draw){ .id = 1, .mesh = &cube, .now = &pose });
+ *         smear_render(ctx);
+ *     }
+ *
+ * Numbers. Q16.16 is an int32_t holding value x 65536. A basis is Q8.24. The world is right-handed, +Y up; a
+ * camera looks along its own -Z; the screen's origin is top left, pixel centres lie at +0.5.
+ *
+ * Zero in an optional field means its default, so `= {0}` is a good start for every struct. Functions return
+ * SMEAR_OK or a negative smear_result; a context stays usable after any error. */
+#ifndef SMEAR_H
+#define SMEAR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "smear_config.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SMEAR_VERSION_MAJOR 0
+#define SMEAR_VERSION_MINOR 1
+#define SMEAR_VERSION_PATCH 0
+
+typedef enum smear_result {
+    SMEAR_OK         =  0,
+    SMEAR_ERR_ARG    = -1,  /* a required field is missing, or a value is outside its stated range */
+    SMEAR_ERR_MEMORY = -2,  /* fewer than smear_memory_size() bytes, or not 8-byte aligned */
+    SMEAR_ERR_ORDER  = -3,  /* a call out of turn: submit before begin, render twice */
+    SMEAR_ERR_FULL   = -4   /* more draws in a frame than desc.max_draws; this one is not drawn */
+} smear_result;
+
+/* ------------------------------------------------------------------ geometry */
+
+/* world = basis x object + origin. A basis may scale, shear and mirror (a negative determinant flips the
+ * winding). Entries beyond +-127 do not fit: put large factors into the mesh's scale. */
+typedef struct smear_transform {
+    int32_t basis[9];           /* Q8.24, row by row */
+    int32_t origin[3];          /* Q16.16, world units */
+} smear_transform;
+
+#define SMEAR_BASIS_ONE (1 << 24)
+#define SMEAR_IDENTITY { { SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE }, { 0, 0, 0 } }
+
+/* Vertices and triangles, all constant data that may stay in flash. Object coordinates are
+ * (position + offset) x scale / 2^shift world units. */
+typedef struct smear_mesh {
+    const int16_t *position;    /* x y z of each vertex; required */
+    const int8_t  *normal;      /* x y z of each vertex, 127 is one; null: flat, from the triangle */
+    const int16_t *uv;          /* u v of each vertex, in 1/2^uv_shift of the texture; null: none */
+    const uint8_t *color;       /* r g b a of each vertex, r g b sRGB-encoded; null: white */
+    const uint16_t *index;      /* three vertices per triangle, counter-clockwise seen from the front */
+    uint32_t triangle_count;
+    uint16_t vertex_count;      /* every index is below it (checked where a triangle is read) */
+    int8_t   shift;             /* -32..62 */
+    uint8_t  uv_shift;          /* 0..15; 0 means 15 */
+    int32_t  scale;             /* > 0; 0 means 1 */
+    int32_t  offset[3];         /* in vertex steps, +-2^20 */
+} smear_mesh;
+
+typedef enum smear_texel_format {
+    SMEAR_TEXEL_8888,           /* uint32_t 0xAARRGGBB, sRGB-encoded, straight alpha */
+    SMEAR_TEXEL_565,            /* uint16_t, red on top; opaque */
+    SMEAR_TEXEL_PALETTE8        /* uint8_t into palette[256] of 0xAARRGGBB */
+} smear_texel_format;
+
+typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
+
+/* Row 0 is v = 0. Powers of two are fastest; any size from 1 to 4096 works. */
+typedef struct smear_texture {
+    const void *texels;         /* width x height, no padding, aligned to a texel */
+    const uint32_t *palette;    /* for SMEAR_TEXEL_PALETTE8 */
+    uint16_t width, height;
+    uint8_t format;             /* smear_texel_format */
+    uint8_t wrap_u, wrap_v;     /* smear_wrap */
+} smear_texture;
+
+typedef enum smear_alpha {
+    SMEAR_OPAQUE,
+    SMEAR_CUTOUT,               /* drawn where alpha >= cutoff; the rest keeps what lies behind, velocity too */
+    SMEAR_BLEND                 /* drawn over everything opaque, after the blur, in submission order;
+                                 * tests depth, writes neither depth nor velocity */
+} smear_alpha;
+
+/* color x vertex color x texel; color alpha 0 means "white, opaque". */
+typedef struct smear_material {
+    const smear_texture *texture;
+    uint8_t color[4];           /* r g b a, r g b sRGB-encoded */
+    uint8_t alpha;              /* smear_alpha */
+    uint8_t cutoff;             /* 1..255 of SMEAR_CUTOUT; 0 means 128 */
+    uint8_t unlit;              /* 1: no light */
+    uint8_t double_sided;       /* 1: back faces are drawn with flipped normals */
+    uint8_t bilinear;           /* 1: bilinear texels; 0: nearest */
+} smear_material;
+
+/* `pose` takes camera space to world space and must be a rotation and an origin. */
+typedef struct smear_camera {
+    smear_transform pose;
+    int32_t focal;              /* Q16.16: 1 / tan(vertical field of view / 2); perspective */
+    int32_t half_height;        /* Q16.16 world units: > 0 makes the camera orthographic, focal is ignored */
+    int32_t near_plane;         /* Q16.16 > 0 */
+    int32_t far_plane;          /* Q16.16 > near_plane; 0: none (perspective only) */
+} smear_camera;
+
+/* ------------------------------------------------------------------ drawing */
+
+typedef enum smear_motion {
+    SMEAR_MOTION_FULL,          /* object and camera */
+    SMEAR_MOTION_CAMERA,        /* as if the object stood still */
+    SMEAR_MOTION_NONE           /* zero velocity, also over what moves behind it */
+} smear_motion;
+
+/* One mesh in one place. Everything pointed to is read until smear_render returns.
+ *
+ * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close.
+ * Otherwise `open` is its pose one frame ago; when null, the library takes what it kept under `id`. A draw
+ * whose earlier pose is unknown (first sight, cut, first frame, id 0) has no motion of its own. */
+typedef struct smear_draw {
+    uint32_t id;                /* identity from frame to frame, unique in a frame; 0: none is kept */
+    const smear_mesh *mesh;
+    const smear_material *material;     /* null: white, lit */
+    const smear_transform *now;         /* null: identity */
+    const smear_transform *open, *close;
+    const int16_t *open_position;       /* deformed meshes: positions at those poses, in the mesh's scale and */
+    const int16_t *close_position;      /* offset; null: mesh->position. Nothing is kept of positions. */
+    uint8_t motion;             /* smear_motion */
+    uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
+} smear_draw;
+
+typedef enum smear_method {
+    SMEAR_DEFAULT_METHOD,       /* SMEAR_RECONSTRUCT */
+    SMEAR_NONE,                 /* the sharp instant */
+    SMEAR_ACCUMULATE,           /* mean of `samples` sharp instants; needs desc.accumulate */
+    SMEAR_RECONSTRUCT           /* tile-maximum reconstruction filter; needs the window */
+} smear_method;
+
+typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
+typedef enum smear_light { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light;
+
+/* Departures of SMEAR_RECONSTRUCT from the Post Processing Stack v2 filter, or-ed together. */
+enum {
+    SMEAR_FENCE     = 1,    /* a still pixel takes nothing from behind: keeps the edges of still foreground */
+    SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
+    SMEAR_BOX       = 4,    /* box shutter instead of the tent */
+    SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
+    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike: plain mean along the pixel's own velocity */
+};
+
+typedef struct smear_frame {
+    const smear_camera *camera;         /* now; required */
+    const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame */
+    uint8_t method;             /* smear_method */
+    uint8_t exposure;           /* smear_exposure */
+    uint8_t light;              /* smear_light */
+    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago */
+    uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
+    uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
+    uint16_t samples;           /* 1..1024; 0 means 8. Taps, or instants of SMEAR_ACCUMULATE */
+    uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
+    uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
+} smear_frame;
+
+/* ------------------------------------------------------------------ output */
+
+typedef enum smear_format {
+    SMEAR_XRGB8888,             /* uint32_t 0x00RRGGBB in the machine's byte order */
+    SMEAR_RGB565,               /* uint16_t, red on top, low byte first */
+    SMEAR_RGB565_SWAPPED,       /* high byte first, as most SPI panels want it */
+    SMEAR_RGB555,               /* uint16_t 0 rrrrr ggggg bbbbb with BLUE on top (Game Boy Advance), low byte first */
+    SMEAR_RGB332,
+    SMEAR_L8,
+    SMEAR_L4,                   /* two pixels per byte, left one in the high nibble */
+    SMEAR_L1,                   /* eight pixels per byte along x, left one in bit 7, 1 is lit */
+    SMEAR_L1_PAGES              /* OLED pages: a byte is a column of 8 pixels, top one in bit 0 */
+} smear_format;
+
+typedef enum smear_dither { SMEAR_DITHER_ORDERED, SMEAR_DITHER_NONE, SMEAR_DITHER_BLUE } smear_dither;
+
+/* Finished rows y .. y + height - 1, full width. */
+typedef struct smear_band {
+    const void *pixels;         /* valid until flush returns or, with two bands, until smear_band_done() */
+    int16_t y, width, height;
+    uint32_t stride;            /* bytes from row to row (from page to page for SMEAR_L1_PAGES) */
+    uint32_t size;              /* bytes in all */
+} smear_band;
+
+/* Returns 0, or a negative value that ends the frame and is returned by smear_render. */
+typedef int smear_flush_fn(void *user, const smear_band *band);
+
+/* Looked at by tests and tools: a drawn row before the blur. depth: codes, see smear_depth_units().
+ * velocity: x y of each pixel in 1/256 px per frame, before any clamp or packing. */
+typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const uint16_t *depth,
+                              const int32_t *velocity);
+
+typedef struct smear_desc {
+    int16_t width, height;      /* pixels, 1..2048; required */
+    int16_t reach;              /* longest blur radius of a filter in pixels, 1..64; 0 means 5 % of the height */
+    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such */
+    uint8_t format;             /* smear_format */
+    uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
+    uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
+    uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
+    uint8_t sharp;              /* 1: SMEAR_NONE (and SMEAR_ACCUMULATE) only: no window is kept */
+    uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
+    uint16_t max_draws;         /* draws per frame and ids kept; 0 means 16 */
+    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping); 0 means 1024 */
+    uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
+    smear_flush_fn *flush;      /* required */
+    smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of a tile row */
+    uint32_t (*clock)(void *user);      /* null: no times in the statistics */
+    void *user;                 /* handed to the callbacks */
+} smear_desc;
+
+typedef struct smear_stats {
+    uint32_t triangles_in, triangles_drawn, triangles_dropped;
+    uint32_t triangles_split;           /* times a frame was drawn in parts because the list was full */
+    uint32_t pixels;                    /* of the frame */
+    uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
+    uint32_t tiles_still, tiles_uniform, tiles_complex;
+    uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
+    uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
+    uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
+    uint32_t arena_bytes;               /* memory in use */
+} smear_stats;
+
+typedef struct smear_context smear_context;
+
+/* Bytes smear_init needs for this desc; 0 when the desc is not valid. */
+size_t smear_memory_size(const smear_desc *desc);
+
+/* The same as a constant for static arrays, rounded up to 8: one band of RGB565 or smaller, one worker, default
+ * vertex cache, tile chosen from reach (give the reach, not 0). Never less than smear_memory_size(). */
+#define SMEAR_MEMORY_SIZE(width, height, reach, triangles, draws) \
+    SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, \
+        ((reach) <= 8 ? 8 : (reach) <= 16 ? 16 : (reach) <= 32 ? 32 : 64))
+
+/* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The context
+ * lives in it and holds nothing else: forgetting the memory frees it. desc is copied. */
+int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
+
+/* Starts a frame. `frame` and the cameras are copied. A frame begun before is forgotten, unrendered. */
+int smear_begin(smear_context *ctx, const smear_frame *frame);
+
+/* Adds a draw. The struct is copied, what it points to is not. */
+int smear_submit(smear_context *ctx, const smear_draw *draw);
+
+/* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and pixels.
+ * A full triangle list is no error: the frame is drawn in parts (stats.triangles_split counts them).
+ * Returns SMEAR_OK, or what flush returned if negative. */
+int smear_render(smear_context *ctx);
+
+/* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another core.
+ * Bands finish in the order in which they were handed out. */
+void smear_band_done(smear_context *ctx);
+
+/* With desc.workers > 1: the other cores call this, each with its own index 1..workers-1, once per frame, while
+ * core 0 is in smear_render. Returns when the frame is done. smear_render waits for all of them. */
+void smear_work(smear_context *ctx, int worker);
+
+void smear_get_stats(const smear_context *ctx, smear_stats *stats);
+
+/* ------------------------------------------------------------------ the filter alone */
+
+/* Blurs a frame that another renderer drew: begin, then every row from top to bottom, each once. Finished bands
+ * come through flush as the window moves. Uses the context's desc (width, height, reach, tile, format) and of
+ * `frame` method, light, exposure, samples, shutter_degrees and reconstruct; camera needs only near_plane.
+ *
+ *   color     width pixels 0x00RRGGBB, sRGB-encoded
+ *   depth     width distances along the view in Q16.16 units, 0 for background
+ *   velocity  x y of each pixel in 1/16 px per frame, x right, y down */
+int smear_filter_begin(smear_context *ctx, const smear_frame *frame);
+int smear_filter_row(smear_context *ctx, const uint32_t *color, const uint32_t *depth,
+                     const int16_t *velocity);
+
+/* ------------------------------------------------------------------ depth codes */
+
+/* 16-bit depth grows towards the eye in two slopes: 0 is the background, 65535 the near plane. A perspective
+ * distance is near_plane x SMEAR_DEPTH_NEAR / units; relative step at most 1/2048 for distances up to 256 near planes,
+ * 1/557 at 1000. Orthographic: far - (far - near) x units / SMEAR_DEPTH_NEAR. */
+#define SMEAR_DEPTH_NEAR 557040u
+
+static inline uint32_t smear_depth_units(uint16_t code)
+{
+    return code < 32768u ? code : 32768u + (uint32_t)(code - 32768u) * 16u;
+}
+
+/* ------------------------------------------------------------------ memory in detail */
+
+#define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
+#define SMEAR_CONTEXT_BYTES 1024u           /* the context itself, at most */
+#define SMEAR_DRAW_BYTES 248u               /* a draw and its kept pose, at most */
+#define SMEAR_TRIANGLE_BYTES 36u            /* list entry and the vertices it shares, in the mean */
+#define SMEAR_CACHE_BYTES 48u               /* a transformed vertex in the cache, at most */
+
+#define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
+    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
+     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * ((reach) <= 15 ? 8u : 10u)) \
+     + SMEAR_ALIGN8((size_t)(width) * 2u * (tile)) \
+     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 48u) \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) \
+     + SMEAR_ALIGN8(((size_t)2u * (tile) + (reach)) * 8u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) \
+     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
+     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES))
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
