@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/* scene.h - what is drawn, as a function of time, in floating point. Host only.
+ *
+ * Everything that draws on the host starts from a scene: files (scene_from_model), the built-in scenes of
+ * tests, bench and demo (pure functions of time), and it ends in two places: present.h hands it to the library
+ * in fixed point, tests/ref_*.c draws it in double precision. Both see the same floats. */
+#ifndef SMEAR_TOOLS_SCENE_H
+#define SMEAR_TOOLS_SCENE_H
+
+#include "../failure.h"
+#include "../image/image.h"
+#include "../model/model.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct scene_material {
+    const struct image *image;      /* base colour texture, sRGB; or null */
+    enum model_wrap wrap_u, wrap_v;
+    float base[4];                  /* linear */
+    enum model_alpha alpha;
+    float alpha_cutoff;
+    bool double_sided, unlit, bilinear;
+};
+
+/* Geometry that keeps its shape: a mesh at rest. */
+struct scene_surface {
+    int vertex_count, triangle_count;
+    const float *position;          /* 3 per vertex */
+    const float *normal;            /* 3 per vertex; or null: flat */
+    const float *uv;                /* 2 per vertex, row 0 of the image is v = 0; or null */
+    const float *color;             /* 4 per vertex, linear; or null */
+    const uint32_t *index;          /* 3 per triangle, counter-clockwise in front */
+    struct scene_material material;
+};
+
+enum scene_motion { SCENE_MOTION_FULL, SCENE_MOTION_CAMERA, SCENE_MOTION_NONE };
+
+/* A surface in one place at one instant. The index of a draw in its list is its identity. */
+struct scene_draw {
+    const struct scene_surface *surface;
+    double world[16];               /* object to world, column major */
+    const float *position;          /* posed; the surface's own when rigid */
+    const float *normal;            /* posed; the surface's own when rigid */
+    bool deformed;
+    bool hidden;                    /* not in the scene at this instant (keeps its index) */
+    int epoch;                      /* a draw whose epoch differs between two instants was cut (teleported) */
+    int node;                       /* node of the model it comes from, or -1 */
+};
+
+struct scene_camera {
+    double pose[16];                /* camera to world, a rotation and an origin, column major */
+    bool orthographic;
+    double yfov;                    /* radians; perspective */
+    double half_height;             /* world units; orthographic */
+    double znear, zfar;             /* zfar 0: none */
+    int epoch;                      /* differs between two instants: camera cut */
+};
+
+/* The scene at one instant. Owned by whoever asked; scene_pose reuses it; free with scene_instant_free. */
+struct scene_instant {
+    double time;
+    struct scene_camera camera;
+    int draw_count;
+    struct scene_draw *draw;
+    void *store;                    /* the scene's own, for posed arrays */
+};
+
+struct scene {
+    const char *name;
+    int width, height;              /* the size it is meant for */
+    double fps, time;               /* frame rate and the instant of the frame that stands for it */
+    uint32_t clear;                 /* 0xRRGGBB sRGB */
+    bool (*pose)(struct scene *scene, double time, struct scene_instant *out, struct failure *f);
+    void (*instant_free)(struct scene *scene, struct scene_instant *instant);
+    void (*destroy)(struct scene *scene);
+    void *data;
+};
+
+bool scene_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f);
+void scene_instant_free(struct scene *scene, struct scene_instant *instant);
+void scene_free(struct scene *scene);
+
+/* --- scenes from files --- */
+struct scene_view {                 /* the camera and clip options of the command line */
+    int clip;                       /* index, MODEL_CLIP_NONE or MODEL_CLIP_ALL */
+    bool loop;
+    int camera;                     /* index into model->camera, or -1: `eye` if has_eye, else the automatic one */
+    bool has_eye;
+    double eye[3], look[3], fov_degrees;
+    bool bilinear;
+    double aspect;                  /* width / height, for the automatic camera */
+};
+/* The model must outlive the scene. The automatic camera is that of the command-line contract: bounds of the pose at
+ * t = 0 with centre c and half diagonal r; yfov 45 degrees; eye = c + d normalise(0.5, 0.35, 1), d = r / sin(half the
+ * smaller of yfov and xfov); near = max(d - 2r, d/100), far = d + 2r. With `eye`: near and far from the bounds as seen
+ * from there. File cameras: xfov follows the aspect. */
+bool scene_from_model(const struct model *model, const struct scene_view *view, struct scene *out,
+                      struct failure *f);
+
+/* --- built-in scenes, by name; see catalog.c for the list --- */
+struct scene_entry {
+    const char *name;               /* "peer/A", "suite/propeller", "test/fence", "demo/drone" ... */
+    const char *what;               /* one line */
+    bool (*make)(const char *name, struct scene *out, struct failure *f);
+};
+extern const struct scene_entry scene_catalog[];
+extern const int scene_catalog_count;
+bool scene_builtin(const char *name, struct scene *out, struct failure *f);
+
+#endif
