@@ -23,13 +23,16 @@ struct scene_material {
     bool double_sided, unlit, bilinear;
 };
 
-/* Geometry that keeps its shape: a mesh at rest. */
+/* Geometry that keeps its shape: a mesh at rest. A surface stays where it is in memory for as long as its
+ * scene lives, so its address may serve as a key. */
 struct scene_surface {
     int vertex_count, triangle_count;
     const float *position;          /* 3 per vertex */
-    const float *normal;            /* 3 per vertex; or null: flat */
+    const float *normal;            /* 3 per vertex, any length; or null: flat */
     const float *uv;                /* 2 per vertex, row 0 of the image is v = 0; or null */
     const float *color;             /* 4 per vertex, linear; or null */
+    const float *face_color;        /* 4 per triangle, linear: the whole triangle has it in place of vertex
+                                     * colours, `color` is then null; or null */
     const uint32_t *index;          /* 3 per triangle, counter-clockwise in front */
     struct scene_material material;
 };
@@ -57,7 +60,9 @@ struct scene_camera {
     int epoch;                      /* differs between two instants: camera cut */
 };
 
-/* The scene at one instant. Owned by whoever asked; scene_pose reuses it; free with scene_instant_free. */
+/* The scene at one instant. Zeroed before first use and owned by whoever asked; scene_pose reuses it, for one
+ * scene only; free with scene_instant_free while the scene still lives. Every instant of a scene has the same
+ * draws in the same order. */
 struct scene_instant {
     double time;
     struct scene_camera camera;
@@ -77,6 +82,7 @@ struct scene {
     void *data;
 };
 
+/* `time` in seconds, any finite number. On failure `out` still wants scene_instant_free. */
 bool scene_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f);
 void scene_instant_free(struct scene *scene, struct scene_instant *instant);
 void scene_free(struct scene *scene);

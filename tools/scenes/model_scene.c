@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/* model_scene.c - scenes from model files: their draws, their cameras, and the automatic camera. */
+#include "scene.h"
+
+#include "xform.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+struct model_scene {
+    const struct model *model;
+    int clip;
+    bool loop;
+    struct scene_surface *surface;      /* of every primitive of every mesh, mesh after mesh */
+    int *first;                         /* per mesh: its first surface */
+    int camera;                         /* of the file, or -1: `fixed` */
+    struct scene_camera fixed;
+};
+
+static void model_instant_free(struct scene *scene, struct scene_instant *instant)
+{
+    (void)scene;
+    if (instant->store != NULL)
+        model_pose_free(instant->store);
+    free(instant->store);
+    free(instant->draw);
+}
+
+static void model_scene_free(struct scene *scene)
+{
+    struct model_scene *m = scene->data;
+    if (m == NULL)
+        return;
+    free(m->surface);
+    free(m->first);
+    free(m);
+}
+
+/* A camera node may be scaled; a camera is a rotation. The view direction is kept, then the upright. */
+static bool camera_from_node(const struct model_camera *camera, const double world[16],
+                             struct scene_camera *out, struct failure *f)
+{
+    struct vec3 z = vec3(world[8], world[9], world[10]), up = vec3(world[4], world[5], world[6]);
+    struct vec3 origin = vec3(world[12], world[13], world[14]);
+    struct vec3 x = vec3_unit(vec3_cross(vec3_unit(up), vec3_unit(z)));
+    double size = vec3_length(x) + vec3_length(origin);
+    z = vec3_unit(z);
+    if (!(vec3_length(x) > 0.5) || !isfinite(size))
+        return fail(f, "the camera's node has no direction (scale of zero)");
+    struct xform pose = xform_axes(x, vec3_cross(z, x), z, origin);
+    *out = (struct scene_camera){.orthographic = camera->orthographic, .yfov = camera->yfov,
+                                 .half_height = camera->ymag, .znear = camera->znear,
+                                 .zfar = camera->zfar};
+    memcpy(out->pose, pose.m, sizeof out->pose);
+    /* glTF lets an orthographic camera see from its own plane on; a near plane has to lie before it. */
+    if (!(out->znear > 0))
+        out->znear = out->zfar > 0 ? out->zfar * 1e-4 : 1e-3;
+    return true;
+}
+
+static bool model_scene_pose(struct scene *scene, double time, struct scene_instant *out,
+                             struct failure *f)
+{
+    const struct model_scene *m = scene->data;
+    if (out->store == NULL)
+        out->store = calloc(1, sizeof(struct model_pose));
+    struct model_pose *pose = out->store;
+    if (pose == NULL)
+        return fail(f, "out of memory");
+    if (!model_pose(m->model, m->clip, time, m->loop, pose, f))
+        return false;
+
+    if (out->draw == NULL && pose->draw_count > 0) {
+        out->draw = calloc((size_t)pose->draw_count, sizeof *out->draw);
+        if (out->draw == NULL)
+            return fail(f, "out of memory");
+    }
+    out->draw_count = pose->draw_count;
+    for (int i = 0; i < pose->draw_count; i++) {
+        const struct model_draw *from = &pose->draw[i];
+        int surface = m->first[m->model->node[from->node].mesh] + from->primitive_of_mesh;
+        out->draw[i] = (struct scene_draw){.surface = &m->surface[surface], .position = from->position,
+                                           .normal = from->normal, .deformed = from->deformed,
+                                           .node = from->node};
+        memcpy(out->draw[i].world, from->world, sizeof from->world);
+    }
+
+    if (m->camera < 0) {
+        out->camera = m->fixed;
+        return true;
+    }
+    const struct model_camera *camera = &m->model->camera[m->camera];
+    return camera_from_node(camera, pose->node_world + 16 * camera->node, &out->camera, f);
+}
+
+static struct scene_surface surface_of(const struct model *model, const struct model_primitive *p,
+                                       bool bilinear)
+{
+    const struct model_material *material = &model->material[p->material];
+    struct scene_surface s = {
+        .vertex_count = p->vertex_count, .triangle_count = p->triangle_count,
+        .position = p->position, .normal = p->normal, .uv = p->uv, .color = p->color,
+        .index = p->index,
+        .material = {
+            .wrap_u = material->wrap_u, .wrap_v = material->wrap_v, .alpha = material->alpha,
+            .alpha_cutoff = material->alpha_cutoff, .double_sided = material->double_sided,
+            .unlit = material->unlit, .bilinear = bilinear,
+        },
+    };
+    memcpy(s.material.base, material->base, sizeof s.material.base);
+    if (material->image >= 0 && p->uv != NULL)
+        s.material.image = &model->image[material->image];
+    return s;
+}
+
+static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure *f)
+{
+    const struct model *model = m->model;
+    size_t count = 0;
+    m->first = calloc((size_t)model->mesh_count + 1, sizeof *m->first);
+    if (m->first == NULL)
+        return fail(f, "out of memory");
+    for (int i = 0; i < model->mesh_count; i++) {
+        m->first[i] = (int)count;
+        count += (size_t)model->mesh[i].primitive_count;
+    }
+    m->surface = calloc(count + 1, sizeof *m->surface);
+    if (m->surface == NULL)
+        return fail(f, "out of memory");
+    for (int i = 0; i < model->mesh_count; i++)
+        for (int k = 0; k < model->mesh[i].primitive_count; k++)
+            m->surface[m->first[i] + k] = surface_of(model, &model->mesh[i].primitive[k], bilinear);
+    return true;
+}
+
+/* Centre and half diagonal of the pose at t = 0. Where nothing is drawn, those of a unit sphere do. */
+static bool model_bounds(const struct model_scene *m, struct vec3 *centre, double *radius,
+                         struct failure *f)
+{
+    struct model_pose pose = {0};
+    double min[3], max[3];
+    bool ok = model_pose(m->model, m->clip, 0, m->loop, &pose, f);
+    *centre = vec3(0, 0, 0);
+    *radius = 1;
+    if (ok && model_pose_bounds(&pose, min, max)) {
+        struct vec3 a = vec3(min[0], min[1], min[2]), b = vec3(max[0], max[1], max[2]);
+        double r = vec3_length(vec3_sub(b, a)) / 2;
+        *centre = vec3_scale(vec3_add(a, b), 0.5);
+        if (!isfinite(r))
+            ok = fail(f, "the scene has no finite bounds");
+        else if (r > 0)
+            *radius = r;
+    }
+    model_pose_free(&pose);
+    return ok;
+}
+
+static bool fixed_camera(struct model_scene *m, const struct scene_view *view, struct failure *f)
+{
+    struct vec3 centre, eye, look;
+    double radius, distance, yfov = PI / 4;
+    double aspect = view->aspect > 0 ? view->aspect : 4.0 / 3.0;
+    if (!model_bounds(m, &centre, &radius, f))
+        return false;
+
+    if (view->has_eye) {
+        eye = vec3(view->eye[0], view->eye[1], view->eye[2]);
+        look = vec3(view->look[0], view->look[1], view->look[2]);
+        distance = vec3_length(vec3_sub(eye, centre));
+        yfov = view->fov_degrees * PI / 180;
+        if (!(yfov > 0 && yfov < PI))
+            return fail(f, "the field of view must lie between 0 and 180 degrees");
+        if (!(vec3_length(vec3_sub(eye, look)) > 0) || !isfinite(distance))
+            return fail(f, "the eye must not be the point it looks at");
+    } else {
+        double xfov = 2 * atan(aspect * tan(yfov / 2));
+        distance = radius / sin(fmin(xfov, yfov) / 2);
+        eye = vec3_add(centre, vec3_scale(vec3_unit(vec3(0.5, 0.35, 1)), distance));
+        look = centre;
+    }
+    struct xform pose = xform_look(eye, look, vec3(0, 1, 0));
+    /* An eye amid the scene has a distance near 0; then the scene's size says what is near. */
+    double closest = fmax(distance, view->has_eye ? radius : 0) / 100;
+    m->fixed = (struct scene_camera){.yfov = yfov, .znear = fmax(distance - 2 * radius, closest),
+                                     .zfar = distance + 2 * radius};
+    memcpy(m->fixed.pose, pose.m, sizeof m->fixed.pose);
+    return true;
+}
+
+bool scene_from_model(const struct model *model, const struct scene_view *view, struct scene *out,
+                      struct failure *f)
+{
+    struct model_scene *m = calloc(1, sizeof *m);
+    *out = (struct scene){.name = "model", .width = 320, .height = 240, .fps = 30,
+                          .pose = model_scene_pose, .instant_free = model_instant_free,
+                          .destroy = model_scene_free, .data = m};
+    if (m == NULL)
+        return fail(f, "out of memory");
+    m->model = model;
+    m->clip = view->clip;
+    m->loop = view->loop;
+    m->camera = view->camera;
+    bool ok = view->camera < model->camera_count ||
+              fail(f, "there is no camera %d, only %d", view->camera, model->camera_count);
+    ok = ok && model_surfaces(m, view->bilinear, f);
+    ok = ok && (m->camera >= 0 || fixed_camera(m, view, f));
+    if (!ok)
+        scene_free(out);
+    return ok;
+}

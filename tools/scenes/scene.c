@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* scene.c - the calls that every scene answers. */
+#include "scene.h"
+
+#include <math.h>
+
+bool scene_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f)
+{
+    if (!isfinite(time))
+        return fail(f, "time is not a finite number");
+    out->time = time;
+    return scene->pose(scene, time, out, f);
+}
+
+void scene_instant_free(struct scene *scene, struct scene_instant *instant)
+{
+    if (scene->instant_free != NULL)
+        scene->instant_free(scene, instant);
+    *instant = (struct scene_instant){0};
+}
+
+void scene_free(struct scene *scene)
+{
+    if (scene->destroy != NULL)
+        scene->destroy(scene);
+    *scene = (struct scene){0};
+}
