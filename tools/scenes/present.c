@@ -1,0 +1,744 @@
+/* SPDX-License-Identifier: MIT */
+/* present.c - from the floats of a scene to the integers of the library; present.h has the rules. */
+#include "present.h"
+
+#include "present_surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+/* Largest coordinate handed to the library, as a distance in its units; Q16.16 ends at 32768. */
+#define WORLD_LIMIT 30000.0
+
+/* Smallest near plane: 64 steps of Q16.16. Below, a pixel next to the eye is less than a step. */
+#define NEAR_LIMIT (1.0 / 1024.0)
+
+/* The near plane is moved out where the nearest thing is this many times farther: depth codes get
+ * coarse beyond 256 near planes. Moved by powers of two, so that it rests while things move. */
+#define NEAR_SLACK 128.0
+
+enum { NOW, OPEN, CLOSE, POSES };
+
+/* What one submitted draw points to. */
+struct slot {
+    smear_mesh mesh;
+    smear_transform pose[POSES];
+    int16_t *position[POSES];       /* of deformed draws */
+    int8_t *normal;
+    int vertex_room;
+};
+
+/* A draw of the scene in this frame. */
+struct plan {
+    int converted;
+    bool drawn, cut, deformed;
+    struct bounds bounds;           /* deformed: over all its poses */
+    struct grid grid;
+    int exponent;                   /* the basis is the matrix x 2^-exponent */
+};
+
+struct presenter {
+    struct scene *scene;
+    struct scene_instant instant[POSES];
+    int converted_count, converted_room;
+    struct converted *converted;
+    struct texture_store texture;
+    int plan_room;
+    struct plan *plan;
+    int *converted_of_draw;         /* remembered from the frame before; -1 */
+    int slot_room;
+    struct slot **slot;
+    smear_draw *draw;
+    struct presented out;
+};
+
+static double clamp(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+static int32_t fixed(double x, int fraction_bits)
+{
+    return (int32_t)llround(clamp(ldexp(x, fraction_bits), -2147483647.0, 2147483647.0));
+}
+
+/* ------------------------------------------------------------------ surfaces */
+
+static int find_converted(const struct presenter *p, const struct scene_surface *surface)
+{
+    for (int i = 0; i < p->converted_count; i++)
+        if (p->converted[i].surface == surface)
+            return i;
+    return -1;
+}
+
+/* Converts surfaces not seen before. Those of neighbouring draws of one node get one grid. */
+static bool convert_new(struct presenter *p, const struct scene_instant *now, struct failure *f)
+{
+    for (int i = 0; i < now->draw_count;) {
+        int end = i, first_new = p->converted_count;
+        struct bounds bounds = empty_bounds;
+        for (; end < now->draw_count; end++) {
+            const struct scene_draw *d = &now->draw[end];
+            if (end > i && (d->node < 0 || d->node != now->draw[i].node))
+                break;
+            int *known = &p->converted_of_draw[end];
+            if (*known >= 0 && p->converted[*known].surface == d->surface)
+                continue;
+            *known = find_converted(p, d->surface);
+            if (*known >= 0)
+                continue;
+            if (!grow((void **)&p->converted, &p->converted_room, p->converted_count + 1,
+                      sizeof *p->converted, f))
+                return false;
+            *known = p->converted_count;
+            struct converted *c = &p->converted[p->converted_count++];
+            *c = (struct converted){ .surface = d->surface, .bounds = empty_bounds };
+            if (!add_positions(&c->bounds, d->surface->position, d->surface->vertex_count))
+                return fail(f, "a vertex position is not a number (draw %d)", end);
+            add_bounds(&bounds, &c->bounds);
+        }
+        for (int j = first_new; j < p->converted_count; j++) {
+            struct converted *c = &p->converted[j];
+            if (c->bounds.min[0] <= c->bounds.max[0])
+                c->grid = grid_over(&bounds);
+            if (!convert_surface(c, &p->texture, f))
+                return false;
+        }
+        i = end;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ world and cameras */
+
+static void transform_point(const double m[16], const double in[3], double out[3])
+{
+    for (int row = 0; row < 3; row++)
+        out[row] = m[row] * in[0] + m[4 + row] * in[1] + m[8 + row] * in[2] + m[12 + row];
+}
+
+static double distance(const double a[3], const double b[3])
+{
+    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* How far things are, over every pose of the frame. */
+struct reach {
+    double farthest;                /* distance from the reference or from the pose's own camera */
+    double min_depth, max_depth;    /* along the view of the pose's own camera */
+};
+
+static void reach_point(struct reach *reach, const double point[3], const double reference[3],
+                        const struct scene_camera *camera, bool is_seen)
+{
+    const double *eye = camera->pose + 12, *back = camera->pose + 8;
+    reach->farthest = fmax(reach->farthest, fmax(distance(point, reference), distance(point, eye)));
+    if (!is_seen)
+        return;
+    double depth = -((point[0] - eye[0]) * back[0] + (point[1] - eye[1]) * back[1] +
+                     (point[2] - eye[2]) * back[2]);
+    reach->min_depth = fmin(reach->min_depth, depth);
+    reach->max_depth = fmax(reach->max_depth, depth);
+}
+
+static void reach_draw(struct reach *reach, const struct plan *plan, const struct bounds *b,
+                       const double world[16], const double reference[3],
+                       const struct scene_camera *camera)
+{
+    double point[3];
+    for (int corner = 0; corner < 8; corner++) {
+        const double object[3] = { (corner & 1 ? b->max : b->min)[0],
+                                   (corner & 2 ? b->max : b->min)[1],
+                                   (corner & 4 ? b->max : b->min)[2] };
+        transform_point(world, object, point);
+        reach_point(reach, point, reference, camera, true);
+    }
+    transform_point(world, plan->grid.fold, point);
+    reach_point(reach, point, reference, camera, false);
+}
+
+static bool check_camera(const struct scene_camera *c, struct failure *f)
+{
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(c->pose[i]))
+            return fail(f, "the camera's pose is not a number");
+    if (c->orthographic ? !(c->half_height > 0.0) || !isfinite(c->half_height) || !(c->znear >= 0.0)
+                        : !(c->yfov > 0.0) || !(c->yfov < PI) || !(c->znear > 0.0))
+        return fail(f, "the camera has no valid field of view or near plane");
+    if (!isfinite(c->znear) || !isfinite(c->zfar) || c->zfar < 0.0 ||
+        (c->zfar > 0.0 && c->zfar <= c->znear))
+        return fail(f, "the camera's far plane is not beyond its near plane");
+    return true;
+}
+
+/* Chooses world scale, near and far plane; all of them for this frame only. */
+static bool choose_world(struct presented *out, const struct scene_camera *camera,
+                         const struct reach *reach, struct failure *f)
+{
+    double near_plane = camera->znear, far_plane = camera->zfar, back = 0.0;
+    double farthest = reach->farthest;
+    int exponent;                   /* world_scale = 2^exponent */
+    out->orthographic = camera->orthographic;
+    if (camera->orthographic) {
+        /* Codes divide far - near evenly, so planes far beyond everything waste them. */
+        double thick = fmax(reach->max_depth - reach->min_depth, camera->half_height / 64.0);
+        bool has_depth = reach->max_depth >= reach->min_depth;
+        if (!has_depth)
+            thick = camera->half_height;
+        if (has_depth && (far_plane == 0.0 || far_plane - near_plane > 4.0 * thick)) {
+            near_plane = fmax(near_plane, reach->min_depth - thick / 16.0);
+            double behind = fmax(reach->max_depth, near_plane) + thick / 16.0;
+            far_plane = far_plane > 0.0 ? fmin(far_plane, behind) : behind;
+        }
+        if (far_plane <= near_plane)
+            far_plane = near_plane + thick;
+        farthest = fmax(farthest, fmax(far_plane, camera->half_height * 4.0));
+        exponent = ilogb(WORLD_LIMIT / 2.0 / farthest);
+        back = ldexp(1.0, -exponent);       /* one unit, as the library wants near > 0 */
+        if (ldexp(near_plane, exponent) >= 1.0)
+            back = 0.0;
+    } else {
+        while (reach->min_depth > near_plane * NEAR_SLACK && isfinite(reach->min_depth))
+            near_plane *= 2.0;
+        if (far_plane > 0.0 && near_plane > far_plane / 2.0)
+            near_plane = camera->znear;
+        exponent = -ilogb(near_plane);
+        int most = farthest > 0.0 ? ilogb(WORLD_LIMIT / farthest) : exponent;
+        if (exponent > most)
+            exponent = most;
+        if (ldexp(near_plane, exponent) < NEAR_LIMIT)
+            return fail(f, "near plane %g and farthest vertex %g are too far apart for fixed point",
+                        near_plane, farthest);
+        /* nothing reaches the far plane: then it need not fit */
+        if (ldexp(far_plane, exponent) > WORLD_LIMIT)
+            far_plane = 0.0;
+    }
+    if (exponent < -1000 || exponent > 1000)
+        return fail(f, "the scene is too large or too small");
+    out->world_scale = ldexp(1.0, exponent);
+    out->camera_back = back * out->world_scale;
+    out->near_plane = near_plane * out->world_scale + out->camera_back;
+    out->far_plane = far_plane > 0.0 ? far_plane * out->world_scale + out->camera_back : 0.0;
+    return true;
+}
+
+static void fill_camera(smear_camera *out, const struct scene_camera *camera,
+                        const double reference[3], const struct presented *world)
+{
+    *out = (smear_camera){ .near_plane = fixed(world->near_plane, 16),
+                           .far_plane = fixed(world->far_plane, 16) };
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            out->pose.basis[row * 3 + column] = fixed(camera->pose[column * 4 + row], 24);
+        out->pose.origin[row] =
+            fixed((camera->pose[12 + row] - reference[row]) * world->world_scale +
+                      camera->pose[8 + row] * world->camera_back, 16);
+    }
+    if (camera->orthographic)
+        out->half_height = fixed(camera->half_height * world->world_scale, 16);
+    else
+        out->focal = fixed(1.0 / tan(camera->yfov / 2.0), 16);
+}
+
+/* ------------------------------------------------------------------ draws */
+
+/* The largest entry of the matrices x 2^-exponent lies in (1/2, 1]: rotations keep exponent 0. */
+static int common_exponent(const struct scene_draw *const draw[POSES])
+{
+    double largest = 0.0;
+    int exponent = 0;
+    for (int pose = 0; pose < POSES; pose++)
+        for (int i = 0; i < 12 && draw[pose] != NULL; i++)
+            if (i % 4 != 3)
+                largest = fmax(largest, fabs(draw[pose]->world[i]));
+    if (largest > 0.0 && frexp(largest, &exponent) == 0.5)
+        exponent--;
+    /* a rotation may overshoot 1 by rounding */
+    if (exponent == 1 && largest < 1.0 + 1e-6)
+        exponent = 0;
+    return exponent;
+}
+
+static void fill_transform(smear_transform *out, const double world[16], const struct plan *plan,
+                           const double reference[3], double world_scale)
+{
+    double origin[3];
+    transform_point(world, plan->grid.fold, origin);
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            out->basis[row * 3 + column] = fixed(world[column * 4 + row], 24 - plan->exponent);
+        out->origin[row] = fixed((origin[row] - reference[row]) * world_scale, 16);
+    }
+}
+
+/* Room for one more draw. Slots stay where they are, as draws point into them. */
+static bool slot_room(struct presenter *p, int count, struct failure *f)
+{
+    if (count <= p->slot_room)
+        return true;
+    int draws = p->slot_room;
+    if (!grow((void **)&p->draw, &draws, count, sizeof *p->draw, f))
+        return false;
+    return grow((void **)&p->slot, &p->slot_room, count, sizeof *p->slot, f);
+}
+
+static bool slot_vertices(struct slot *slot, int count, struct failure *f)
+{
+    if (count <= slot->vertex_room)
+        return true;
+    slot->vertex_room = 0;
+    for (int pose = 0; pose < POSES; pose++) {
+        free(slot->position[pose]);
+        slot->position[pose] = malloc((size_t)count * 3 * sizeof *slot->position[pose]);
+    }
+    free(slot->normal);
+    slot->normal = malloc((size_t)count * 3);
+    if (slot->position[NOW] == NULL || slot->position[OPEN] == NULL ||
+        slot->position[CLOSE] == NULL || slot->normal == NULL)
+        return out_of_memory(f);
+    slot->vertex_room = count;
+    return true;
+}
+
+static void fill_mesh(smear_mesh *mesh, const struct part *part, const struct plan *plan,
+                      const double world_scale)
+{
+    int32_t scale;
+    int shift;
+    split_step(ldexp(plan->grid.step, plan->exponent) * world_scale, &scale, &shift);
+    for (; shift > 62; shift--)     /* far smaller than a step of the world */
+        scale = scale > 1 ? scale >> 1 : 1;
+    if (shift < -32)                /* only where all vertices lie in one point */
+        shift = -32;
+    *mesh = (smear_mesh){ .position = part->position, .normal = part->normal, .uv = part->uv,
+                          .color = part->color, .index = part->index,
+                          .triangle_count = (uint32_t)part->triangle_count,
+                          .vertex_count = (uint16_t)part->vertex_count, .shift = (int8_t)shift,
+                          .uv_shift = (uint8_t)part->uv_shift, .scale = scale };
+    memcpy(mesh->offset, plan->grid.offset, sizeof mesh->offset);
+}
+
+static bool add_part(struct presenter *p, const struct converted *c, const struct part *part,
+                     const struct plan *plan, const struct scene_draw *const pose[POSES],
+                     const double reference[3], uint8_t motion, struct failure *f)
+{
+    struct presented *out = &p->out;
+    if (!slot_room(p, out->draw_count + 1, f))
+        return false;
+    struct slot **slot_at = &p->slot[out->draw_count];
+    if (*slot_at == NULL)
+        *slot_at = calloc(1, sizeof **slot_at);
+    struct slot *slot = *slot_at;
+    if (slot == NULL)
+        return out_of_memory(f);
+    smear_draw *draw = &p->draw[out->draw_count];
+    *draw = (smear_draw){ .mesh = &slot->mesh, .material = &c->material, .motion = motion,
+                          .cut = plan->cut, .now = &slot->pose[NOW] };
+    fill_mesh(&slot->mesh, part, plan, out->world_scale);
+    for (int i = 0; i < POSES; i++)
+        if (pose[i] != NULL)
+            fill_transform(&slot->pose[i], pose[i]->world, plan, reference, out->world_scale);
+    draw->open = pose[OPEN] != NULL ? &slot->pose[OPEN] : NULL;
+    draw->close = pose[CLOSE] != NULL ? &slot->pose[CLOSE] : NULL;
+    if (plan->deformed) {
+        if (!slot_vertices(slot, part->vertex_count, f))
+            return false;
+        for (int i = 0; i < POSES; i++)
+            if (pose[i] != NULL)
+                quantise_positions(slot->position[i], pose[i]->position, part, &plan->grid);
+        slot->mesh.position = slot->position[NOW];
+        draw->open_position = pose[OPEN] != NULL ? slot->position[OPEN] : NULL;
+        draw->close_position = pose[CLOSE] != NULL ? slot->position[CLOSE] : NULL;
+        slot->mesh.normal = NULL;
+        if (pose[NOW]->normal != NULL) {
+            quantise_normals(slot->normal, pose[NOW]->normal, part);
+            slot->mesh.normal = slot->normal;
+        }
+    }
+    out->draw_count++;
+    out->triangle_count += (uint32_t)part->triangle_count;
+    return true;
+}
+
+/* The draw at each pose; null where it is not known. Returns whether it was cut in between. */
+static bool draw_poses(const struct presenter *p, int index, bool has_close, bool has_open,
+                       const struct scene_draw *pose[POSES])
+{
+    const bool has[POSES] = { true, has_open, has_close };
+    bool cut = false;
+    for (int i = 0; i < POSES; i++) {
+        const struct scene_instant *instant = &p->instant[i];
+        pose[i] = NULL;
+        if (!has[i])
+            continue;
+        if (index < instant->draw_count && !instant->draw[index].hidden)
+            pose[i] = &instant->draw[index];
+        cut = cut || pose[i] == NULL || pose[i]->epoch != pose[NOW]->epoch;
+    }
+    if (cut)
+        pose[OPEN] = pose[CLOSE] = NULL;
+    return cut;
+}
+
+/* ------------------------------------------------------------------ frames */
+
+void present_exposure(double time, const struct present_options *options, double *open,
+                      double *close)
+{
+    double length = options->shutter_degrees / 360.0 / options->fps;
+    double before = options->exposure == SMEAR_TRAILING  ? 1.0
+                    : options->exposure == SMEAR_LEADING ? 0.0
+                                                         : 0.5;
+    *open = time - before * length;
+    *close = *open + length;
+}
+
+static bool fill_frame(smear_frame *frame, const struct present_options *o, struct failure *f)
+{
+    if (!(o->fps > 0.0) || !isfinite(o->fps))
+        return fail(f, "the frame rate is not above zero");
+    if (!(o->shutter_degrees >= 0.0) || o->shutter_degrees > 3600.0)
+        return fail(f, "a shutter of %g degrees is not within 0 to 3600", o->shutter_degrees);
+    long degrees = lround(o->shutter_degrees);
+    *frame = (smear_frame){ .method = degrees == 0 ? SMEAR_NONE : (uint8_t)o->method,
+                            .exposure = (uint8_t)o->exposure, .light = (uint8_t)o->light,
+                            .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
+                            .cut = o->cut, .reconstruct = (uint8_t)o->reconstruct,
+                            .samples = (uint16_t)o->samples, .shutter_degrees = (uint16_t)degrees,
+                            .clear = o->clear };
+    return true;
+}
+
+static bool pose_all(struct presenter *p, double time, const struct present_options *o,
+                     struct failure *f)
+{
+    const smear_frame *frame = &p->out.frame;
+    if (!scene_pose(p->scene, time, &p->instant[NOW], f))
+        return false;
+    if (o->instant_only)
+        return true;
+    if (!frame->shutter_poses)
+        return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f);
+    struct present_options whole = *o;
+    double open, close;
+    whole.shutter_degrees = frame->shutter_degrees;
+    present_exposure(time, &whole, &open, &close);
+    return scene_pose(p->scene, open, &p->instant[OPEN], f) &&
+           scene_pose(p->scene, close, &p->instant[CLOSE], f);
+}
+
+static bool per_draw_room(struct presenter *p, int count, struct failure *f)
+{
+    int room = p->plan_room;
+    if (count <= room)
+        return true;
+    if (!grow((void **)&p->converted_of_draw, &room, count, sizeof *p->converted_of_draw, f))
+        return false;
+    for (int i = p->plan_room; i < room; i++)
+        p->converted_of_draw[i] = -1;
+    return grow((void **)&p->plan, &p->plan_room, count, sizeof *p->plan, f);
+}
+
+/* What is drawn, with which poses and on which grid. Neighbouring deformed draws of a node share one. */
+static bool plan_draws(struct presenter *p, bool has_open, bool has_close, struct failure *f)
+{
+    const struct scene_instant *now = &p->instant[NOW];
+    for (int i = 0; i < now->draw_count; i++) {
+        const struct scene_draw *d = &now->draw[i], *pose[POSES];
+        struct plan *plan = &p->plan[i];
+        const struct converted *c = &p->converted[p->converted_of_draw[i]];
+        *plan = (struct plan){ .converted = p->converted_of_draw[i], .bounds = empty_bounds };
+        plan->drawn = !d->hidden && !c->invisible && c->part_count > 0;
+        if (!plan->drawn)
+            continue;
+        plan->cut = draw_poses(p, i, has_close, has_open, pose);
+        plan->deformed = d->deformed;
+        plan->exponent = common_exponent(pose);
+        plan->grid = c->grid;
+        plan->bounds = d->deformed ? empty_bounds : c->bounds;
+        for (int j = 0; j < POSES; j++) {
+            if (pose[j] == NULL)
+                continue;
+            for (int k = 0; k < 16; k++)
+                if (!isfinite(pose[j]->world[k]))
+                    return fail(f, "a transform is not a number (draw %d)", i);
+            if (d->deformed &&
+                !add_positions(&plan->bounds, pose[j]->position, d->surface->vertex_count))
+                return fail(f, "a vertex position is not a number (draw %d)", i);
+        }
+    }
+    for (int i = 0; i < now->draw_count;) {
+        struct bounds bounds = empty_bounds;
+        int end = i;
+        for (; end < now->draw_count; end++) {
+            if (end > i && (now->draw[end].node < 0 || now->draw[end].node != now->draw[i].node))
+                break;
+            if (p->plan[end].drawn && p->plan[end].deformed)
+                add_bounds(&bounds, &p->plan[end].bounds);
+        }
+        for (; i < end; i++)
+            if (p->plan[i].drawn && p->plan[i].deformed)
+                p->plan[i].grid = grid_over(&bounds);
+    }
+    return true;
+}
+
+static uint8_t motion_mode(uint8_t scene_motion)
+{
+    return scene_motion == SCENE_MOTION_CAMERA ? SMEAR_MOTION_CAMERA
+           : scene_motion == SCENE_MOTION_NONE ? SMEAR_MOTION_NONE
+                                               : SMEAR_MOTION_FULL;
+}
+
+static bool present(struct presenter *p, double time, const struct present_options *o,
+                    struct failure *f)
+{
+    struct presented *out = &p->out;
+    memset(out, 0, sizeof *out);
+    if (!fill_frame(&out->frame, o, f) || !pose_all(p, time, o, f))
+        return false;
+    const struct scene_instant *now = &p->instant[NOW];
+    const bool has[POSES] = { true, !o->instant_only, out->frame.shutter_poses != 0 };
+    const double *reference = now->camera.pose + 12;
+    struct reach reach = { 0.0, INFINITY, -INFINITY };
+    const struct scene_draw *pose[POSES];
+    for (int i = 0; i < POSES; i++) {
+        const struct scene_camera *camera = &p->instant[i].camera;
+        if (!has[i])
+            continue;
+        if (!check_camera(camera, f))
+            return false;
+        if (camera->epoch != now->camera.epoch || camera->orthographic != now->camera.orthographic)
+            out->frame.cut = 1;
+    }
+    if (!per_draw_room(p, now->draw_count, f) || !convert_new(p, now, f) ||
+        !plan_draws(p, has[OPEN], has[CLOSE], f))
+        return false;
+
+    bool cut = out->frame.cut != 0;
+    for (int i = 0; i < POSES; i++)
+        if (has[i] && !cut)
+            reach.farthest =
+                fmax(reach.farthest, distance(p->instant[i].camera.pose + 12, reference));
+    for (int i = 0; i < now->draw_count; i++) {
+        if (!p->plan[i].drawn)
+            continue;
+        draw_poses(p, i, has[CLOSE] && !cut, has[OPEN] && !cut, pose);
+        for (int j = 0; j < POSES; j++)
+            if (pose[j] != NULL)
+                reach_draw(&reach, &p->plan[i], &p->plan[i].bounds, pose[j]->world, reference,
+                           &p->instant[j].camera);
+    }
+    if (!choose_world(out, &now->camera, &reach, f))
+        return false;
+
+    for (int i = 0; i < POSES; i++)
+        if (has[i] && (i == NOW || !cut))
+            fill_camera(&out->camera[i], &p->instant[i].camera, reference, out);
+    out->frame.camera = &out->camera[NOW];
+    out->frame.open = has[OPEN] && !cut ? &out->camera[OPEN] : NULL;
+    out->frame.close = has[CLOSE] && !cut ? &out->camera[CLOSE] : NULL;
+    if (cut)
+        out->frame.shutter_poses = 0;
+
+    for (int i = 0; i < now->draw_count; i++) {
+        const struct plan *plan = &p->plan[i];
+        if (!plan->drawn)
+            continue;
+        const struct converted *c = &p->converted[plan->converted];
+        bool has_motion = o->motion != NULL && i < o->motion_count;
+        uint8_t motion = has_motion ? motion_mode(o->motion[i]) : SMEAR_MOTION_FULL;
+        draw_poses(p, i, has[CLOSE] && !cut, has[OPEN] && !cut, pose);
+        for (int j = 0; j < c->part_count; j++)
+            if (!add_part(p, c, &c->part[j], plan, pose, reference, motion, f))
+                return false;
+    }
+    out->draw = p->draw;
+    return true;
+}
+
+const struct presented *presenter_frame(struct presenter *presenter, double time,
+                                        const struct present_options *options, struct failure *f)
+{
+    return present(presenter, time, options, f) ? &presenter->out : NULL;
+}
+
+int presented_submit(const struct presented *presented, smear_context *ctx)
+{
+    int result = smear_begin(ctx, &presented->frame);
+    for (int i = 0; i < presented->draw_count && result == SMEAR_OK; i++)
+        result = smear_submit(ctx, &presented->draw[i]);
+    return result;
+}
+
+smear_desc presented_desc(const struct presented *presented, int width, int height)
+{
+    /* Clipping turns a triangle into a few; most frames need far less than this. */
+    uint32_t triangles = presented->triangle_count + presented->triangle_count / 8 + 64;
+    int draws = presented->draw_count > 0 ? presented->draw_count : 1;
+    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height,
+                         .max_draws = (uint16_t)(draws < 65535 ? draws : 65535),
+                         .max_triangles = triangles };
+}
+
+double presented_depth(const struct presented *presented, uint16_t code)
+{
+    double units = smear_depth_units(code);
+    if (code == 0)
+        return INFINITY;
+    double distance_units =
+        presented->orthographic
+            ? presented->far_plane -
+                  (presented->far_plane - presented->near_plane) * units / SMEAR_DEPTH_NEAR
+            : presented->near_plane * SMEAR_DEPTH_NEAR / units;
+    return (distance_units - presented->camera_back) / presented->world_scale;
+}
+
+/* ------------------------------------------------------------------ truth */
+
+struct mean {
+    int width;
+    double value_of[256];           /* what a code counts */
+    double *sum;                    /* r g b of each pixel */
+};
+
+static int add_band(void *user, const smear_band *band)
+{
+    struct mean *mean = user;
+    for (int y = 0; y < band->height; y++) {
+        const uint32_t *row =
+            (const uint32_t *)(const void *)((const char *)band->pixels + (size_t)y * band->stride);
+        double *sum = mean->sum + (size_t)(band->y + y) * (size_t)mean->width * 3;
+        for (int x = 0; x < mean->width; x++, sum += 3) {
+            sum[0] += mean->value_of[row[x] >> 16 & 255];
+            sum[1] += mean->value_of[row[x] >> 8 & 255];
+            sum[2] += mean->value_of[row[x] & 255];
+        }
+    }
+    return 0;
+}
+
+/* Memory and context for one size; made anew when a later instant needs more room. */
+struct room {
+    smear_context *ctx;
+    void *memory;
+    smear_desc desc;
+};
+
+static bool room_for(struct room *room, const struct presented *presented, int width, int height,
+                     struct mean *mean, struct failure *f)
+{
+    smear_desc desc = presented_desc(presented, width, height);
+    if (room->ctx != NULL && desc.max_draws <= room->desc.max_draws &&
+        desc.max_triangles <= room->desc.max_triangles)
+        return true;
+    desc.format = SMEAR_XRGB8888;
+    desc.sharp = 1;
+    desc.flush = add_band;
+    desc.user = mean;
+    size_t bytes = smear_memory_size(&desc);
+    free(room->memory);
+    *room = (struct room){ .desc = desc };
+    if (bytes == 0)
+        return fail(f, "the library cannot draw %dx%d", width, height);
+    room->memory = malloc(bytes);
+    if (room->memory == NULL)
+        return out_of_memory(f);
+    int result = smear_init(&room->ctx, &desc, room->memory, bytes);
+    if (result != SMEAR_OK) {
+        room->ctx = NULL;
+        return fail(f, "the library did not start (error %d)", result);
+    }
+    return true;
+}
+
+bool presenter_exact(struct presenter *presenter, double time,
+                     const struct present_options *options, int width, int height, int instants,
+                     struct image *out, struct failure *f)
+{
+    struct present_options sharp = *options;
+    struct room room = { 0 };
+    struct mean mean = { .width = width };
+    double open, close;
+    bool ok = true;
+    sharp.instant_only = true;
+    sharp.method = SMEAR_NONE;
+    if (instants < 1 || width < 1 || height < 1)
+        return fail(f, "no instants or no pixels");
+    if (!image_alloc(out, width, height, f))
+        return false;
+    size_t values = (size_t)width * (size_t)height * 3;
+    mean.sum = calloc(values, sizeof *mean.sum);
+    if (mean.sum == NULL) {
+        image_free(out);
+        return out_of_memory(f);
+    }
+    bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
+    for (int code = 0; code < 256; code++)
+        mean.value_of[code] = is_linear ? present_srgb_decode((uint8_t)code) : code / 255.0;
+    present_exposure(time, options, &open, &close);
+    for (int i = 0; i < instants && ok; i++) {
+        const struct presented *frame =
+            presenter_frame(presenter, open + (close - open) * (i + 0.5) / instants, &sharp, f);
+        ok = frame != NULL && room_for(&room, frame, width, height, &mean, f);
+        if (!ok)
+            break;
+        int result = presented_submit(frame, room.ctx);
+        if (result == SMEAR_OK)
+            result = smear_render(room.ctx);
+        if (result != SMEAR_OK)
+            ok = fail(f, "the library refused the frame (error %d)", result);
+    }
+    for (size_t i = 0; i < values && ok; i++) {
+        double value = mean.sum[i] / instants;
+        out->rgba[i / 3 * 4 + i % 3] = is_linear ? present_srgb_encode(value) : present_byte(value);
+    }
+    free(mean.sum);
+    free(room.memory);
+    if (!ok)
+        image_free(out);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ life */
+
+struct presenter *presenter_new(struct scene *scene, struct failure *f)
+{
+    struct presenter *p = calloc(1, sizeof *p);
+    if (p == NULL) {
+        out_of_memory(f);
+        return NULL;
+    }
+    p->scene = scene;
+    return p;
+}
+
+void presenter_free(struct presenter *p)
+{
+    if (p == NULL)
+        return;
+    for (int i = 0; i < p->converted_count; i++)
+        converted_free(&p->converted[i]);
+    texture_store_free(&p->texture);
+    for (int i = 0; i < p->slot_room; i++) {
+        if (p->slot[i] == NULL)
+            continue;
+        for (int pose = 0; pose < POSES; pose++)
+            free(p->slot[i]->position[pose]);
+        free(p->slot[i]->normal);
+        free(p->slot[i]);
+    }
+    for (int pose = 0; pose < POSES; pose++)
+        scene_instant_free(p->scene, &p->instant[pose]);
+    free(p->converted);
+    free(p->plan);
+    free(p->converted_of_draw);
+    free(p->slot);
+    free(p->draw);
+    free(p);
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/* present.h - hands a scene (floating point) to the library (fixed point). Host only.
+ *
+ * Every surface is converted once, on first sight; a frame then only needs matrices, cameras and the
+ * positions of deformed draws. What is handed over:
+ *
+ *   world       a power of two times the scene's world, seen from a point of reference: the camera's
+ *               place now. Chosen for each frame from that frame's poses alone, so that the near
+ *               plane lies at 1 to 2 units where that leaves everything within 30000, and so that a
+ *               picture never depends on which frames were drawn before it
+ *   positions   the whole range of int16 over the bounds, one step for all axes; surfaces of one node
+ *               share their grid, so that no crack opens between its materials. Deformed draws are
+ *               quantised anew in every frame, with one grid for all its poses
+ *   transforms  a power of two of each draw's matrix goes into its mesh's shift, so that the largest
+ *               entry of the basis lies in (1/2, 1]
+ *   uv          the finest step at which the range fits. Repeated textures are moved by whole repeats
+ *               (mirrored ones by pairs): first all of the surface alike, and where that leaves less
+ *               than two steps per texel, each triangle for itself, vertices being doubled where
+ *               neighbours move differently
+ *   colours     sRGB in 8 bits, rounded to nearest; alpha linear
+ *   surfaces    of more than 65535 vertices become several meshes on one grid
+ *   near plane  moved out by a power of two while everything is more than 128 times farther away;
+ *               orthographic planes are drawn in to four times the depth of what there is
+ *
+ * All other poses are passed explicitly, so the library keeps nothing from frame to frame (ids are 0). */
+#ifndef SMEAR_TOOLS_PRESENT_H
+#define SMEAR_TOOLS_PRESENT_H
+
+#include "../failure.h"
+#include "../image/image.h"
+#include "scene.h"
+
+#include <smear.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct present_options {
+    double fps;                     /* > 0: the other pose is 1 / fps earlier */
+    double shutter_degrees;         /* rounded to whole degrees; below half a degree: SMEAR_NONE */
+    smear_exposure exposure;
+    bool shutter_poses;             /* give the poses at shutter open and close, not a frame ago */
+    bool instant_only;              /* give no other pose: nothing moves */
+    bool cut;                       /* no motion in this frame */
+    smear_method method;
+    int samples;                    /* 0: the library's default */
+    smear_light light;
+    uint32_t clear;                 /* 0xRRGGBB */
+    int reconstruct;                /* SMEAR_FENCE | ... */
+    const uint8_t *motion;          /* enum scene_motion of each draw of the scene; null: full */
+    int motion_count;               /* draws beyond it are full */
+};
+
+/* A frame as the library sees it. Belongs to the presenter; valid until its next frame. */
+struct presented {
+    smear_frame frame;              /* its cameras are those below */
+    smear_camera camera[3];         /* now, open, close */
+    int draw_count;
+    const smear_draw *draw;
+    uint32_t triangle_count;        /* submitted */
+    double world_scale;             /* library units per scene unit, a power of two */
+    double near_plane, far_plane;   /* as given to the library, in its units */
+    double camera_back;             /* library units an orthographic camera was moved back by */
+    bool orthographic;
+};
+
+struct presenter;
+
+/* The scene must outlive the presenter. Null when out of memory. */
+struct presenter *presenter_new(struct scene *scene, struct failure *f);
+void presenter_free(struct presenter *presenter);
+
+/* Poses the scene at `time` and at the other instants the options ask for; null on failure. */
+const struct presented *presenter_frame(struct presenter *presenter, double time,
+                                        const struct present_options *options, struct failure *f);
+
+/* smear_begin and every smear_submit; integers only. May be repeated. The first error ends it. */
+int presented_submit(const struct presented *presented, smear_context *ctx);
+
+/* A desc that has room for this frame at this size (max_draws, max_triangles); the rest is zero. */
+smear_desc presented_desc(const struct presented *presented, int width, int height);
+
+/* Distance along the view in scene units of a depth code; infinity for the background. */
+double presented_depth(const struct presented *presented, uint16_t code);
+
+/* The interval in which the shutter is open, in seconds. */
+void present_exposure(double time, const struct present_options *options, double *open,
+                      double *close);
+
+/* The truth: the mean of `instants` sharp frames at the midpoints of the exposure, each posed and lit
+ * exactly, drawn by the library with SMEAR_NONE. Averages linear light or codes, as options->light says.
+ * *out is allocated here, and empty on failure. */
+bool presenter_exact(struct presenter *presenter, double time,
+                     const struct present_options *options, int width, int height, int instants,
+                     struct image *out, struct failure *f);
+
+/* sRGB (IEC 61966-2-1): linear 0..1 to 0..255, rounded to nearest, and back. */
+uint8_t present_srgb_encode(double linear);
+double present_srgb_decode(uint8_t code);
+
+#endif
