@@ -45,6 +45,11 @@ bool pfm_decode(const uint8_t *bytes, size_t size, struct float_image *out, stru
 bool image_load(const char *path, struct image *out, struct failure *f);           /* PNG or PPM */
 
 /* --- writing --- */
+/* Into memory: *bytes is malloc'ed, for the caller to free. */
+bool png_encode(const struct image *image, uint8_t **bytes, size_t *size, struct failure *f);
+bool ppm_encode(const struct image *image, uint8_t **bytes, size_t *size, struct failure *f);
+bool pfm_encode(const struct float_image *image, uint8_t **bytes, size_t *size, struct failure *f);
+/* Into files. */
 bool png_save(const char *path, const struct image *image, struct failure *f);     /* RGB when all opaque */
 bool ppm_save(const char *path, const struct image *image, struct failure *f);     /* P6 */
 bool pfm_save(const char *path, const struct float_image *image, struct failure *f); /* bottom row first, scale -1.0 */

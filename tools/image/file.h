@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* file.h - a file that appears under its name only when it is complete. */
+#ifndef SMEAR_TOOLS_IMAGE_FILE_H
+#define SMEAR_TOOLS_IMAGE_FILE_H
+
+#include "../failure.h"
+
+#include <stdio.h>
+
+struct output {
+    FILE *stream;               /* write here; null when closed */
+    char *path, *temporary;     /* the final name, and the one beside it that is written */
+};
+
+/* Opens `path`.tmp for writing and seeking. */
+bool output_open(struct output *o, const char *path, struct failure *f);
+
+/* Closes and renames to the final name. Any write error since the opening fails here at the latest; then
+ * nothing is left behind. The struct is empty afterwards in any case. */
+bool output_commit(struct output *o, struct failure *f);
+
+/* Closes and removes the temporary file. Harmless on an empty struct. */
+void output_discard(struct output *o);
+
+#endif

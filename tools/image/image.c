@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+/* image.c - pictures in memory, and loading whichever format a file has. */
+#include "image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_edge(int pixels)
+{
+    return pixels >= 1 && pixels <= IMAGE_MAX_EDGE;
+}
+
+bool image_alloc(struct image *image, int width, int height, struct failure *f)
+{
+    *image = (struct image){0};
+    if (!is_edge(width) || !is_edge(height))
+        return fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    size_t pixels = (size_t)width * (size_t)height;
+    image->rgba = malloc(pixels * 4);
+    if (image->rgba == NULL)
+        return fail(f, "out of memory (picture of %d x %d)", width, height);
+    image->width = width;
+    image->height = height;
+    memset(image->rgba, 0, pixels * 4);
+    for (size_t i = 0; i < pixels; i++)
+        image->rgba[i * 4 + 3] = 255;
+    return true;
+}
+
+void image_free(struct image *image)
+{
+    free(image->rgba);
+    *image = (struct image){0};
+}
+
+bool float_image_alloc(struct float_image *image, int width, int height, int channels,
+                       struct failure *f)
+{
+    *image = (struct float_image){0};
+    if (!is_edge(width) || !is_edge(height))
+        return fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    if (channels != 1 && channels != 3)
+        return fail(f, "a float picture has 1 or 3 channels (%d asked for)", channels);
+    image->value = calloc((size_t)width * (size_t)height * (size_t)channels, sizeof *image->value);
+    if (image->value == NULL)
+        return fail(f, "out of memory (picture of %d x %d)", width, height);
+    image->width = width;
+    image->height = height;
+    image->channels = channels;
+    return true;
+}
+
+void float_image_free(struct float_image *image)
+{
+    free(image->value);
+    *image = (struct float_image){0};
+}
+
+bool image_load(const char *path, struct image *out, struct failure *f)
+{
+    uint8_t *bytes;
+    size_t size;
+    *out = (struct image){0};
+    if (!file_read(path, INT32_MAX, &bytes, &size, f))
+        return false;
+    bool ok;
+    if (size >= 2 && bytes[0] == 'P' && strchr("2356", bytes[1]) != NULL && bytes[1] != 0)
+        ok = ppm_decode(bytes, size, out, f);
+    else if (size >= 1 && bytes[0] == 0x89)
+        ok = png_decode(bytes, size, out, f);
+    else
+        ok = fail(f, "neither PNG nor PPM (first bytes)");
+    free(bytes);
+    return ok;
+}
+
+bool image_difference(const struct image *a, const struct image *b, int gain, struct image *out,
+                      struct failure *f)
+{
+    *out = (struct image){0};
+    if (a->width != b->width || a->height != b->height)
+        return fail(f, "pictures differ in size (%d x %d and %d x %d)", a->width, a->height, b->width,
+                    b->height);
+    if (gain < 0)
+        return fail(f, "gain is negative (%d)", gain);
+    if (!image_alloc(out, a->width, a->height, f))
+        return false;
+    size_t bytes = (size_t)a->width * (size_t)a->height * 4;
+    for (size_t i = 0; i < bytes; i++) {
+        if (i % 4 == 3)
+            continue;
+        int64_t scaled = (int64_t)abs(a->rgba[i] - b->rgba[i]) * gain;
+        out->rgba[i] = (uint8_t)(scaled > 255 ? 255 : scaled);
+    }
+    return true;
+}

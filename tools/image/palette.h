@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* palette.h - up to 256 colours for a picture, and a picture in up to 256 colours. */
+#ifndef SMEAR_TOOLS_IMAGE_PALETTE_H
+#define SMEAR_TOOLS_IMAGE_PALETTE_H
+
+#include "image.h"
+
+struct palette {
+    int count;                  /* 0..256 */
+    uint8_t rgb[256][3];
+};
+
+/* A picture of which only the pixels with a non-zero mark count. */
+struct marked_image {
+    const struct image *image;
+    const uint8_t *mark;        /* width x height */
+};
+
+/* The colours of the marked pixels, when there are at most `limit` (1..256); else false. */
+bool palette_exact(const struct marked_image *from, int limit, struct palette *out);
+
+/* `limit` (2..256) colours that serve the marked pixels well. The same pixels always get the same
+ * palette. False without memory. */
+bool palette_choose(const struct marked_image *from, int limit, struct palette *out);
+
+/* The entry for every marked pixel: its own colour where the palette has it, else one of the two whose
+ * mixture comes nearest, chosen by an 8 x 8 pattern that is fixed to the picture, so that what stands
+ * still keeps its dots. Writes index[y * width + x]. False without memory. */
+bool palette_map(const struct marked_image *from, const struct palette *palette, uint8_t *index);
+
+#endif
