@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* present.c - from the floats of a scene to the integers of the library; present.h has the rules. */
+/* present.c - from the floats of a scene to the integers of the library, by the rules of present.h. */
 #include "present.h"
 
 #include "present_surface.h"
@@ -444,7 +444,7 @@ static bool per_draw_room(struct presenter *p, int count, struct failure *f)
     return grow((void **)&p->plan, &p->plan_room, count, sizeof *p->plan, f);
 }
 
-/* What is drawn, with which poses and on which grid. Neighbouring deformed draws of a node share one. */
+/* What is drawn, with which poses and on which grid; deformed draws of one node share a grid. */
 static bool plan_draws(struct presenter *p, bool has_open, bool has_close, struct failure *f)
 {
     const struct scene_instant *now = &p->instant[NOW];

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 /* present.h - hands a scene (floating point) to the library (fixed point). Host only.
  *
- * Every surface is converted once, on first sight; a frame then only needs matrices, cameras and the
- * positions of deformed draws. What is handed over:
+ * Every surface is converted once, on first sight; a frame then only needs matrices, cameras and
+ * the positions of deformed draws. What is handed over:
  *
- *   world       a power of two times the scene's world, seen from a point of reference: the camera's
- *               place now. Chosen for each frame from that frame's poses alone, so that the near
- *               plane lies at 1 to 2 units where that leaves everything within 30000, and so that a
- *               picture never depends on which frames were drawn before it
- *   positions   the whole range of int16 over the bounds, one step for all axes; surfaces of one node
- *               share their grid, so that no crack opens between its materials. Deformed draws are
- *               quantised anew in every frame, with one grid for all its poses
- *   transforms  a power of two of each draw's matrix goes into its mesh's shift, so that the largest
- *               entry of the basis lies in (1/2, 1]
- *   uv          the finest step at which the range fits. Repeated textures are moved by whole repeats
- *               (mirrored ones by pairs): first all of the surface alike, and where that leaves less
- *               than two steps per texel, each triangle for itself, vertices being doubled where
- *               neighbours move differently
+ *   world       a power of two times the scene's world, seen from a point of reference: the
+ *               camera's place now. Chosen for each frame from that frame's poses alone, so that
+ *               the near plane lies at 1 to 2 units where that leaves everything within 30000, and
+ *               so that a picture never depends on which frames were drawn before it
+ *   positions   the whole range of int16 over the bounds, one step for all axes; surfaces of one
+ *               node share their grid, so that no crack opens between its materials. Deformed draws
+ *               are quantised anew in every frame, with one grid for all its poses
+ *   transforms  a power of two of each draw's matrix goes into its mesh's shift, so that the
+ *               largest entry of the basis lies in (1/2, 1]
+ *   uv          the finest step at which the range fits. Repeated textures are moved by whole
+ *               repeats (mirrored ones by pairs): first all of the surface alike, and where that
+ *               leaves less than two steps per texel, each triangle for itself, vertices being
+ *               doubled where neighbours move differently
  *   colours     sRGB in 8 bits, rounded to nearest; alpha linear
  *   surfaces    of more than 65535 vertices become several meshes on one grid
  *   near plane  moved out by a power of two while everything is more than 128 times farther away;
  *               orthographic planes are drawn in to four times the depth of what there is
  *
- * All other poses are passed explicitly, so the library keeps nothing from frame to frame (ids are 0). */
+ * All other poses are passed explicitly and every id is 0: the library keeps nothing. */
 #ifndef SMEAR_TOOLS_PRESENT_H
 #define SMEAR_TOOLS_PRESENT_H
 
@@ -86,9 +86,9 @@ double presented_depth(const struct presented *presented, uint16_t code);
 void present_exposure(double time, const struct present_options *options, double *open,
                       double *close);
 
-/* The truth: the mean of `instants` sharp frames at the midpoints of the exposure, each posed and lit
- * exactly, drawn by the library with SMEAR_NONE. Averages linear light or codes, as options->light says.
- * *out is allocated here, and empty on failure. */
+/* The truth: the mean of `instants` sharp frames at the midpoints of the exposure, each posed and
+ * lit exactly, drawn by the library with SMEAR_NONE. Averages linear light or codes, as
+ * options->light says. *out is allocated here, and empty on failure. */
 bool presenter_exact(struct presenter *presenter, double time,
                      const struct present_options *options, int width, int height, int instants,
                      struct image *out, struct failure *f);

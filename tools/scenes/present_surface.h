@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* present_surface.h - surfaces in the library's formats. The first half of present.c's work: what does
- * not depend on the frame. See present.h for the rules. */
+/* present_surface.h - surfaces in the library's formats. The first half of present.c's work: what
+ * does not depend on the frame. See present.h for the rules. */
 #ifndef SMEAR_TOOLS_PRESENT_SURFACE_H
 #define SMEAR_TOOLS_PRESENT_SURFACE_H
 
@@ -58,16 +58,16 @@ bool add_positions(struct bounds *b, const float *position, int count);
 
 struct grid grid_over(const struct bounds *b);
 
-/* The mesh's scale for a step: mantissa in [2^29, 2^30] and shift, step = scale / 2^shift. The mantissa
- * is rounded up, so that bounds never grow beyond the range. */
+/* The mesh's scale for a step: mantissa in [2^29, 2^30] and shift, step = scale / 2^shift. The
+ * mantissa is rounded up, so that bounds never grow beyond the range. */
 void split_step(double step, int32_t *scale, int *shift);
 
 void quantise_positions(int16_t *out, const float *position, const struct part *part,
                         const struct grid *grid);
 void quantise_normals(int8_t *out, const float *normal, const struct part *part);
 
-/* Converts c->surface; c->bounds and c->grid are set. What was converted before a failure is freed by
- * converted_free as well. */
+/* Converts c->surface; c->bounds and c->grid are set. What was converted before a failure is freed
+ * by converted_free as well. */
 bool convert_surface(struct converted *c, struct texture_store *store, struct failure *f);
 void converted_free(struct converted *c);
 void texture_store_free(struct texture_store *store);
