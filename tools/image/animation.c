@@ -17,10 +17,8 @@ static void release(struct animation_writer *w)
 struct animation_writer *animation_begin(const struct animation_format *format, const char *path,
                                          int width, int height, struct failure *f)
 {
-    if (width < 1 || width > IMAGE_MAX_EDGE || height < 1 || height > IMAGE_MAX_EDGE) {
-        fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    if (!image_check_size(width, height, f))
         return NULL;
-    }
     struct animation_writer *w = calloc(1, format->size);
     if (w == NULL) {
         fail(f, "out of memory (animation)");
@@ -42,8 +40,8 @@ bool animation_add(struct animation_writer *w, const struct image *frame, int de
     if (w->broken)
         return fail(f, "an earlier frame failed");
     if (frame->width != w->width || frame->height != w->height)
-        return fail(f, "frame %lu has another size (%d x %d)", (unsigned long)w->frames, frame->width,
-                    frame->height);
+        return fail(f, "frame %lu has another size (%d x %d)", (unsigned long)w->frames,
+                    frame->width, frame->height);
     if (delay_ms < 0 || delay_ms > MAX_DELAY_MS)
         return fail(f, "delay is outside 0..%d ms (%d)", (int)MAX_DELAY_MS, delay_ms);
     if (!w->format->add(w, frame, delay_ms, f)) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* apng.c - animations as PNG with the chunks acTL, fcTL and fdAT (PNG, third edition).
  *
- * Every frame replaces the rectangle that differs from what is shown, alpha included. Pixels are RGBA
- * throughout: the file's header comes before the later frames are known, and an alpha that never
- * changes costs next to nothing. */
+ * Every frame replaces the rectangle that differs from what is shown, alpha included. Pixels are
+ * RGBA throughout: the file's header comes before the later frames are known, and an alpha that
+ * never changes costs next to nothing. */
 #include "animation.h"
 
 #include <errno.h>
@@ -28,7 +28,8 @@ static bool begin(struct animation_writer *w, struct failure *f)
     return image_alloc(&apng(w)->shown, w->width, w->height, f) && animation_flush(w, f);
 }
 
-/* The smallest rectangle with all pixels in which the pictures of one size differ; width 0 if none do. */
+/* The smallest rectangle with all pixels in which the pictures of one size differ; width 0 if none
+ * do. */
 static struct png_area changed_area(const struct image *a, const struct image *b)
 {
     size_t stride = (size_t)a->width * 4;

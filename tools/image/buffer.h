@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* buffer.h - bytes that grow at the end; every encoder of this folder writes into one.
  *
- * Running out of memory is remembered instead of reported by each call: the encoder writes on and its
- * caller looks at `failed` once. Zero-initialise; release with buffer_free. */
+ * Running out of memory is remembered instead of reported by each call: the encoder writes on and
+ * its caller looks at `failed` once. Zero-initialise; release with buffer_free. */
 #ifndef SMEAR_TOOLS_IMAGE_BUFFER_H
 #define SMEAR_TOOLS_IMAGE_BUFFER_H
 

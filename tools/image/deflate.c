@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* deflate.c - compression to zlib streams, for PNG and APNG.
  *
- * RFC 1951. Matches are found through chains of positions with the same next three bytes, one position
- * late ("lazy"): a match is given up when the next position starts a longer one. The resulting tokens
- * are written in blocks, each with its own Huffman codes, the fixed ones, or stored, whichever is the
- * smallest. */
+ * RFC 1951. Matches are found through chains of positions with the same next three bytes, one
+ * position late ("lazy"): a match is given up when the next position starts a longer one. The
+ * resulting tokens are written in blocks, each with its own Huffman codes, the fixed ones, or
+ * stored, whichever is the smallest. */
 #include "deflate.h"
 #include "inflate.h"
 
@@ -22,7 +22,7 @@ enum {
     GOOD_MATCH = 8,             /* a quarter of that when the last position has a match this long */
     LAZY_MATCH = 16,            /* a match longer than this is taken without looking further */
     NICE_MATCH = 128,           /* the search ends with a match this long */
-    FAR_DISTANCE = 4096         /* matches of three bytes from further away cost more than literals */
+    FAR_DISTANCE = 4096         /* three bytes from further away cost more than literals */
 };
 
 /* A literal byte, or length << 16 | distance - 1 with length >= 3. */
@@ -41,7 +41,7 @@ struct deflater {
     uint32_t head[1 << HASH_BITS];      /* last position + 1 with this hash; 0: none */
     uint32_t previous[WINDOW];          /* the one before it, by position modulo WINDOW */
     uint8_t length_symbol[MAX_MATCH + 1];       /* symbol - 257 */
-    uint8_t distance_symbol[512];       /* of distance - 1 < 256, and of (distance - 1) >> 7 above */
+    uint8_t distance_symbol[512];       /* of d = distance - 1 below 256; of d >> 7 above */
     uint16_t length_base[29], distance_base[DISTANCES];
 };
 
@@ -107,8 +107,8 @@ static int compare_uses(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Lengths of a Huffman code for n <= 288 symbols used so often, none above max_bits, and the canonical
- * codes. A single used symbol gets one bit. */
+/* Lengths of a Huffman code for n <= 288 symbols used so often, none above max_bits, and the
+ * canonical codes. A single used symbol gets one bit. */
 static void build_huffman(struct huffman *h, const uint32_t *uses, unsigned n, unsigned max_bits)
 {
     uint64_t leaf[288];                 /* uses << 16 | symbol: sorts by use, ties by symbol */
@@ -154,8 +154,8 @@ static void build_huffman(struct huffman *h, const uint32_t *uses, unsigned n, u
             count[bits < max_bits ? bits : max_bits]++;
         }
     }
-    /* Room is made by moving a leaf from the deepest free level one down and pairing a cut-off leaf with
-     * it; each step frees one code of max_bits. */
+    /* Room is made by moving a leaf from the deepest free level one down and pairing a cut-off leaf
+     * with it; each step frees one code of max_bits. */
     uint32_t total = 0;
     for (unsigned bits = 1; bits <= max_bits; bits++)
         total += count[bits] << (max_bits - bits);
@@ -187,7 +187,8 @@ static void build_huffman(struct huffman *h, const uint32_t *uses, unsigned n, u
 
 static void fixed_huffman(struct huffman *literal, struct huffman *distance)
 {
-    /* Uses that give exactly the fixed lengths would be a riddle; the lengths and codes are in the RFC. */
+    /* Uses that give exactly the fixed lengths would be a riddle; the lengths and codes are in the
+     * RFC. */
     memset(literal, 0, sizeof *literal);
     memset(distance, 0, sizeof *distance);
     for (unsigned i = 0; i < 288; i++) {
@@ -379,7 +380,8 @@ static void add_token(struct deflater *d, unsigned length, unsigned value, size_
         end_block(d, end, false);
 }
 
-/* Enters `at` (with three bytes after it) in its chain; returns the position + 1 before it, 0: none. */
+/* Enters `at` (with three bytes after it) in its chain; returns the position + 1 before it, 0:
+ * none. */
 static uint32_t insert(struct deflater *d, size_t at)
 {
     const uint8_t *p = d->in + at;
@@ -419,8 +421,8 @@ static unsigned find_match(const struct deflater *d, size_t at, uint32_t candida
         return best;
     while (candidate != 0 && tries-- > 0) {
         size_t from = candidate - 1;
-        if (at - from >= WINDOW)        /* at WINDOW itself the chain's entry is already overwritten */
-            break;
+        if (at - from >= WINDOW)
+            break;                      /* at WINDOW the chain's entry is already overwritten */
         const uint8_t *there = d->in + from;
         if (there[best] == here[best] && there[0] == here[0] && there[1] == here[1]) {
             unsigned length = common_length(here, there, limit);

@@ -15,8 +15,8 @@ struct output {
 /* Opens `path`.tmp for writing and seeking. */
 bool output_open(struct output *o, const char *path, struct failure *f);
 
-/* Closes and renames to the final name. Any write error since the opening fails here at the latest; then
- * nothing is left behind. The struct is empty afterwards in any case. */
+/* Closes and renames to the final name. Any write error since the opening fails here at the latest;
+ * then nothing is left behind. The struct is empty afterwards in any case. */
 bool output_commit(struct output *o, struct failure *f);
 
 /* Closes and removes the temporary file. Harmless on an empty struct. */

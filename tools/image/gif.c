@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* gif.c - animations as GIF89a.
  *
- * Frames are drawn over what is shown, with a palette each. A frame holds the rectangle that has changed,
- * and inside it the pixels that have not are transparent: they cost little, take no part in choosing the
- * palette, and keep their dither, so still parts do not flicker. Translucent pictures are seen on black. */
+ * Frames are drawn over what is shown, with a palette each. A frame holds the rectangle that has
+ * changed, and inside it the pixels that have not are transparent: they cost little, take no part
+ * in choosing the palette, and keep their dither, so still parts do not flicker. Translucent
+ * pictures are seen on black. */
 #include "animation.h"
 #include "palette.h"
 
@@ -66,7 +67,7 @@ struct lzw {
     struct buffer *out;
     uint32_t hold;              /* bits not yet written; the first is the lowest */
     unsigned hold_count, code_bits;
-    uint8_t block[255];         /* data leaves in blocks of at most 255 bytes, each after its length */
+    uint8_t block[255];         /* data leaves in blocks, each after its length */
     unsigned block_size;
     unsigned next_code;
     uint32_t key[CODE_SLOTS];   /* (code of a string, the byte after it) + 1; 0: free */
@@ -190,7 +191,7 @@ static struct change mark_changes(const struct image *a, const struct image *b, 
         }
     }
     if (pixels == 0)
-        return (struct change){0, {0, 0, 1, 1}};        /* a frame needs a pixel, a transparent one */
+        return (struct change){0, {0, 0, 1, 1}};        /* a frame needs a pixel: transparent */
     return (struct change){pixels, {left, top, right - left + 1, bottom - top + 1}};
 }
 

@@ -5,16 +5,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_edge(int pixels)
+bool image_check_size(long width, long height, struct failure *f)
 {
-    return pixels >= 1 && pixels <= IMAGE_MAX_EDGE;
+    if (width >= 1 && width <= IMAGE_MAX_EDGE && height >= 1 && height <= IMAGE_MAX_EDGE)
+        return true;
+    return fail(f, "picture size is outside 1..%d (%ld x %ld)", (int)IMAGE_MAX_EDGE, width, height);
+}
+
+bool image_check_same_size(const struct image *a, const struct image *b, struct failure *f)
+{
+    if (a->rgba == NULL || b->rgba == NULL)
+        return fail(f, "picture is empty");
+    if (a->width == b->width && a->height == b->height)
+        return true;
+    return fail(f, "pictures differ in size (%d x %d and %d x %d)", a->width, a->height, b->width,
+                b->height);
 }
 
 bool image_alloc(struct image *image, int width, int height, struct failure *f)
 {
     *image = (struct image){0};
-    if (!is_edge(width) || !is_edge(height))
-        return fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    if (!image_check_size(width, height, f))
+        return false;
     size_t pixels = (size_t)width * (size_t)height;
     image->rgba = malloc(pixels * 4);
     if (image->rgba == NULL)
@@ -37,8 +49,8 @@ bool float_image_alloc(struct float_image *image, int width, int height, int cha
                        struct failure *f)
 {
     *image = (struct float_image){0};
-    if (!is_edge(width) || !is_edge(height))
-        return fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    if (!image_check_size(width, height, f))
+        return false;
     if (channels != 1 && channels != 3)
         return fail(f, "a float picture has 1 or 3 channels (%d asked for)", channels);
     image->value = calloc((size_t)width * (size_t)height * (size_t)channels, sizeof *image->value);
@@ -78,9 +90,8 @@ bool image_difference(const struct image *a, const struct image *b, int gain, st
                       struct failure *f)
 {
     *out = (struct image){0};
-    if (a->width != b->width || a->height != b->height)
-        return fail(f, "pictures differ in size (%d x %d and %d x %d)", a->width, a->height, b->width,
-                    b->height);
+    if (!image_check_same_size(a, b, f))
+        return false;
     if (gain < 0)
         return fail(f, "gain is negative (%d)", gain);
     if (!image_alloc(out, a->width, a->height, f))

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* inflate.c - decompression of deflate and zlib streams, for PNG.
  *
- * RFC 1951. Everything the format forbids is refused: codes that are over-full or, except for a lone
- * code, incomplete; a block without an end code; the reserved symbols; distances before the start. */
+ * RFC 1951. Everything the format forbids is refused: codes that are over-full or, except for a
+ * lone code, incomplete; a block without an end code; the reserved symbols; distances before the
+ * start. */
 #include "inflate.h"
 
 #include <string.h>
@@ -20,7 +21,7 @@ struct bits {
 };
 
 struct code {
-    uint16_t fast[1 << FAST_BITS];      /* symbol << 4 | length; 0 where the code is longer or unused */
+    uint16_t fast[1 << FAST_BITS];      /* symbol << 4 | length; 0: the code is longer or unused */
     uint16_t count[MAX_BITS + 1];       /* codes of each length */
     uint16_t symbol[LITERALS];          /* in order of their codes */
 };
@@ -45,7 +46,8 @@ static const uint16_t distance_base[30] = {
     3073, 4097, 6145, 8193, 12289, 16385, 24577,
 };
 static const uint8_t distance_extra[30] = {
-    0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13,
+    0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13,
+    13,
 };
 
 /* At least 56 bits, or all that are left. */
@@ -78,9 +80,9 @@ static unsigned reversed(unsigned code, unsigned length)
     return result;
 }
 
-/* Canonical code from the lengths of n symbols (0: unused). False when it is over-full, or incomplete
- * unless it consists of at most one code of one bit, which RFC 1951 allows for distances and zlib's
- * encoder has always been granted for literals too. */
+/* Canonical code from the lengths of n symbols (0: unused). False when it is over-full, or
+ * incomplete unless it consists of at most one code of one bit, which RFC 1951 allows for distances
+ * and zlib's encoder has always been granted for literals too. */
 static bool build_code(struct code *c, const uint8_t *length, unsigned n, bool lone_allowed)
 {
     uint16_t offset[MAX_BITS + 2] = {0};
@@ -129,7 +131,8 @@ static int decode(struct bits *b, const struct code *c)
         b->count -= length;
         return (int)(entry >> 4);
     }
-    /* Long codes bit by bit: at each length the codes are consecutive numbers starting at `first`. */
+    /* Long codes bit by bit: at each length the codes are consecutive numbers starting at `first`.
+     * */
     int code = 0, first = 0, index = 0;
     for (unsigned length = 1; length <= MAX_BITS && length <= b->count; length++) {
         code |= (int)(b->hold >> (length - 1) & 1);
@@ -303,7 +306,9 @@ static bool coded_block(struct inflater *s, struct failure *f)
 bool inflate_raw(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity, size_t *produced,
                  size_t *consumed, struct failure *f)
 {
-    struct inflater s = {.bits = {.next = in, .end = in + in_size}, .out = out, .capacity = capacity};
+    struct inflater s = {
+        .bits = {.next = in, .end = in + in_size}, .out = out, .capacity = capacity,
+    };
     unsigned last = 0, kind;
     while (last == 0) {
         if (!take(&s.bits, 1, &last) || !take(&s.bits, 2, &kind))
@@ -329,8 +334,8 @@ bool inflate_raw(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacit
     return true;
 }
 
-bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity, size_t *produced,
-                  size_t *consumed, struct failure *f)
+bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity,
+                  size_t *produced, size_t *consumed, struct failure *f)
 {
     size_t made, used;
     if (in_size < 2)
@@ -343,8 +348,8 @@ bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capaci
     const uint8_t *check = in + 2 + used;
     if (in_size - 2 - used < 4)
         return fail(f, "compressed data ends early (in its checksum)");
-    uint32_t stored = (uint32_t)check[0] << 24 | (uint32_t)check[1] << 16 | (uint32_t)check[2] << 8 |
-                      check[3];
+    uint32_t stored = (uint32_t)check[0] << 24 | (uint32_t)check[1] << 16 |
+                      (uint32_t)check[2] << 8 | check[3];
     if (stored != adler32_update(1, out, made))
         return fail(f, "checksum mismatch (compressed data)");
     if (produced != NULL)
@@ -358,7 +363,7 @@ uint32_t adler32_update(uint32_t adler, const uint8_t *bytes, size_t size)
 {
     uint32_t a = adler & 0xffff, b = adler >> 16;
     while (size > 0) {
-        size_t run = size < 5552 ? size : 5552;     /* the most additions before 32 bits could overflow */
+        size_t run = size < 5552 ? size : 5552;     /* more additions could overflow 32 bits */
         for (size_t i = 0; i < run; i++) {
             a += bytes[i];
             b += a;

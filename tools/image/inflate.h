@@ -12,14 +12,15 @@
  * promises more than this times the compressed size lies. */
 enum { INFLATE_MAX_RATIO = 1032 };
 
-/* One deflate stream from the start of `in` to at most `capacity` bytes at `out`. A stream that would
- * give more fails. *produced and *consumed (may be null) count bytes; data after the stream is left alone. */
+/* One deflate stream from the start of `in` to at most `capacity` bytes at `out`. A stream that
+ * would give more fails. *produced and *consumed (may be null) count bytes; data after the stream
+ * is left alone. */
 bool inflate_raw(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity, size_t *produced,
                  size_t *consumed, struct failure *f);
 
 /* The same inside zlib's two-byte header and Adler-32 checksum, both checked. */
-bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity, size_t *produced,
-                  size_t *consumed, struct failure *f);
+bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capacity,
+                  size_t *produced, size_t *consumed, struct failure *f);
 
 /* Checksum of a zlib stream; start with 1. */
 uint32_t adler32_update(uint32_t adler, const uint8_t *bytes, size_t size);

@@ -2,11 +2,12 @@
 /* metrics.c - how far one picture is from another: RMSE, PSNR, SSIM and LDR-FLIP.
  *
  * [Andersson20] "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
- * [Wang04] "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE TIP 2004.
+ * [Wang04] "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE TIP
+ * 2004.
  *
- * Both SSIM and FLIP are convolutions with separable kernels. Rows are convolved along x when the window
- * of the column convolution first needs them, and kept in a ring as high as the kernel, so memory grows
- * with the width and the radius but not with the height. */
+ * Both SSIM and FLIP are convolutions with separable kernels. Rows are convolved along x when the
+ * window of the column convolution first needs them, and kept in a ring as high as the kernel, so
+ * memory grows with the width and the radius but not with the height. */
 #include "image.h"
 
 #include <math.h>
@@ -84,7 +85,8 @@ static void ring_convolve_x(struct ring *r, int y, int plane, const struct kerne
 }
 
 /* A plane convolved along y, centred on row y. */
-static void ring_convolve_y(const struct ring *r, int y, int plane, const struct kernel *k, double *to)
+static void ring_convolve_y(const struct ring *r, int y, int plane, const struct kernel *k,
+                            double *to)
 {
     memset(to, 0, (size_t)r->width * sizeof *to);
     for (int i = -k->radius; i <= k->radius; i++) {
@@ -129,16 +131,18 @@ static void ssim_fill_row(struct ring *r, int y, const struct image *a, const st
     for (int plane = 0; plane < 5; plane++) {
         for (int x = 0; x < r->width; x++) {
             double u = luma(p + x * 4), v = luma(q + x * 4);
-            in[x] = plane == 0 ? u : plane == 1 ? v : plane == 2 ? u * u : plane == 3 ? v * v : u * v;
+            double moment[5] = {u, v, u * u, v * v, u * v};
+            in[x] = moment[plane];
         }
         ring_clamp_input(r);
         ring_convolve_x(r, y, plane, window);
     }
 }
 
-/* Mean over the windows that lie inside the picture, as in [Wang04]; along an edge shorter than a window
- * over all pixels, with the picture's edge repeated. */
-static bool mean_ssim(const struct image *a, const struct image *b, double *result, struct failure *f)
+/* Mean over the windows that lie inside the picture, as in [Wang04]; along an edge shorter than a
+ * window over all pixels, with the picture's edge repeated. */
+static bool mean_ssim(const struct image *a, const struct image *b, double *result,
+                      struct failure *f)
 {
     struct kernel window = {.radius = SSIM_RADIUS};
     double total = 0;
@@ -313,8 +317,8 @@ static void scale_kernel(struct kernel *k, double by)
         k->weight[i] *= by;
 }
 
-/* Feature detectors: a Gaussian and, times it, its first and second derivative, each scaled so that the
- * positive weights sum to 1 and the negative ones to -1. */
+/* Feature detectors: a Gaussian and, times it, its first and second derivative, each scaled so that
+ * the positive weights sum to 1 and the negative ones to -1. */
 static void feature_kernels(struct flip *p, double deviation, int radius)
 {
     double smooth_sum = 0, edge_sum = 0, positive = 0, negative = 0;
@@ -495,11 +499,8 @@ bool image_compare(const struct image *a, const struct image *b, double pixels_p
                    struct image_distance *out, struct failure *f)
 {
     *out = (struct image_distance){0};
-    if (a->width != b->width || a->height != b->height)
-        return fail(f, "pictures differ in size (%d x %d and %d x %d)", a->width, a->height, b->width,
-                    b->height);
-    if (a->rgba == NULL || b->rgba == NULL)
-        return fail(f, "picture is empty");
+    if (!image_check_same_size(a, b, f))
+        return false;
     if (!(pixels_per_degree >= 1 && pixels_per_degree <= 1000))
         return fail(f, "pixels per degree are outside 1..1000 (%g)", pixels_per_degree);
     double mse = mean_square_error(a, b);

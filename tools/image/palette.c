@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* palette.c - colour quantisation for GIF.
  *
- * Colours are compared in luma and two colour differences, all linear in sRGB codes, so that a mixture of
- * two colours lies on the line between them. The palette is a variance-based median cut of the frame's
- * histogram, refined by k-means. */
+ * Colours are compared in luma and two colour differences, all linear in sRGB codes, so that a
+ * mixture of two colours lies on the line between them. The palette is a variance-based median cut
+ * of the frame's histogram, refined by k-means. */
 #include "palette.h"
 
 #include <float.h>
@@ -19,8 +19,8 @@ enum {
 };
 
 static const float CHROMA_WEIGHT = 0.6f;        /* of colour differences against luma */
-static const float POPULATION_POWER = 0.7f;     /* below 1: rare colours count for more than their area */
-static const float NOISE_WEIGHT = 0.15f;        /* of a mixture's dots against its error in the mean */
+static const float POPULATION_POWER = 0.7f;     /* below 1: more for rare colours */
+static const float NOISE_WEIGHT = 0.15f;        /* of dots against error of their mean */
 
 struct point {
     float v[3];                 /* luma, weighted blue and red differences */
@@ -113,7 +113,8 @@ static int histogram(const struct marked_image *from, unsigned bits, struct cell
     return count;
 }
 
-/* Points begin .. end - 1; their summed squared distance from the mean, and the axis it is largest on. */
+/* Points begin .. end - 1; their summed squared distance from the mean, and the axis it is largest
+ * on. */
 struct box {
     int begin, end, axis;
     float mean[3];
@@ -162,7 +163,8 @@ static int split_box(const struct box *b, struct point *points)
     return low;
 }
 
-/* Splits the box of the largest spread until there are `limit` of them; returns how many there are. */
+/* Splits the box of the largest spread until there are `limit` of them; returns how many there are.
+ * */
 static int median_cut(struct point *points, int count, int limit, float center[256][3])
 {
     struct box box[256];
@@ -212,8 +214,8 @@ static int nearest_center(const float v[3], float center[256][3], int count, flo
     return best;
 }
 
-/* One round of k-means; returns the weighted error before it. A center that serves no point moves to the
- * point that is served worst. */
+/* One round of k-means; returns the weighted error before it. A center that serves no point moves
+ * to the point that is served worst. */
 static double refine(const struct point *points, int count, float center[256][3], int centers)
 {
     double sum[256][4] = {{0}}, error = 0;
@@ -233,8 +235,9 @@ static double refine(const struct point *points, int count, float center[256][3]
         sum[c][3] += (double)w;
     }
     for (int c = 0; c < centers; c++) {
+        bool used = sum[c][3] > 0;
         for (int k = 0; k < 3; k++)
-            center[c][k] = sum[c][3] > 0 ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
+            center[c][k] = used ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
     }
     return error;
 }
@@ -289,8 +292,8 @@ static const uint8_t pattern[8][8] = {
 
 /* The nearest entry n and the partner p that minimise
  *     |c - ((1 - t) n + t p)|^2 + q t (1 - t) |p - n|^2,
- * error of the mean plus q times the variance of the dots. With e = c - n and d = p - n the best share
- * is t = (e.d / d.d - q/2) / (1 - q), and it gains (2 e.d - q d.d)^2 / (4 (1 - q) d.d). */
+ * error of the mean plus q times the variance of the dots. With e = c - n and d = p - n the best
+ * share is t = (e.d / d.d - q/2) / (1 - q), and it gains (2 e.d - q d.d)^2 / (4 (1 - q) d.d). */
 static struct mixture find_mixture(const float v[3], float center[256][3], int count)
 {
     float distance;
@@ -311,7 +314,8 @@ static struct mixture find_mixture(const float v[3], float center[256][3], int c
     }
     unsigned dots = (unsigned)(share * 64 + 0.5f);
     dots = dots > 64 ? 64 : dots;
-    /* Always counting the brighter entry keeps the pattern when nearest and partner change places. */
+    /* Always counting the brighter entry keeps the pattern when nearest and partner change places.
+     * */
     if (center[partner][0] > center[nearest][0])
         return (struct mixture){0, (uint8_t)nearest, (uint8_t)partner, (uint8_t)dots};
     return (struct mixture){0, (uint8_t)partner, (uint8_t)nearest, (uint8_t)(64 - dots)};

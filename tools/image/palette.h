@@ -23,9 +23,9 @@ bool palette_exact(const struct marked_image *from, int limit, struct palette *o
  * palette. False without memory. */
 bool palette_choose(const struct marked_image *from, int limit, struct palette *out);
 
-/* The entry for every marked pixel: its own colour where the palette has it, else one of the two whose
- * mixture comes nearest, chosen by an 8 x 8 pattern that is fixed to the picture, so that what stands
- * still keeps its dots. Writes index[y * width + x]. False without memory. */
+/* The entry for every marked pixel: its own colour where the palette has it, else one of the two
+ * whose mixture comes nearest, chosen by an 8 x 8 pattern that is fixed to the picture, so that
+ * what stands still keeps its dots. Writes index[y * width + x]. False without memory. */
 bool palette_map(const struct marked_image *from, const struct palette *palette, uint8_t *index);
 
 #endif

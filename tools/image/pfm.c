@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* pfm.c - float pictures: depth, velocity and unclamped colour.
  *
- * A header of three lines, "Pf" (1 channel) or "PF" (3), the size, and a scale whose sign tells the byte
- * order (negative: little-endian); then the floats of IEEE 754, bottom row first. The size of the scale
- * has no agreed meaning and is ignored. Values may be infinite or NaN. */
+ * A header of three lines, "Pf" (1 channel) or "PF" (3), the size, and a scale whose sign tells the
+ * byte order (negative: little-endian); then the floats of IEEE 754, bottom row first. The size of
+ * the scale has no agreed meaning and is ignored. Values may be infinite or NaN. */
 #include "buffer.h"
 #include "image.h"
 
@@ -34,7 +34,8 @@ static bool read_word(const uint8_t **next, const uint8_t *end, char word[32])
 static bool read_edge(const uint8_t **next, const uint8_t *end, int *edge)
 {
     char word[32];
-    if (!read_word(next, end, word) || strspn(word, "0123456789") != strlen(word) || strlen(word) > 9)
+    if (!read_word(next, end, word) || strspn(word, "0123456789") != strlen(word) ||
+        strlen(word) > 9)
         return false;
     *edge = (int)strtol(word, NULL, 10);
     return true;
@@ -52,8 +53,8 @@ bool pfm_decode(const uint8_t *bytes, size_t size, struct float_image *out, stru
     if (!read_edge(&next, end, &width) || !read_edge(&next, end, &height) ||
         !read_word(&next, end, word))
         return fail(f, "file is damaged or ends early (header)");
-    if (width < 1 || width > IMAGE_MAX_EDGE || height < 1 || height > IMAGE_MAX_EDGE)
-        return fail(f, "picture size is outside 1..%d (%d x %d)", (int)IMAGE_MAX_EDGE, width, height);
+    if (!image_check_size(width, height, f))
+        return false;
     double scale = strtod(word, &rest);
     if (*rest != '\0' || !(scale < 0 || scale > 0))
         return fail(f, "scale is not a number other than zero (%s)", word);
@@ -86,8 +87,8 @@ bool pfm_encode(const struct float_image *image, uint8_t **bytes, size_t *size, 
     *size = 0;
     if (image->value == NULL)
         return fail(f, "picture is empty");
-    int length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", image->channels == 3 ? "PF" : "Pf",
-                          image->width, image->height);
+    int length = snprintf(header, sizeof header, "P%c\n%d %d\n-1.0\n",
+                          image->channels == 3 ? 'F' : 'f', image->width, image->height);
     size_t row_values = (size_t)image->width * (size_t)image->channels;
     buffer_append(&out, header, (size_t)length);
     if (!buffer_reserve(&out, row_values * (size_t)image->height * 4)) {

@@ -20,7 +20,8 @@ void png_chunk(struct buffer *out, const char *name, const void *data, size_t si
 void png_header_chunk(struct buffer *out, int width, int height, bool has_alpha);
 
 /* Appends the filtered and compressed pixels of an area, a zlib stream; false without memory. */
-bool png_compress(struct buffer *out, const struct image *image, struct png_area area, bool has_alpha);
+bool png_compress(struct buffer *out, const struct image *image, struct png_area area,
+                  bool has_alpha);
 
 bool png_is_opaque(const struct image *image);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* png_read.c - PNG files to pictures (ISO/IEC 15948): every colour type, depth and interlace.
  *
- * Strict where the file is damaged (checksums, order of chunks, pixels missing), silent about what a
- * picture does not need: ancillary chunks, among them gamma and profiles, are checked and skipped, so
- * codes come out as they are in the file. Of an APNG the default picture is read. */
+ * Strict where the file is damaged (checksums, order of chunks, pixels missing), silent about what
+ * a picture does not need: ancillary chunks, among them gamma and profiles, are checked and
+ * skipped, so codes come out as they are in the file. Of an APNG the default picture is read. */
 #include "inflate.h"
 #include "png.h"
 
@@ -16,7 +16,7 @@ struct reader {
     bool interlaced;
     uint8_t palette[256][4];
     unsigned palette_count;
-    bool has_key;               /* one colour is transparent: the samples below, in the file's depth */
+    bool has_key;               /* one colour is transparent; its samples, in the file's depth: */
     unsigned key[3];
     struct buffer packed;       /* all IDAT data */
 };
@@ -76,9 +76,10 @@ static bool read_header(struct reader *r, struct failure *f)
     if (!is_chunk(&c, "IHDR") || c.size != 13)
         return fail(f, "file is damaged (no IHDR chunk)");
     uint32_t width = be32(c.data), height = be32(c.data + 4);
-    if (width < 1 || width > IMAGE_MAX_EDGE || height < 1 || height > IMAGE_MAX_EDGE)
-        return fail(f, "picture size is outside 1..%d (%lu x %lu)", (int)IMAGE_MAX_EDGE,
-                    (unsigned long)width, (unsigned long)height);
+    if (width > INT32_MAX || height > INT32_MAX)
+        return fail(f, "file is damaged (picture size)");
+    if (!image_check_size((long)width, (long)height, f))
+        return false;
     r->width = (int)width;
     r->height = (int)height;
     r->depth = c.data[8];
@@ -194,7 +195,8 @@ struct pass {
 
 static const struct pass whole_picture[1] = {{0, 0, 1, 1}};
 static const struct pass adam7[7] = {
-    {0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2},
+    {0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+    {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2},
 };
 
 static size_t bits_per_pixel(const struct reader *r)
@@ -227,8 +229,8 @@ static size_t pass_size(const struct reader *r, struct pass p)
     return (size_t)pass_rows(r, p) * (pass_stride(r, p) + 1);
 }
 
-/* Undoes a row's filter in place; `up` is the finished row above, zeros for the first. `step` is the
- * distance in bytes to the pixel on the left. */
+/* Undoes a row's filter in place; `up` is the finished row above, zeros for the first. `step` is
+ * the distance in bytes to the pixel on the left. */
 static bool unfilter(unsigned filter, uint8_t *row, const uint8_t *up, size_t size, size_t step)
 {
     size_t first = step < size ? step : size;

@@ -76,7 +76,8 @@ static uint64_t row_cost(const uint8_t *row, size_t size)
 }
 
 /* Copies the area's row y as RGB or RGBA bytes. */
-static void copy_row(uint8_t *to, const struct image *image, struct png_area area, int y, size_t step)
+static void copy_row(uint8_t *to, const struct image *image, struct png_area area, int y,
+                     size_t step)
 {
     const uint8_t *from = image->rgba +
         ((size_t)(area.y + y) * (size_t)image->width + (size_t)area.x) * 4;
@@ -84,12 +85,14 @@ static void copy_row(uint8_t *to, const struct image *image, struct png_area are
         memcpy(to, from, step);
 }
 
-bool png_compress(struct buffer *out, const struct image *image, struct png_area area, bool has_alpha)
+bool png_compress(struct buffer *out, const struct image *image, struct png_area area,
+                  bool has_alpha)
 {
     size_t step = has_alpha ? 4 : 3;
     size_t size = (size_t)area.width * step, total = (size + 1) * (size_t)area.height;
-    /* Two candidates: rows as they are, best for flat colours and text, and each row with the filter of
-     * the least cost, best for everything smooth. Both are compressed, the smaller one is kept. */
+    /* Two candidates: rows as they are, best for flat colours and text, and each row with the
+     * filter of the least cost, best for everything smooth. Both are compressed, the smaller one is
+     * kept. */
     uint8_t *plain = malloc(total), *filtered = malloc(total);
     uint8_t *trial = malloc(size + 1), *zeros = calloc(size, 1);
     struct buffer a = {0}, b = {0};

@@ -29,8 +29,8 @@ static void skip_blanks(struct text *t)
     }
 }
 
-/* A decimal number up to 999999, which is more than any field may hold; false when there is none. The
- * character after it must not belong to a word. */
+/* A decimal number up to 999999, which is more than any field may hold; false when there is none.
+ * The character after it must not belong to a word. */
 static bool read_number(struct text *t, unsigned *value)
 {
     skip_blanks(t);
@@ -69,8 +69,8 @@ bool ppm_decode(const uint8_t *bytes, size_t size, struct image *out, struct fai
     t.next += 2;
     if (!read_number(&t, &width) || !read_number(&t, &height) || !read_number(&t, &largest))
         return fail(f, "file is damaged or ends early (header)");
-    if (width < 1 || width > IMAGE_MAX_EDGE || height < 1 || height > IMAGE_MAX_EDGE)
-        return fail(f, "picture size is outside 1..%d (%u x %u)", (int)IMAGE_MAX_EDGE, width, height);
+    if (!image_check_size((long)width, (long)height, f))
+        return false;
     if (largest < 1 || largest > 65535)
         return fail(f, "largest value is outside 1..65535 (%u)", largest);
     if (t.next == t.end || !is_space(*t.next))
