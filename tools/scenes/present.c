@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* present.c - from the floats of a scene to the integers of the library, by the rules of present.h. */
+/* present.c - from the floats of a scene to the integers of the library; present.h has the rules */
 #include "present.h"
 
 #include "present_surface.h"
@@ -316,7 +316,8 @@ static void fill_mesh(smear_mesh *mesh, const struct part *part, const struct pl
     if (shift < -32)                /* only where all vertices lie in one point */
         shift = -32;
     *mesh = (smear_mesh){ .position = part->position, .normal = part->normal, .uv = part->uv,
-                          .color = part->color, .index = part->index,
+                          .color = part->color, .face_color = part->face_color,
+                          .index = part->index,
                           .triangle_count = (uint32_t)part->triangle_count,
                           .vertex_count = (uint16_t)part->vertex_count, .shift = (int8_t)shift,
                           .uv_shift = (uint8_t)part->uv_shift, .scale = scale };

@@ -254,6 +254,7 @@ static void free_part(struct part *part)
     free(part->normal);
     free(part->uv);
     free(part->color);
+    free(part->face_color);
     free(part->index);
 }
 
@@ -306,6 +307,13 @@ static int find_copy(const struct builder *b, uint32_t vertex, const double move
     return copy;
 }
 
+static void encode_color(uint8_t out[4], const float linear[4])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = present_srgb_encode(linear[i]);
+    out[3] = present_byte(linear[3]);
+}
+
 /* Copies the part into arrays of the right size, converts its attributes, starts the next one. */
 static bool finish_part(struct builder *b, struct converted *c, int *room, struct failure *f)
 {
@@ -316,18 +324,22 @@ static bool finish_part(struct builder *b, struct converted *c, int *room, struc
         return false;
     struct part *part = &c->part[c->part_count++];      /* from here on, freed with the surface */
     bool textured = s->uv != NULL && s->material.image != NULL;
-    size_t vertices = (size_t)b->part.vertex_count, corners = (size_t)b->part.triangle_count * 3;
+    size_t vertices = (size_t)b->part.vertex_count, triangles = (size_t)b->part.triangle_count;
+    size_t corners = triangles * 3;
+    bool colored = s->color != NULL && s->face_color == NULL;
     *part = (struct part){ .vertex_count = b->part.vertex_count,
-                           .triangle_count = b->part.triangle_count };
+                           .triangle_count = b->part.triangle_count,
+                           .first_triangle = b->part.first_triangle };
     part->source = malloc(vertices * sizeof *part->source);
     part->index = malloc(corners * sizeof *part->index);
     part->position = malloc(vertices * 3 * sizeof *part->position);
     part->normal = s->normal != NULL ? malloc(vertices * 3 * sizeof *part->normal) : NULL;
     part->uv = textured ? malloc(vertices * 2 * sizeof *part->uv) : NULL;
-    part->color = s->color != NULL ? malloc(vertices * 4 * sizeof *part->color) : NULL;
+    part->color = colored ? malloc(vertices * 4) : NULL;
+    part->face_color = s->face_color != NULL ? malloc(triangles * 4) : NULL;
     if (part->source == NULL || part->index == NULL || part->position == NULL ||
         (s->normal != NULL && part->normal == NULL) || (textured && part->uv == NULL) ||
-        (s->color != NULL && part->color == NULL))
+        (colored && part->color == NULL) || (s->face_color != NULL && part->face_color == NULL))
         return out_of_memory(f);
     memcpy(part->source, b->part.source, vertices * sizeof *part->source);
     memcpy(part->index, b->part.index, corners * sizeof *part->index);
@@ -339,12 +351,14 @@ static bool finish_part(struct builder *b, struct converted *c, int *room, struc
         double x = s->uv[part->source[i / 2] * 2 + (i & 1)] + b->move[i];
         part->uv[i] = (int16_t)floor(ldexp(x, part->uv_shift) + 0.5);
     }
-    for (size_t i = 0; i < vertices * 4 && part->color != NULL; i++) {
-        float x = s->color[part->source[i / 4] * 4 + (i & 3)];
-        part->color[i] = (i & 3) == 3 ? present_byte(x) : present_srgb_encode(x);
-    }
+    for (size_t i = 0; i < vertices && colored; i++)
+        encode_color(part->color + i * 4, s->color + part->source[i] * 4);
+    for (size_t i = 0; i < triangles && part->face_color != NULL; i++)
+        encode_color(part->face_color + i * 4,
+                     s->face_color + ((size_t)part->first_triangle + i) * 4);
     for (size_t i = 0; i < vertices; i++)
         b->first[part->source[i]] = -1;
+    b->part.first_triangle += b->part.triangle_count;
     b->part.vertex_count = b->part.triangle_count = 0;
     return true;
 }

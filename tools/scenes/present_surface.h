@@ -31,7 +31,9 @@ struct part {
     int8_t *normal;
     int16_t *uv;
     uint8_t *color;
+    uint8_t *face_color;
     uint16_t *index;
+    int first_triangle;             /* of the surface: parts take its triangles in order */
     int uv_shift;
 };
 
