@@ -222,6 +222,27 @@ void build_ring(struct build *b, double radius, double thickness, int sides, int
         }
 }
 
+void build_loft(struct build *b, const struct vec3 *corner, int rings, int sides)
+{
+    uint32_t first = 0, n = (uint32_t)sides;
+    for (int i = 0; i < rings * sides; i++) {
+        uint32_t v = build_vertex(b, corner[i], vec3(0, 0, 0), 0, 0);
+        if (i == 0)
+            first = v;
+    }
+    for (int i = 0; i + 1 < rings; i++)
+        for (uint32_t k = 0; k < n; k++) {
+            uint32_t here = first + (uint32_t)i * n, next = here + n, k1 = (k + 1) % n;
+            build_triangle(b, here + k, here + k1, next + k1);
+            build_triangle(b, here + k, next + k1, next + k);
+        }
+    uint32_t last = first + (uint32_t)(rings - 1) * n;
+    for (uint32_t k = 1; k + 1 < n; k++) {
+        build_triangle(b, first, first + k + 1, first + k);
+        build_triangle(b, last, last + k, last + k + 1);
+    }
+}
+
 void build_field(struct build *b, double x0, double z0, double x1, double z1, int nx, int nz,
                  double (*height)(double x, double z))
 {

@@ -6,5 +6,6 @@
 #include "scene.h"
 
 bool peer_make(const char *name, struct scene *out, struct failure *f);
+bool demo_make(const char *name, struct scene *out, struct failure *f);
 
 #endif

@@ -5,6 +5,8 @@
 #include <string.h>
 
 const struct scene_entry scene_catalog[] = {
+    {"demo/race", "racing car chased by a drone, loops after 60 frames", demo_make},
+    {"demo/drone", "drone and passing car before a still camera, loops after 60 frames", demo_make},
     {"peer/A", "70,000 Gouraud triangles of a pixel", peer_make},
     {"peer/B64", "room with pillars, 64x64 texture", peer_make},
     {"peer/B256", "room with pillars, 256x256 texture", peer_make},

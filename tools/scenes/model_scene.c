@@ -39,7 +39,8 @@ static void model_scene_free(struct scene *scene)
     free(m);
 }
 
-/* A camera node may be scaled; a camera is a rotation. The view direction is kept, then the upright. */
+/* A camera node may be scaled; a camera is a rotation. The view direction is kept, then the
+ * upright. */
 static bool camera_from_node(const struct model_camera *camera, const double world[16],
                              struct scene_camera *out, struct failure *f)
 {
@@ -55,7 +56,8 @@ static bool camera_from_node(const struct model_camera *camera, const double wor
                                  .half_height = camera->ymag, .znear = camera->znear,
                                  .zfar = camera->zfar};
     memcpy(out->pose, pose.m, sizeof out->pose);
-    /* glTF lets an orthographic camera see from its own plane on; a near plane has to lie before it. */
+    /* glTF lets an orthographic camera see from its own plane on; a near plane has to lie before
+     * it. */
     if (!(out->znear > 0))
         out->znear = out->zfar > 0 ? out->zfar * 1e-4 : 1e-3;
     return true;
@@ -82,9 +84,9 @@ static bool model_scene_pose(struct scene *scene, double time, struct scene_inst
     for (int i = 0; i < pose->draw_count; i++) {
         const struct model_draw *from = &pose->draw[i];
         int surface = m->first[m->model->node[from->node].mesh] + from->primitive_of_mesh;
-        out->draw[i] = (struct scene_draw){.surface = &m->surface[surface], .position = from->position,
-                                           .normal = from->normal, .deformed = from->deformed,
-                                           .node = from->node};
+        out->draw[i] = (struct scene_draw){.surface = &m->surface[surface],
+                                           .position = from->position, .normal = from->normal,
+                                           .deformed = from->deformed, .node = from->node};
         memcpy(out->draw[i].world, from->world, sizeof from->world);
     }
 
@@ -136,7 +138,8 @@ static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure 
     return true;
 }
 
-/* Centre and half diagonal of the pose at t = 0. Where nothing is drawn, those of a unit sphere do. */
+/* Centre and half diagonal of the pose at t = 0. Where nothing is drawn, those of a unit sphere
+ * do. */
 static bool model_bounds(const struct model_scene *m, struct vec3 *centre, double *radius,
                          struct failure *f)
 {

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* peers.c - the scenes peer/A .. peer/N by which software rasterizers are compared: same geometry, same
- * frames, same texture as every other renderer that was measured. Frame k is the instant k/30.
+/* peers.c - the scenes peer/A .. peer/N by which software rasterizers are compared: same
+ * geometry, same frames, same texture as every other renderer that was measured. Frame k is the
+ * instant k/30.
  *
- * All of them: camera at the origin along -z, 60 degrees, near 0.25, far 64, unlit, clear (16, 24, 48); one
- * draw, whose model-view is T(t) Rx(ax) Ry(ay) T(p). Colours are given as display codes. */
+ * All of them: camera at the origin along -z, 60 degrees, near 0.25, far 64, unlit, clear (16,
+ * 24, 48); one draw, whose model-view is T(t) Rx(ax) Ry(ay) T(p). Colours are given as display
+ * codes. */
 #include "builtin.h"
 
 #include "build.h"
@@ -66,7 +68,8 @@ static uint32_t point(struct build *b, double x, double y, double z, double u, d
     return build_vertex(b, vec3(x, y, z), vec3(0, 0, 0), u, v);
 }
 
-/* nu x nv squares with four vertices each, over o + a i/nu + b j/nv; each shows the whole texture. */
+/* nu x nv squares with four vertices each, over o + a i/nu + b j/nv; each shows the whole
+ * texture. */
 static void patch(struct build *b, struct vec3 o, struct vec3 along, struct vec3 up, int nu, int nv)
 {
     for (int j = 0; j < nv; j++)
@@ -211,7 +214,8 @@ static void b_move(const struct stage *stage, double time, struct scene_instant 
     place(out, vec3(0, 0, 0), 0.18, 0.785398 + 0.06 * (time * 30 - 3.5), vec3(5.75, -2.3, -5.75));
 }
 
-/* ------------------------------------------------------------------ C: twenty layers over the whole screen */
+/* ------------------------------------------------------------------ C: twenty layers over the
+ * whole screen */
 
 static void c_build(struct stage *stage)
 {
@@ -235,7 +239,8 @@ static void c_move(const struct stage *stage, double time, struct scene_instant 
     place(out, vec3(0, 0, 0), 0, 0.004 * (time * 30), vec3(0, 0, 0));
 }
 
-/* ------------------------------------------------------------------ D: 51,200 flat triangles of a pixel or two */
+/* ------------------------------------------------------------------ D: 51,200 flat triangles of
+ * a pixel or two */
 
 enum { D_EDGE = 161 };
 
@@ -313,7 +318,8 @@ static void e_move(const struct stage *stage, double time, struct scene_instant 
     place(out, vec3(0, 0, -5), 0.02 * (time * 30), 0.03 * (time * 30), vec3(0, 0, 0));
 }
 
-/* ------------------------------------------------------------------ N: a floor that passes behind the camera */
+/* ------------------------------------------------------------------ N: a floor that passes
+ * behind the camera */
 
 static void n_build(struct stage *stage)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* scene.h - what is drawn, as a function of time, in floating point. Host only.
  *
- * Everything that draws on the host starts from a scene: files (scene_from_model), the built-in scenes of
- * tests, bench and demo (pure functions of time), and it ends in two places: present.h hands it to the library
- * in fixed point, tests/ref_*.c draws it in double precision. Both see the same floats. */
+ * Everything that draws on the host starts from a scene: files (scene_from_model), the built-in
+ * scenes of tests, bench and demo (pure functions of time), and it ends in two places: present.h
+ * hands it to the library in fixed point, tests/ref_*.c draws it in double precision. Both see
+ * the same floats. */
 #ifndef SMEAR_TOOLS_SCENE_H
 #define SMEAR_TOOLS_SCENE_H
 
@@ -23,16 +24,16 @@ struct scene_material {
     bool double_sided, unlit, bilinear;
 };
 
-/* Geometry that keeps its shape: a mesh at rest. A surface stays where it is in memory for as long as its
- * scene lives, so its address may serve as a key. */
+/* Geometry that keeps its shape: a mesh at rest. A surface stays where it is in memory for as
+ * long as its scene lives, so its address may serve as a key. */
 struct scene_surface {
     int vertex_count, triangle_count;
     const float *position;          /* 3 per vertex */
     const float *normal;            /* 3 per vertex, any length; or null: flat */
     const float *uv;                /* 2 per vertex, row 0 of the image is v = 0; or null */
     const float *color;             /* 4 per vertex, linear; or null */
-    const float *face_color;        /* 4 per triangle, linear: the whole triangle has it in place of vertex
-                                     * colours, `color` is then null; or null */
+    const float *face_color;        /* 4 per triangle, linear, in place of vertex colours
+                                     * (`color` is then null); or null */
     const uint32_t *index;          /* 3 per triangle, counter-clockwise in front */
     struct scene_material material;
 };
@@ -47,7 +48,7 @@ struct scene_draw {
     const float *normal;            /* posed; the surface's own when rigid */
     bool deformed;
     bool hidden;                    /* not in the scene at this instant (keeps its index) */
-    int epoch;                      /* a draw whose epoch differs between two instants was cut (teleported) */
+    int epoch;                      /* differs between two instants: the draw was cut (teleported) */
     int node;                       /* node of the model it comes from, or -1 */
 };
 
@@ -60,9 +61,9 @@ struct scene_camera {
     int epoch;                      /* differs between two instants: camera cut */
 };
 
-/* The scene at one instant. Zeroed before first use and owned by whoever asked; scene_pose reuses it, for one
- * scene only; free with scene_instant_free while the scene still lives. Every instant of a scene has the same
- * draws in the same order. */
+/* The scene at one instant. Zeroed before first use and owned by whoever asked; scene_pose
+ * reuses it, for one scene only; free with scene_instant_free while the scene still lives. Every
+ * instant of a scene has the same draws in the same order. */
 struct scene_instant {
     double time;
     struct scene_camera camera;
@@ -91,22 +92,24 @@ void scene_free(struct scene *scene);
 struct scene_view {                 /* the camera and clip options of the command line */
     int clip;                       /* index, MODEL_CLIP_NONE or MODEL_CLIP_ALL */
     bool loop;
-    int camera;                     /* index into model->camera, or -1: `eye` if has_eye, else the automatic one */
+    int camera;                     /* index into model->camera, or -1: `eye` if has_eye, else the
+                                     * automatic one */
     bool has_eye;
     double eye[3], look[3], fov_degrees;
     bool bilinear;
     double aspect;                  /* width / height, for the automatic camera */
 };
-/* The model must outlive the scene. The automatic camera is that of the command-line contract: bounds of the pose at
- * t = 0 with centre c and half diagonal r; yfov 45 degrees; eye = c + d normalise(0.5, 0.35, 1), d = r / sin(half the
- * smaller of yfov and xfov); near = max(d - 2r, d/100), far = d + 2r. With `eye`: near and far from the bounds as seen
- * from there. File cameras: xfov follows the aspect. */
+/* The model must outlive the scene. The automatic camera is that of the command-line contract:
+ * bounds of the pose at t = 0 with centre c and half diagonal r; yfov 45 degrees; eye = c + d
+ * normalise(0.5, 0.35, 1), d = r / sin(half the smaller of yfov and xfov); near = max(d - 2r,
+ * d/100), far = d + 2r. With `eye`: near and far from the bounds as seen from there. File
+ * cameras: xfov follows the aspect. */
 bool scene_from_model(const struct model *model, const struct scene_view *view, struct scene *out,
                       struct failure *f);
 
 /* --- built-in scenes, by name; see catalog.c for the list --- */
 struct scene_entry {
-    const char *name;               /* "peer/A", "suite/propeller", "test/fence", "demo/drone" ... */
+    const char *name;               /* "peer/A", "suite/propeller", "demo/race" ... */
     const char *what;               /* one line */
     bool (*make)(const char *name, struct scene *out, struct failure *f);
 };

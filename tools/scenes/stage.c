@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* stage.c - the life of a built-in scene: memory, instants, and the defaults that `move` starts from. */
+/* stage.c - the life of a built-in scene: memory, instants, and the defaults that `move` starts
+ * from. */
 #include "stage.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,6 +105,8 @@ static bool stage_pose(struct scene *scene, double time, struct scene_instant *o
                        struct failure *f)
 {
     const struct stage *stage = scene->data;
+    if (!(fabs(time) <= STAGE_MAX_SECONDS))
+        return fail(f, "built-in scenes end after %d seconds", STAGE_MAX_SECONDS);
     if (out->draw == NULL && !instant_alloc(stage, out))
         return fail(f, "out of memory");
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* stage.h - what every built-in scene is made of: surfaces built once, and a function that places them.
+/* stage.h - what every built-in scene is made of: surfaces built once, and a function that
+ * places them.
  *
- * A scene's file holds a table of stage_kind. `build` makes the surfaces (build.h) and lists the props;
- * `move` is a pure function of time that says where each prop is, and where the camera. */
+ * A scene's file holds a table of stage_kind. `build` makes the surfaces (build.h) and lists the
+ * props; `move` is a pure function of time that says where each prop is, and where the camera,
+ * for any time from -STAGE_MAX_SECONDS to STAGE_MAX_SECONDS. */
 #ifndef SMEAR_TOOLS_SCENES_STAGE_H
 #define SMEAR_TOOLS_SCENES_STAGE_H
 
@@ -11,7 +13,7 @@
 
 #include <stddef.h>
 
-enum { STAGE_MAX_PROPS = 128 };
+enum { STAGE_MAX_PROPS = 128, STAGE_MAX_SECONDS = 1000000 };
 
 struct stage;
 
@@ -21,14 +23,15 @@ struct stage_kind {
     double time;                    /* of the frame that stands for the scene */
     uint32_t clear;
     void (*build)(struct stage *stage);
-    /* `out` comes with every draw in place: its surface, the identity, visible, and room for the posed
-     * vertices of soft props (zeros); and with a camera of 60 degrees at the origin, near 0.25, far 64. */
+    /* `out` comes with every draw in place: its surface, the identity, visible, and room for the
+     * posed vertices of soft props (zeros); and with a camera of 60 degrees at the origin, near
+     * 0.25, far 64. */
     void (*move)(const struct stage *stage, double time, struct scene_instant *out);
 };
 
 struct stage_prop {
     const struct scene_surface *surface;
-    bool soft;                      /* deformed: `move` writes its position and, when lit smooth, normal */
+    bool soft;                      /* deformed: `move` writes positions and, if any, normals */
 };
 
 struct stage {
@@ -40,7 +43,8 @@ struct stage {
     bool failed;                    /* out of memory, or more props than fit */
 };
 
-/* Zeroed memory that lives as long as the stage; null when there is none, and then the stage has failed. */
+/* Zeroed memory that lives as long as the stage; null when there is none, and then the stage has
+ * failed. */
 void *stage_alloc(struct stage *stage, size_t bytes);
 
 /* Adds a draw and returns its index, which is the draw's index in every instant. */

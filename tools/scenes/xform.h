@@ -124,7 +124,8 @@ static inline struct vec3 xform_direction(struct xform a, struct vec3 d)
                 a.m[2] * d.x + a.m[6] * d.y + a.m[10] * d.z);
 }
 
-/* Normals go with the cofactors, so that they stay upright under uneven scale. Not of length one. */
+/* Normals go with the cofactors, so that they stay upright under uneven scale. Not of length
+ * one. */
 static inline struct vec3 xform_normal(struct xform a, struct vec3 n)
 {
     struct vec3 x = vec3(a.m[0], a.m[1], a.m[2]), y = vec3(a.m[4], a.m[5], a.m[6]);
@@ -133,8 +134,8 @@ static inline struct vec3 xform_normal(struct xform a, struct vec3 n)
                     vec3_scale(vec3_cross(x, y), n.z));
 }
 
-/* Camera to world: at `eye`, its -z towards `look`, its y as near to `up` as can be. When up is along the
- * view, the world's -z is up instead. eye and look must differ. */
+/* Camera to world: at `eye`, its -z towards `look`, its y as near to `up` as can be. When up is
+ * along the view, the world's -z is up instead. eye and look must differ. */
 static inline struct xform xform_look(struct vec3 eye, struct vec3 look, struct vec3 up)
 {
     struct vec3 z = vec3_unit(vec3_sub(eye, look));
