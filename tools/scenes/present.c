@@ -4,6 +4,7 @@
 
 #include "present_surface.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,8 @@
 #define NEAR_SLACK 128.0
 
 enum { NOW, OPEN, CLOSE, POSES };
+
+#define NOT_KEPT INT_MAX
 
 /* What one submitted draw points to. */
 struct slot {
@@ -49,6 +52,9 @@ struct presenter {
     int plan_room;
     struct plan *plan;
     int *converted_of_draw;         /* remembered from the frame before; -1 */
+    int *kept_exponent;             /* with keep_ids: of each draw's first frame; NOT_KEPT before */
+    bool is_kept;                   /* with keep_ids: the world is that of the first frame */
+    double kept_reference[3], kept_scale;
     int slot_room;
     struct slot **slot;
     smear_draw *draw;
@@ -176,54 +182,73 @@ static bool check_camera(const struct scene_camera *c, struct failure *f)
     return true;
 }
 
-/* Chooses world scale, near and far plane; all of them for this frame only. */
-static bool choose_world(struct presented *out, const struct scene_camera *camera,
-                         const struct reach *reach, struct failure *f)
+/* The planes between which things are drawn. Codes of an orthographic depth divide far - near
+ * evenly, so planes far beyond everything would waste them. */
+static void choose_planes(const struct scene_camera *camera, const struct reach *reach,
+                          double *near_plane, double *far_plane)
 {
-    double near_plane = camera->znear, far_plane = camera->zfar, back = 0.0;
-    double farthest = reach->farthest;
+    bool has_depth = reach->max_depth >= reach->min_depth;
+    *near_plane = camera->znear;
+    *far_plane = camera->zfar;
+    if (!camera->orthographic) {
+        while (has_depth && reach->min_depth > *near_plane * NEAR_SLACK)
+            *near_plane *= 2.0;
+        if (*far_plane > 0.0 && *near_plane > *far_plane / 2.0)
+            *near_plane = camera->znear;
+        return;
+    }
+    double thick = camera->half_height;
+    if (has_depth)
+        thick = fmax(reach->max_depth - reach->min_depth, camera->half_height / 64.0);
+    if (has_depth && (*far_plane == 0.0 || *far_plane - *near_plane > 4.0 * thick)) {
+        *near_plane = fmax(*near_plane, reach->min_depth - thick / 16.0);
+        double behind = fmax(reach->max_depth, *near_plane) + thick / 16.0;
+        *far_plane = *far_plane > 0.0 ? fmin(*far_plane, behind) : behind;
+    }
+    if (*far_plane <= *near_plane)
+        *far_plane = *near_plane + thick;
+}
+
+/* Chooses the world's scale, for this frame or, with `keep`, for the first and all after it. */
+static bool choose_world(struct presenter *p, bool keep, const struct reach *reach,
+                         struct failure *f)
+{
+    const struct scene_camera *camera = &p->instant[NOW].camera;
+    struct presented *out = &p->out;
+    double near_plane, far_plane, farthest = reach->farthest;
+    double room = keep && !p->is_kept ? WORLD_LIMIT / 4.0 : WORLD_LIMIT;    /* things will move */
     int exponent;                   /* world_scale = 2^exponent */
+    choose_planes(camera, reach, &near_plane, &far_plane);
     out->orthographic = camera->orthographic;
     if (camera->orthographic) {
-        /* Codes divide far - near evenly, so planes far beyond everything waste them. */
-        double thick = fmax(reach->max_depth - reach->min_depth, camera->half_height / 64.0);
-        bool has_depth = reach->max_depth >= reach->min_depth;
-        if (!has_depth)
-            thick = camera->half_height;
-        if (has_depth && (far_plane == 0.0 || far_plane - near_plane > 4.0 * thick)) {
-            near_plane = fmax(near_plane, reach->min_depth - thick / 16.0);
-            double behind = fmax(reach->max_depth, near_plane) + thick / 16.0;
-            far_plane = far_plane > 0.0 ? fmin(far_plane, behind) : behind;
-        }
-        if (far_plane <= near_plane)
-            far_plane = near_plane + thick;
         farthest = fmax(farthest, fmax(far_plane, camera->half_height * 4.0));
-        exponent = ilogb(WORLD_LIMIT / 2.0 / farthest);
-        back = ldexp(1.0, -exponent);       /* one unit, as the library wants near > 0 */
-        if (ldexp(near_plane, exponent) >= 1.0)
-            back = 0.0;
+        exponent = ilogb(room / 2.0 / farthest);
     } else {
-        while (reach->min_depth > near_plane * NEAR_SLACK && isfinite(reach->min_depth))
-            near_plane *= 2.0;
-        if (far_plane > 0.0 && near_plane > far_plane / 2.0)
-            near_plane = camera->znear;
         exponent = -ilogb(near_plane);
-        int most = farthest > 0.0 ? ilogb(WORLD_LIMIT / farthest) : exponent;
-        if (exponent > most)
-            exponent = most;
-        if (ldexp(near_plane, exponent) < NEAR_LIMIT)
-            return fail(f, "near plane %g and farthest vertex %g are too far apart for fixed point",
-                        near_plane, farthest);
-        /* nothing reaches the far plane: then it need not fit */
-        if (ldexp(far_plane, exponent) > WORLD_LIMIT)
-            far_plane = 0.0;
+        if (farthest > 0.0 && exponent > ilogb(room / farthest))
+            exponent = ilogb(room / farthest);
     }
+    if (keep && p->is_kept)
+        exponent = ilogb(p->kept_scale);
     if (exponent < -1000 || exponent > 1000)
         return fail(f, "the scene is too large or too small");
+    if (ldexp(farthest, exponent) > WORLD_LIMIT)
+        return fail(f, "things move %g away, too far for the scale of the first frame", farthest);
+    if (!camera->orthographic && ldexp(near_plane, exponent) < NEAR_LIMIT)
+        return fail(f, "near plane %g and farthest vertex %g are too far apart for fixed point",
+                    near_plane, farthest);
     out->world_scale = ldexp(1.0, exponent);
-    out->camera_back = back * out->world_scale;
+    /* the library wants near > 0: an orthographic camera may as well stand a unit farther back */
+    if (camera->orthographic && near_plane * out->world_scale < 1.0)
+        out->camera_back = 1.0;
     out->near_plane = near_plane * out->world_scale + out->camera_back;
     out->far_plane = far_plane > 0.0 ? far_plane * out->world_scale + out->camera_back : 0.0;
+    if (out->far_plane > WORLD_LIMIT)
+        out->far_plane = 0.0;       /* perspective: nothing is that far */
+    if (keep) {
+        p->kept_scale = out->world_scale;
+        p->is_kept = true;
+    }
     return true;
 }
 
@@ -367,10 +392,9 @@ static bool add_part(struct presenter *p, const struct converted *c, const struc
 }
 
 /* The draw at each pose; null where it is not known. Returns whether it was cut in between. */
-static bool draw_poses(const struct presenter *p, int index, bool has_close, bool has_open,
+static bool draw_poses(const struct presenter *p, int index, const bool has[POSES],
                        const struct scene_draw *pose[POSES])
 {
-    const bool has[POSES] = { true, has_open, has_close };
     bool cut = false;
     for (int i = 0; i < POSES; i++) {
         const struct scene_instant *instant = &p->instant[i];
@@ -409,7 +433,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
     *frame = (smear_frame){ .method = degrees == 0 ? SMEAR_NONE : (uint8_t)o->method,
                             .exposure = (uint8_t)o->exposure, .light = (uint8_t)o->light,
                             .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
-                            .cut = o->cut, .reconstruct = (uint8_t)o->reconstruct,
+                            .cut = o->cut || o->instant_only,
+                            .reconstruct = (uint8_t)o->reconstruct,
                             .samples = (uint16_t)o->samples, .shutter_degrees = (uint16_t)degrees,
                             .clear = o->clear };
     return true;
@@ -435,18 +460,33 @@ static bool pose_all(struct presenter *p, double time, const struct present_opti
 
 static bool per_draw_room(struct presenter *p, int count, struct failure *f)
 {
-    int room = p->plan_room;
+    int room = p->plan_room, kept_room = p->plan_room;
     if (count <= room)
         return true;
-    if (!grow((void **)&p->converted_of_draw, &room, count, sizeof *p->converted_of_draw, f))
+    if (!grow((void **)&p->converted_of_draw, &room, count, sizeof *p->converted_of_draw, f) ||
+        !grow((void **)&p->kept_exponent, &kept_room, count, sizeof *p->kept_exponent, f))
         return false;
-    for (int i = p->plan_room; i < room; i++)
+    for (int i = p->plan_room; i < room; i++) {
         p->converted_of_draw[i] = -1;
+        p->kept_exponent[i] = NOT_KEPT;
+    }
     return grow((void **)&p->plan, &p->plan_room, count, sizeof *p->plan, f);
 }
 
+/* A kept pose stays as it was given, so the basis of a draw must keep its scale. */
+static bool keep_exponent(struct presenter *p, int index, struct plan *plan, struct failure *f)
+{
+    int *kept = &p->kept_exponent[index];
+    if (*kept == NOT_KEPT)
+        *kept = plan->exponent;
+    if (plan->exponent - *kept > 6)
+        return fail(f, "a draw grows more than 64-fold (draw %d)", index);
+    plan->exponent = *kept;
+    return true;
+}
+
 /* What is drawn, with which poses and on which grid; deformed draws of one node share a grid. */
-static bool plan_draws(struct presenter *p, bool has_open, bool has_close, struct failure *f)
+static bool plan_draws(struct presenter *p, const bool has[POSES], bool keep, struct failure *f)
 {
     const struct scene_instant *now = &p->instant[NOW];
     for (int i = 0; i < now->draw_count; i++) {
@@ -457,9 +497,11 @@ static bool plan_draws(struct presenter *p, bool has_open, bool has_close, struc
         plan->drawn = !d->hidden && !c->invisible && c->part_count > 0;
         if (!plan->drawn)
             continue;
-        plan->cut = draw_poses(p, i, has_close, has_open, pose);
+        plan->cut = draw_poses(p, i, has, pose);
         plan->deformed = d->deformed;
         plan->exponent = common_exponent(pose);
+        if (keep && !d->deformed && !keep_exponent(p, i, plan, f))
+            return false;
         plan->grid = c->grid;
         plan->bounds = d->deformed ? empty_bounds : c->bounds;
         for (int j = 0; j < POSES; j++) {
@@ -496,6 +538,55 @@ static uint8_t motion_mode(uint8_t scene_motion)
                                                : SMEAR_MOTION_FULL;
 }
 
+static void reach_all(const struct presenter *p, const bool seen[POSES], const double reference[3],
+                      struct reach *reach)
+{
+    const struct scene_draw *pose[POSES];
+    *reach = (struct reach){ 0.0, INFINITY, -INFINITY };
+    for (int i = 0; i < POSES; i++)
+        if (seen[i])
+            reach->farthest =
+                fmax(reach->farthest, distance(p->instant[i].camera.pose + 12, reference));
+    for (int i = 0; i < p->instant[NOW].draw_count; i++) {
+        if (!p->plan[i].drawn)
+            continue;
+        draw_poses(p, i, seen, pose);
+        for (int j = 0; j < POSES; j++)
+            if (pose[j] != NULL)
+                reach_draw(reach, &p->plan[i], &p->plan[i].bounds, pose[j]->world, reference,
+                           &p->instant[j].camera);
+    }
+}
+
+static bool add_draws(struct presenter *p, const bool seen[POSES], const double reference[3],
+                      const struct present_options *o, struct failure *f)
+{
+    const struct scene_draw *pose[POSES];
+    uint32_t id = 0;
+    for (int i = 0; i < p->instant[NOW].draw_count; i++) {
+        const struct plan *plan = &p->plan[i];
+        const struct converted *c = &p->converted[p->converted_of_draw[i]];
+        bool has_motion = o->motion != NULL && i < o->motion_count;
+        uint8_t motion = has_motion ? motion_mode(o->motion[i]) : SMEAR_MOTION_FULL;
+        if (plan->drawn)
+            draw_poses(p, i, seen, pose);
+        for (int j = 0; j < c->part_count; j++) {
+            id++;                   /* hidden draws keep theirs */
+            if (!plan->drawn)
+                continue;
+            if (!add_part(p, c, &c->part[j], plan, pose, reference, motion, f))
+                return false;
+            smear_draw *draw = &p->draw[p->out.draw_count - 1];
+            if (o->keep_ids && !plan->deformed) {
+                draw->id = id;
+                draw->open = NULL;
+            }
+        }
+    }
+    p->out.draw = p->draw;
+    return true;
+}
+
 static bool present(struct presenter *p, double time, const struct present_options *o,
                     struct failure *f)
 {
@@ -505,9 +596,6 @@ static bool present(struct presenter *p, double time, const struct present_optio
         return false;
     const struct scene_instant *now = &p->instant[NOW];
     const bool has[POSES] = { true, !o->instant_only, out->frame.shutter_poses != 0 };
-    const double *reference = now->camera.pose + 12;
-    struct reach reach = { 0.0, INFINITY, -INFINITY };
-    const struct scene_draw *pose[POSES];
     for (int i = 0; i < POSES; i++) {
         const struct scene_camera *camera = &p->instant[i].camera;
         if (!has[i])
@@ -518,49 +606,31 @@ static bool present(struct presenter *p, double time, const struct present_optio
             out->frame.cut = 1;
     }
     if (!per_draw_room(p, now->draw_count, f) || !convert_new(p, now, f) ||
-        !plan_draws(p, has[OPEN], has[CLOSE], f))
+        !plan_draws(p, has, o->keep_ids, f))
         return false;
 
-    bool cut = out->frame.cut != 0;
-    for (int i = 0; i < POSES; i++)
-        if (has[i] && !cut)
-            reach.farthest =
-                fmax(reach.farthest, distance(p->instant[i].camera.pose + 12, reference));
-    for (int i = 0; i < now->draw_count; i++) {
-        if (!p->plan[i].drawn)
-            continue;
-        draw_poses(p, i, has[CLOSE] && !cut, has[OPEN] && !cut, pose);
-        for (int j = 0; j < POSES; j++)
-            if (pose[j] != NULL)
-                reach_draw(&reach, &p->plan[i], &p->plan[i].bounds, pose[j]->world, reference,
-                           &p->instant[j].camera);
+    /* after a cut the other poses mean nothing */
+    const bool moves = out->frame.cut == 0;
+    const bool seen[POSES] = { true, has[OPEN] && moves, has[CLOSE] && moves };
+    const double *reference = now->camera.pose + 12;
+    struct reach reach;
+    if (o->keep_ids) {
+        if (!p->is_kept)
+            memcpy(p->kept_reference, reference, sizeof p->kept_reference);
+        reference = p->kept_reference;
     }
-    if (!choose_world(out, &now->camera, &reach, f))
+    reach_all(p, seen, reference, &reach);
+    if (!choose_world(p, o->keep_ids, &reach, f))
         return false;
 
     for (int i = 0; i < POSES; i++)
-        if (has[i] && (i == NOW || !cut))
+        if (seen[i])
             fill_camera(&out->camera[i], &p->instant[i].camera, reference, out);
     out->frame.camera = &out->camera[NOW];
-    out->frame.open = has[OPEN] && !cut ? &out->camera[OPEN] : NULL;
-    out->frame.close = has[CLOSE] && !cut ? &out->camera[CLOSE] : NULL;
-    if (cut)
-        out->frame.shutter_poses = 0;
-
-    for (int i = 0; i < now->draw_count; i++) {
-        const struct plan *plan = &p->plan[i];
-        if (!plan->drawn)
-            continue;
-        const struct converted *c = &p->converted[plan->converted];
-        bool has_motion = o->motion != NULL && i < o->motion_count;
-        uint8_t motion = has_motion ? motion_mode(o->motion[i]) : SMEAR_MOTION_FULL;
-        draw_poses(p, i, has[CLOSE] && !cut, has[OPEN] && !cut, pose);
-        for (int j = 0; j < c->part_count; j++)
-            if (!add_part(p, c, &c->part[j], plan, pose, reference, motion, f))
-                return false;
-    }
-    out->draw = p->draw;
-    return true;
+    out->frame.open = seen[OPEN] && !o->keep_ids ? &out->camera[OPEN] : NULL;
+    out->frame.close = seen[CLOSE] ? &out->camera[CLOSE] : NULL;
+    out->frame.shutter_poses = out->frame.shutter_poses && moves;
+    return add_draws(p, seen, reference, o, f);
 }
 
 const struct presented *presenter_frame(struct presenter *presenter, double time,
@@ -739,6 +809,7 @@ void presenter_free(struct presenter *p)
     free(p->converted);
     free(p->plan);
     free(p->converted_of_draw);
+    free(p->kept_exponent);
     free(p->slot);
     free(p->draw);
     free(p);

@@ -22,7 +22,8 @@
  *   near plane  moved out by a power of two while everything is more than 128 times farther away;
  *               orthographic planes are drawn in to four times the depth of what there is
  *
- * All other poses are passed explicitly and every id is 0: the library keeps nothing. */
+ * All other poses are passed explicitly and every id is 0: the library keeps nothing. Only with
+ * keep_ids is it used as firmware uses it: see there. */
 #ifndef SMEAR_TOOLS_PRESENT_H
 #define SMEAR_TOOLS_PRESENT_H
 
@@ -46,6 +47,9 @@ struct present_options {
     smear_light light;
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
+    bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera a pose one
+                                     * frame ago: the library has kept it. Scale and reference of the
+                                     * world then stay those of the presenter's first frame */
     const uint8_t *motion;          /* enum scene_motion of each draw of the scene; null: full */
     int motion_count;               /* draws beyond it are full */
 };
