@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 static const double two_pi = 6.28318530717958647693;
-static const double center_bias = 1.01;
 static const double slowest = 1.0 / 16.0;       /* px: smallest speed that divides a weight */
 
 struct filter {
@@ -71,13 +70,14 @@ void filter_ref_tile_max(const struct filter_ref_input *in, int16_t *tile_max)
     }
 }
 
-static int sign(double value)
+static int sign(int value)
 {
-    return (value > 0.0) - (value < 0.0);
+    return (value > 0) - (value < 0);
 }
 
 /* Whether the tile at offset (dx, dy) may decide for this one. */
-static bool counts(const struct filter_ref_input *in, int dx, int dy, const double v[2])
+static bool counts(const struct filter_ref_input *in, int dx, int dy,
+                   const int16_t v[2])
 {
     if ((in->flags & SMEAR_CORNER) == 0 || dx == 0 || dy == 0)
         return true;
@@ -90,21 +90,21 @@ void filter_ref_neighbor_max(const struct filter_ref_input *in, const int16_t *t
     int columns = tiles(in->width, in->tile), rows = tiles(in->height, in->tile);
     double step = in->velocity_step != 0.0 ? in->velocity_step : 0.125;
     for (int i = 0; i < columns * rows; i++) {
-        double longest = -1.0;
+        int64_t longest = -1;
         for (int dy = -1; dy <= 1; dy++)
             for (int dx = -1; dx <= 1; dx++) {
                 int x = i % columns + dx, y = i / columns + dy;
                 if (x < 0 || y < 0 || x >= columns || y >= rows)
                     continue;
-                double bias = dx == 0 && dy == 0 ? center_bias : 1.0;
-                double shorten = in->whole_neighbor ? bias : center_bias;
-                const int16_t *at = tile_max + 2 * (y * columns + x);
-                double v[2] = { at[0] * step, at[1] * step };
-                double square = bias * bias * (v[0] * v[0] + v[1] * v[1]);
+                const int16_t *v = tile_max + 2 * (y * columns + x);
+                bool center = dx == 0 && dy == 0;
+                int64_t square = (int64_t)v[0] * v[0] + (int64_t)v[1] * v[1];
+                square *= center ? 10201 : 10000;       /* 1.01 squared, exactly */
                 if (square > longest && counts(in, dx, dy, v)) {
+                    double scale = center || in->whole_neighbor ? step : step / 1.01;
                     longest = square;
-                    neighbor_max[2 * i] = v[0] * bias / shorten;
-                    neighbor_max[2 * i + 1] = v[1] * bias / shorten;
+                    neighbor_max[2 * i] = v[0] * scale;
+                    neighbor_max[2 * i + 1] = v[1] * scale;
                 }
             }
     }
