@@ -11,7 +11,7 @@ struct animation_writer;
 
 struct animation_format {
     size_t size;                /* of the format's writer, whose first member is the common part */
-    bool (*begin)(struct animation_writer *w, struct failure *f);      /* writes the file's head */
+    bool (*begin)(struct animation_writer *w, struct failure *f);      /* with the file open */
     bool (*add)(struct animation_writer *w, const struct image *frame, int delay_ms,
                 struct failure *f);
     bool (*end)(struct animation_writer *w, struct failure *f);        /* writes the file's tail */
@@ -28,7 +28,7 @@ struct animation_writer {
     struct buffer bytes;        /* put together here, then written */
 };
 
-/* A writer of a format, zeroed, with its file open and the head written; or null. */
+/* A writer of a format, zeroed, with its file open; or null. */
 struct animation_writer *animation_begin(const struct animation_format *format, const char *path,
                                          int width, int height, struct failure *f);
 

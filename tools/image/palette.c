@@ -19,7 +19,7 @@ enum {
 };
 
 static const float CHROMA_WEIGHT = 0.6f;        /* of colour differences against luma */
-static const float POPULATION_POWER = 0.7f;     /* below 1: more for rare colours */
+static const float POPULATION_POWER = 0.85f;     /* below 1: more for rare colours */
 static const float NOISE_WEIGHT = 0.15f;        /* of dots against error of their mean */
 
 struct point {
