@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* obj.h - what the parts of the OBJ reader share; only obj*.c and model.c include it. */
+#ifndef SMEAR_TOOLS_OBJ_H
+#define SMEAR_TOOLS_OBJ_H
+
+#include "intern.h"
+#include "model.h"
+
+bool obj_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
+               struct failure *f);
+
+/* What a material needs besides struct model_material while pictures are not loaded yet. */
+struct mtl_material {
+    char *map;                  /* map_Kd's file name, or null */
+    float scale[2], offset[2];  /* of texture coordinates, v up */
+};
+
+/* Materials by name: number i in `names` is material[i] here and in the model. */
+struct mtl_library {
+    struct text_table names;
+    struct mtl_material *material;
+    int count, capacity;
+};
+
+/* Adds the materials of an .mtl file to the library and the model. */
+bool mtl_parse(const uint8_t *bytes, size_t size, struct mtl_library *library, struct model *model,
+               struct failure *f);
+/* The material of that name, added with default values when it is new; -1 when out of memory. */
+int mtl_find(struct mtl_library *library, struct model *model, const char *name);
+void mtl_library_free(struct mtl_library *library);
+
+#endif
