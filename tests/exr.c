@@ -50,7 +50,8 @@ static int plane_named(const char *name)
     return -1;
 }
 
-/* OpenEXRCore prints its errors unless it is given somewhere else to put them; the code it returns is enough. */
+/* OpenEXRCore prints its errors unless it is given somewhere else to put them; the code it returns
+ * is enough. */
 static void keep_quiet(exr_const_context_t context, exr_result_t code, const char *text)
 {
     (void)context;
@@ -94,8 +95,8 @@ static bool write_chunks(exr_context_t file, const struct exr_frame *frame, int 
             return false;
         for (int i = 0; i < encode->channel_count; i++) {
             exr_coding_channel_info_t *c = &encode->channels[i];
-            const float *row = frame->plane[plane_named(c->channel_name)] + (size_t)y * (size_t)frame->width;
-            c->encode_from_ptr = (const uint8_t *)row;
+            const float *plane = frame->plane[plane_named(c->channel_name)];
+            c->encode_from_ptr = (const uint8_t *)(plane + (size_t)y * (size_t)frame->width);
             c->user_bytes_per_element = (int16_t)sizeof(float);
             c->user_data_type = EXR_PIXEL_FLOAT;
             c->user_pixel_stride = (int32_t)sizeof(float);
@@ -153,7 +154,8 @@ static bool check_channels(exr_context_t file, struct failure *f)
         int plane = plane_named(entry->name.str);
         if (plane < 0)
             continue;
-        if (entry->pixel_type != EXR_PIXEL_FLOAT || entry->x_sampling != 1 || entry->y_sampling != 1)
+        if (entry->pixel_type != EXR_PIXEL_FLOAT || entry->x_sampling != 1
+            || entry->y_sampling != 1)
             return fail(f, "not a 32-bit float for every pixel (channel %s)", channel_name[plane]);
         found[plane] = true;
     }
@@ -163,7 +165,8 @@ static bool check_channels(exr_context_t file, struct failure *f)
     return true;
 }
 
-/* Reads the header and makes room for the planes it promises, if the file is long enough to keep the promise. */
+/* Reads the header and makes room for the planes it promises, if the file is long enough to keep
+ * the promise. */
 static bool read_header(exr_context_t file, long file_bytes, struct exr_frame *out, int *top,
                         struct failure *f)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* filter_ref.c - the reconstruction filter in double precision, written to be read beside filter_ref.h. */
+/* filter_ref.c - the reconstruction filter in double precision, written to be read beside
+ * filter_ref.h. */
 #include "filter_ref.h"
 
 #include "ref.h"
@@ -42,7 +43,7 @@ static int tiles(int pixels, int tile)
 void filter_ref_pack(const double velocity[2], double shutter_degrees, double reach, double step,
                      int16_t packed[2])
 {
-    double half[2] = { velocity[0] * shutter_degrees / 720.0, velocity[1] * shutter_degrees / 720.0 };
+    double share = shutter_degrees / 720.0, half[2] = { velocity[0] * share, velocity[1] * share };
     double length = hypot(half[0], half[1]);
     double scale = length > reach ? reach / length : 1.0;
     for (int i = 0; i < 2; i++)
@@ -132,8 +133,8 @@ static double in_front(const struct filter_ref_input *in, uint16_t a, uint16_t b
     return z_a > 0.0 ? clamp(20.0 * (z_a - z_b) / z_a, 0.0, 1.0) : 0.0;
 }
 
-static void second_direction(const struct filter_ref_input *in, const double own[2], const double top[2],
-                             double length, double out[2])
+static void second_direction(const struct filter_ref_input *in, const double own[2],
+                             const double top[2], double length, double out[2])
 {
     double speed = hypot(own[0], own[1]), long_enough = fmax(speed, 0.5);
     if ((in->flags & SMEAR_DIRECTION) != 0) {
@@ -178,7 +179,8 @@ static void gather(const struct filter *filter, int x, int y, const double top[2
 {
     const struct filter_ref_input *in = filter->in;
     size_t here = (size_t)y * (size_t)in->width + (size_t)x;
-    double own[2] = { in->velocity[2 * here] * filter->step, in->velocity[2 * here + 1] * filter->step };
+    const int16_t *packed = in->velocity + 2 * here;
+    double own[2] = { packed[0] * filter->step, packed[1] * filter->step };
     double speed = hypot(own[0], own[1]);
     double second[2];
     second_direction(in, own, top, length, second);

@@ -26,8 +26,10 @@ bool ref_is_edge(const struct ref_frame *frame, int x, int y)
     return !is_alike(frame, frame->triangle, x, y);
 }
 
-/* Which triangle the other picture shows; where it gives no ids, the reference's own if there is any. */
-static int32_t other_triangle(const struct ref_frame *frame, const struct ref_planes *planes, size_t at)
+/* Which triangle the other picture shows; where it gives no ids, the reference's own if there is
+ * any. */
+static int32_t other_triangle(const struct ref_frame *frame, const struct ref_planes *planes,
+                              size_t at)
 {
     if (planes->id_rgb != NULL)
         return ref_id_from_rgb(planes->id_rgb + 3 * at);
@@ -47,8 +49,8 @@ static void note_max(double value, double *max, int x, int y, int *max_x, int *m
     }
 }
 
-static void compare_depth(const struct ref_frame *frame, const struct ref_planes *planes, int x, int y,
-                          struct ref_difference *out)
+static void compare_depth(const struct ref_frame *frame, const struct ref_planes *planes, int x,
+                          int y, struct ref_difference *out)
 {
     size_t at = pixel(frame, x, y);
     double want = frame->depth[at], error = fabs((double)planes->depth[at] - want) / want;
@@ -72,8 +74,8 @@ static void compare_velocity(const struct ref_frame *frame, const struct ref_pla
              &out->velocity_y);
 }
 
-static void compare_color(const struct ref_frame *frame, const struct ref_planes *planes, int x, int y,
-                          struct ref_difference *out)
+static void compare_color(const struct ref_frame *frame, const struct ref_planes *planes, int x,
+                          int y, struct ref_difference *out)
 {
     size_t at = pixel(frame, x, y);
     for (size_t i = 0; i < 3; i++) {
@@ -125,6 +127,8 @@ void ref_compare(const struct ref_frame *frame, const struct ref_planes *planes,
                 compare_velocity(frame, planes, x, y, out);
         }
     }
-    out->velocity_rms = out->velocity_pixels > 0 ? sqrt(out->velocity_rms / out->velocity_pixels) : 0.0;
-    out->color_rms = colored > 0 ? sqrt(out->color_rms / (3.0 * colored)) : 0.0;
+    if (out->velocity_pixels > 0)
+        out->velocity_rms = sqrt(out->velocity_rms / out->velocity_pixels);
+    if (colored > 0)
+        out->color_rms = sqrt(out->color_rms / (3.0 * colored));
 }

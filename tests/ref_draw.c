@@ -6,9 +6,9 @@
  *   shading     once per pixel, from barycentrics that are linear in homogeneous screen coordinates
  *   blending    in submission order over the finished opaque picture
  *
- * Camera space here is x right, y up, d the distance along -Z. The homogeneous barycentrics are those of
- * Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates" (1997); they come from the
- * uncut triangle, so that clipping changes coverage only. */
+ * Camera space here is x right, y up, d the distance along -Z. The homogeneous barycentrics are
+ * those of Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates" (1997);
+ * they come from the uncut triangle, so that clipping changes coverage only. */
 #include "ref.h"
 
 #include <float.h>
@@ -38,7 +38,7 @@ struct record {
     int32_t id;
     int draw, triangle;
     bool flipped;               /* back face of a double-sided material */
-    struct plane corner[3];     /* homogeneous barycentric of each corner; their sum is 1/d, or 1 when orthographic */
+    struct plane corner[3];     /* homogeneous barycentrics; their sum is 1/d (orthographic: 1) */
     struct plane nearness;      /* 1/d, or -d when orthographic: greater is nearer */
     bool shaded;                /* the rest is filled in when first seen */
     double color[3][4];         /* working values at the corners */
@@ -127,7 +127,8 @@ static double plane_at(const struct plane *p, double x, double y)
     return p->a + p->bx * x + p->by * y;
 }
 
-/* The linear form n.(x, y, 1) of a camera ray's x/d and y/d (x and y when orthographic), over the screen. */
+/* The linear form n.(x, y, 1) of a camera ray's x/d and y/d (x and y when orthographic), over the
+ * screen. */
 static struct plane plane_of_rays(const struct view *v, struct vec3 n, double factor)
 {
     double s = factor / v->scale;
@@ -137,8 +138,8 @@ static struct plane plane_of_rays(const struct view *v, struct vec3 n, double fa
 
 /* ------------------------------------------------------------------ triangles */
 
-/* Keeps what has d >= limit (side +1) or d <= limit (side -1). New corners are made from the kept end towards
- * the cut one, so that triangles which share an edge share its cut. */
+/* Keeps what has d >= limit (side +1) or d <= limit (side -1). New corners are made from the kept
+ * end towards the cut one, so that triangles which share an edge share its cut. */
 static int clip(const struct vec3 *in, int count, struct vec3 *out, double limit, double side)
 {
     int kept = 0;
@@ -178,9 +179,10 @@ static struct record *record_add(struct painter *p, struct failure *f)
     return r;
 }
 
-/* Fills the planes of a triangle. Returns false for one that is seen edge on, or from behind and culled. */
-static bool record_set(struct record *r, const struct view *v, const struct vec3 c[3], bool mirrored,
-                       bool double_sided)
+/* Fills the planes of a triangle. Returns false for one that is seen edge on, or from behind and
+ * culled. */
+static bool record_set(struct record *r, const struct view *v, const struct vec3 c[3],
+                       bool mirrored, bool double_sided)
 {
     struct vec3 edge1 = subtract(c[1], c[0]), edge2 = subtract(c[2], c[0]);
     struct vec3 normal = cross(edge1, edge2);
@@ -291,9 +293,10 @@ static void shade_corners(const struct painter *p, struct record *r)
     }
 }
 
-/* The pose of a draw at another instant, or null when it has none there that belongs to this one. */
-static const struct scene_draw *counterpart(const struct painter *p, const struct scene_instant *other,
-                                            int index)
+/* The pose of a draw at another instant, or null when it has none there that belongs to this one.
+ * */
+static const struct scene_draw *counterpart(const struct painter *p,
+                                            const struct scene_instant *other, int index)
 {
     if (index >= other->draw_count)
         return NULL;
@@ -303,8 +306,9 @@ static const struct scene_draw *counterpart(const struct painter *p, const struc
 
 static void move_corners(const struct painter *p, struct record *r)
 {
-    enum scene_motion motion = p->options->motion == NULL ? SCENE_MOTION_FULL
-                                                          : p->options->motion[r->draw];
+    const struct ref_options *o = p->options;
+    int motion = o->motion != NULL && r->draw < o->motion_count ? o->motion[r->draw]
+                                                                : SCENE_MOTION_FULL;
     r->moves = p->open != NULL && !p->camera_cut && motion != SCENE_MOTION_NONE;
     if (!r->moves)
         return;
@@ -424,8 +428,8 @@ static void velocity_at(const struct painter *p, const struct record *r, const d
 
 /* ------------------------------------------------------------------ coverage */
 
-/* An edge of a convex polygon, kept from its lesser end so that both polygons which share it compute the
- * same number, one with the opposite sign. */
+/* An edge of a convex polygon, kept from its lesser end so that both polygons which share it
+ * compute the same number, one with the opposite sign. */
 struct edge {
     double x, y;                /* a point on it */
     double step_x, step_y;      /* inside is step_x (px - x) + step_y (py - y) > 0 */
@@ -472,9 +476,10 @@ static bool is_inside(const struct edge *edge, int count, double x)
     return true;
 }
 
-/* The covered pixels of row y between *left and *right, which come in as the bounds of the polygon. Each edge
- * function grows or falls along a row even in rounded arithmetic, so what is inside all of them is one run:
- * a crossing estimated by division is widened by two pixels and then narrowed by the exact test. */
+/* The covered pixels of row y between *left and *right, which come in as the bounds of the polygon.
+ * Each edge function grows or falls along a row even in rounded arithmetic, so what is inside all
+ * of them is one run: a crossing estimated by division is widened by two pixels and then narrowed
+ * by the exact test. */
 static bool row_span(struct edge *edge, int count, int y, int *left, int *right)
 {
     double first = *left, last = *right;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ref_id.c - a scene in which the colour of a pixel names its triangle. Wraps another scene: poses come from
- * it, surfaces are copied with a face colour per triangle and no light. */
+/* ref_id.c - a scene in which the colour of a pixel names its triangle. Wraps another scene: poses
+ * come from it, surfaces are copied with a face colour per triangle and no light. */
 #include "ref.h"
 
 #include <stdlib.h>
@@ -23,13 +23,14 @@ int32_t ref_id_from_rgb(const uint8_t rgb[3])
     return k - 1;
 }
 
-/* A surface of the inner scene in id colours. Handed-out surfaces stay where they are until the scene goes. */
+/* A surface of the inner scene in id colours. Handed-out surfaces stay where they are until the
+ * scene goes. */
 struct id_surface {
     struct scene_surface surface;
     const struct scene_surface *inner;
     int32_t first_id;
     float *face_color;
-    struct image mask;          /* white, with the alpha of the inner texture; empty when not cut out */
+    struct image mask;          /* white, with the inner texture's alpha; empty when not cut out */
     struct id_surface *next;
 };
 
@@ -109,7 +110,8 @@ static struct id_surface *surface_make(const struct scene_surface *inner, int32_
     return made;
 }
 
-static const struct scene_surface *surface_find(struct id_scene *ids, const struct scene_surface *inner,
+static const struct scene_surface *surface_find(struct id_scene *ids,
+                                                const struct scene_surface *inner,
                                                 int32_t first_id, struct failure *f)
 {
     for (struct id_surface *s = ids->surfaces; s != NULL; s = s->next)

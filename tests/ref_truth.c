@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* ref_truth.c - the mean of many sharp instants over an exposure; what every blur is measured against.
+/* ref_truth.c - the mean of many sharp instants over an exposure; what every blur is measured
+ * against.
  *
- * Instant k stands at (k + 0.5) / N of the exposure (box shutter), is posed by the scene itself and drawn by
- * ref_draw. Even and odd instants are summed apart, by one thread each or by one thread in turn, so that the
- * sum is the same number either way. */
+ * Instant k stands at (k + 0.5) / N of the exposure (box shutter), is posed by the scene itself and
+ * drawn by ref_draw. Even and odd instants are summed apart, by one thread each or by one thread in
+ * turn, so that the sum is the same number either way. */
 #include "ref.h"
 
 #include <math.h>

@@ -41,8 +41,9 @@ static void sheet_set(struct sheet *s)
         s->rgb[i] = (uint8_t)random_bits(&seed);
     for (size_t i = 0; i < PIXELS; i++)
         s->depth[i] = 20000;
-    s->in = (struct filter_ref_input){ .width = WIDTH, .height = HEIGHT, .rgb = s->rgb, .depth = s->depth,
-                                       .velocity = s->velocity, .tile = TILE, .samples = 8 };
+    s->in = (struct filter_ref_input){ .width = WIDTH, .height = HEIGHT, .rgb = s->rgb,
+                                       .depth = s->depth, .velocity = s->velocity, .tile = TILE,
+                                       .samples = 8 };
 }
 
 static void move_all(struct sheet *s, int vx, int vy)
@@ -83,11 +84,13 @@ static void test_a_still_picture_stays_as_it_is(void)
     CHECK(most == 0.0);
 }
 
-/* Whatever moves wherever, a mean of equal colours is that colour: no weight is negative or undefined. */
+/* Whatever moves wherever, a mean of equal colours is that colour: no weight is negative or
+ * undefined. */
 static void test_one_colour_stays_that_colour_whatever_moves(void)
 {
     static struct sheet s;
-    static const unsigned flags[6] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, 15 };
+    static const unsigned flags[6] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION,
+                                       15 };
     uint32_t seed = 99;
     sheet_set(&s);
     memset(s.rgb, 123, sizeof s.rgb);
@@ -107,8 +110,8 @@ static void test_one_colour_stays_that_colour_whatever_moves(void)
     }
 }
 
-/* All at (-10, 0) or (0, 10) px, one depth: every speed is 10, so the pixel at l along the velocity has weight
- * clamp(10 - l, 0, 1)/10 x (1.2 - t) and the centre 1.2/(20 n). */
+/* All at (-10, 0) or (0, 10) px, one depth: every speed is 10, so the pixel at l along the velocity
+ * has weight clamp(10 - l, 0, 1)/10 x (1.2 - t) and the centre 1.2/(20 n). */
 static void test_a_pan_is_the_sum_of_its_taps(void)
 {
     static struct sheet s;
@@ -121,12 +124,14 @@ static void test_a_pan_is_the_sum_of_its_taps(void)
         run(&s);
         for (int y = 15; y < 30; y++)
             for (int x = 15; x < 40; x++) {
-                double noise = filter_ref_noise(x, y), sum = 0.0, weights = 0.0;
+                double noise = filter_ref_noise(x, y), peak = box ? 1.0 : 1.2;
+                double sum = 0.0, weights = 0.0;
                 for (int i = -4; i <= 4; i++) {     /* 0 is the centre */
-                    double t = 1.0 - (abs(i) - 0.5) / 4.0, s_tap = 0.0, w = (box ? 1.0 : 1.2) / 80.0;
+                    double t = 1.0 - (abs(i) - 0.5) / 4.0, s_tap = 0.0, w = peak / 80.0;
                     if (i != 0) {
                         s_tap = (i < 0 ? -t : t) + (noise - 0.5) / 4.0;
-                        w = fmin(fmax(10.0 - 10.0 * fabs(s_tap), 0.0), 1.0) / 10.0 * (box ? 1.0 : 1.2 - t);
+                        w = fmin(fmax(10.0 - 10.0 * fabs(s_tap), 0.0), 1.0) / 10.0;
+                        w *= box ? 1.0 : 1.2 - t;
                     }
                     int u = along_y ? x : (int)floor(x + 0.5 - 10.0 * s_tap);
                     int v = along_y ? (int)floor(y + 0.5 + 10.0 * s_tap) : y;
@@ -134,8 +139,8 @@ static void test_a_pan_is_the_sum_of_its_taps(void)
                     sum += w * (encoded ? code : ref_srgb_decode(code));
                     weights += w;
                 }
-                double mean = sum / weights;
-                CHECK_CLOSE(s.code[3 * at(x, y) + 1], 255.0 * (encoded ? mean : ref_srgb_encode(mean)), 1e-6);
+                double mean = encoded ? sum / weights : ref_srgb_encode(sum / weights);
+                CHECK_CLOSE(s.code[3 * at(x, y) + 1], 255.0 * mean, 1e-6);
             }
     }
 }
@@ -191,7 +196,8 @@ static void test_a_fence_keeps_a_still_bar_and_blurs_what_moves_behind(void)
     }
 }
 
-/* A bar in front that moves spreads over the still wall, up to its own half length and no farther. */
+/* A bar in front that moves spreads over the still wall, up to its own half length and no farther.
+ * */
 static void test_a_moving_bar_spreads_by_its_own_length(void)
 {
     static struct sheet s;
@@ -264,8 +270,8 @@ static void test_neighbour_maximum_prefers_the_centre_and_skips_turned_away_corn
     CHECK(neighbor[2 * 0] == 0.0);          /* level motion points at no corner */
     tile_max[2 * 5 + 1] = 1;
     filter_ref_neighbor_max(&s.in, tile_max, neighbor);
-    CHECK_CLOSE(neighbor[2 * 0], 50.0, 1e-12);              /* down right: from the upper left ... */
-    CHECK_CLOSE(neighbor[2 * 10], 50.0, 1e-12);             /* ... to the lower right */
+    CHECK_CLOSE(neighbor[2 * 0], 50.0, 1e-12);              /* down right: from upper left */
+    CHECK_CLOSE(neighbor[2 * 10], 50.0, 1e-12);             /* to lower right */
     CHECK(neighbor[2 * 8] == 0.0 && neighbor[2 * 8 + 1] == 0.0);
 }
 
@@ -287,7 +293,8 @@ static void test_direction_rules_agree_on_a_pan(void)
     CHECK(change(&s, at(30, 20)) > 1.0);
 }
 
-/* A still pixel beside motion looks across it under SMEAR_DIRECTION: rows of one colour show that. */
+/* A still pixel beside motion looks across it under SMEAR_DIRECTION: rows of one colour show that.
+ * */
 static void test_direction_of_a_still_pixel_is_across_the_motion(void)
 {
     static struct sheet s;
@@ -299,7 +306,7 @@ static void test_direction_of_a_still_pixel_is_across_the_motion(void)
             s.velocity[2 * at(x, y)] = 80;
     run(&s);
     CHECK(change(&s, at(20, 20)) < 1e-9);
-    for (int y = 0; y < HEIGHT; y++)        /* near things that rush across, seen from the still ones */
+    for (int y = 0; y < HEIGHT; y++)        /* near things that rush by the still ones */
         for (int x = 20; x < 28; x++) {
             s.velocity[2 * at(x, y)] = 80;
             s.depth[at(x, y)] = 40000;
