@@ -86,7 +86,9 @@ bool pfm_save(const char *path, const struct float_image *image, struct failure 
  * GIF: one palette of up to 256 colours per frame, chosen for that frame; exact when the pixels
  * that change have at most 256 colours (255 when some inside their rectangle do not change), else
  * with an ordered dither. Delays are rounded to 10 ms, at least 20, so that the whole keeps its
- * length. Translucent pixels are shown on black. APNG: true colour with alpha, exact. */
+ * length. Translucent pixels are shown on black.
+ *
+ * APNG: true colour, exact. A frame with alpha fails unless the first one has alpha too. */
 struct animation_writer;
 struct animation_writer *gif_begin(const char *path, int width, int height, struct failure *f);
 struct animation_writer *apng_begin(const char *path, int width, int height, struct failure *f);

@@ -58,7 +58,7 @@ bool palette_exact(const struct marked_image *from, int limit, struct palette *o
     memset(out, 0, sizeof *out);
     for (size_t i = 0, n = pixel_count(from); i < n; i++, p += 4) {
         uint32_t color = (uint32_t)p[0] << 16 | (uint32_t)p[1] << 8 | p[2];
-        if (!from->mark[i] || color == last)
+        if ((from->mark != NULL && !from->mark[i]) || color == last)
             continue;
         last = color;
         uint32_t at = color * 2654435761u >> 22;

@@ -13,7 +13,7 @@ struct palette {
 /* A picture of which only the pixels with a non-zero mark count. */
 struct marked_image {
     const struct image *image;
-    const uint8_t *mark;        /* width x height */
+    const uint8_t *mark;        /* width x height; null: all count (palette_exact only) */
 };
 
 /* The colours of the marked pixels, when there are at most `limit` (1..256); else false. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* png_write.c - pictures to PNG files: 8-bit RGB, or RGBA when anything is transparent. */
 #include "deflate.h"
+#include "palette.h"
 #include "png.h"
 
 const uint8_t png_signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -90,9 +91,11 @@ bool png_compress(struct buffer *out, const struct image *image, struct png_area
 {
     size_t step = has_alpha ? 4 : 3;
     size_t size = (size_t)area.width * step, total = (size + 1) * (size_t)area.height;
-    /* Two candidates: rows as they are, best for flat colours and text, and each row with the
-     * filter of the least cost, best for everything smooth. Both are compressed, the smaller one is
-     * kept. */
+    /* Two candidates: rows as they are, which may be best for flat colours and text, and each row
+     * with the filter of the least cost, best for everything smooth. The smaller one is kept;
+     * pictures of many colours are spared the first, which is the slow one for them. */
+    struct palette palette;
+    bool try_plain = palette_exact(&(struct marked_image){image, NULL}, 256, &palette);
     uint8_t *plain = malloc(total), *filtered = malloc(total);
     uint8_t *trial = malloc(size + 1), *zeros = calloc(size, 1);
     struct buffer a = {0}, b = {0};
@@ -113,9 +116,9 @@ bool png_compress(struct buffer *out, const struct image *image, struct png_area
             }
         }
     }
-    ok = ok && deflate_zlib(plain, total, &a) && deflate_zlib(filtered, total, &b);
+    ok = ok && deflate_zlib(filtered, total, &a) && (!try_plain || deflate_zlib(plain, total, &b));
     if (ok) {
-        const struct buffer *smaller = a.size < b.size ? &a : &b;
+        const struct buffer *smaller = try_plain && b.size < a.size ? &b : &a;
         buffer_append(out, smaller->data, smaller->size);
         ok = !out->failed;
     }
