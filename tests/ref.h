@@ -29,6 +29,10 @@
 double ref_srgb_encode(double linear);
 double ref_srgb_decode(double encoded);
 
+/* A code rounded to nearest and clamped to 0..255. Halves go up, also those that rounded arithmetic
+ * has made smaller by less than 10^-6. */
+uint8_t ref_code(double code);
+
 /* ------------------------------------------------------------------ one sharp instant */
 
 /* Row by row from the top. */

@@ -20,3 +20,8 @@ double ref_srgb_decode(double encoded)
     double e = clamp_unit(encoded);
     return e <= 0.04045 ? e / 12.92 : pow((e + 0.055) / 1.055, 2.4);
 }
+
+uint8_t ref_code(double code)
+{
+    return (uint8_t)floor(255.0 * clamp_unit(code / 255.0) + 0.5 + 1e-6);
+}

@@ -777,7 +777,7 @@ bool ref_frame_image(const struct ref_frame *frame, struct image *out, struct fa
         for (size_t c = 0; c < 3; c++) {
             double value = frame->color[3 * i + c];
             double code = 255.0 * (frame->encoded ? value : ref_srgb_encode(value));
-            out->rgba[4 * i + c] = (uint8_t)floor(fmin(fmax(code, 0.0), 255.0) + 0.5);
+            out->rgba[4 * i + c] = ref_code(code);
         }
     return true;
 }

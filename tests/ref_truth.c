@@ -7,7 +7,6 @@
  * turn, so that the sum is the same number either way. */
 #include "ref.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,7 +82,7 @@ static bool truth_finish(struct ref_truth *out, const struct part part[PARTS], i
         double mean = (part[0].sum[i] + part[1].sum[i]) / instants;
         double code = 255.0 * (encoded ? mean : ref_srgb_encode(mean));
         out->code[i] = code;
-        out->image.rgba[i / 3 * 4 + i % 3] = (uint8_t)floor(fmin(fmax(code, 0.0), 255.0) + 0.5);
+        out->image.rgba[i / 3 * 4 + i % 3] = ref_code(code);
     }
     return true;
 }

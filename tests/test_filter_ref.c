@@ -145,6 +145,116 @@ static void test_a_pan_is_the_sum_of_its_taps(void)
     }
 }
 
+static double unit(double value)
+{
+    return fmin(fmax(value, 0.0), 1.0);
+}
+
+static double distance(const struct filter_ref_input *in, uint16_t code)
+{
+    double share = (double)smear_depth_units(code) / SMEAR_DEPTH_NEAR;
+    double range = in->far_plane - in->near_plane;
+    return in->orthographic ? in->far_plane - range * share : 1.0 / share;
+}
+
+/* Two taps around p, nothing else: p of speed `own` at one depth, the first tap at another, all
+ * else still and as deep as p. A fast pixel elsewhere in the tile makes the filter look 10 px to
+ * either side. */
+static void check_pair(int x, int y, int own, uint16_t first_depth, int first_speed,
+                       bool orthographic)
+{
+    static struct sheet s;
+    double noise = filter_ref_noise(x, y);
+    int first = (int)floor(x + 0.5 + 10.0 * noise);
+    int second = (int)floor(x + 0.5 + 10.0 * (noise - 1.0));
+    sheet_set(&s);
+    s.in.samples = 2;
+    s.in.encoded = true;
+    s.in.orthographic = orthographic;
+    s.in.near_plane = 2.0;
+    s.in.far_plane = 3.0;
+    s.velocity[2 * at(17, 17)] = 80;
+    s.velocity[2 * at(first, y)] = (int16_t)first_speed;
+    s.velocity[2 * at(x, y) + 1] = (int16_t)own;
+    s.depth[at(first, y)] = first_depth;
+    if (first == x || second == x)          /* p would be its own neighbour */
+        return;
+    run(&s);
+
+    double background = fmax(own / 8.0, 1.0), deep = distance(&s.in, s.depth[at(x, y)]);
+    double front = unit(20.0 * (deep - distance(&s.in, first_depth)) / deep);
+    double u = fmax(background + (first_speed / 8.0 - background) * front, 1.0 / 16.0);
+    double w1 = 0.7 * unit(u - 10.0 * noise) / u;
+    background = fmax(background, u);
+    double w2 = 0.7 * unit(background - 10.0 * (1.0 - noise)) / background;
+    double w0 = 1.2 / (2.0 * background);
+    for (size_t c = 0; c < 3; c++) {
+        double sum = w0 * s.rgb[3 * at(x, y) + c] + w1 * s.rgb[3 * at(first, y) + c]
+                   + w2 * s.rgb[3 * at(second, y) + c];
+        CHECK_CLOSE(s.code[3 * at(x, y) + c], sum / (w0 + w1 + w2), 1e-9);
+    }
+}
+
+static void test_a_pair_of_taps_is_weighed_by_depth_speed_and_order(void)
+{
+    for (int y = 20; y < 28; y++)
+        for (int x = 20; x < 28; x++) {
+            check_pair(x, y, 0, 20500, 80, false);      /* a little nearer: partly in front */
+            check_pair(x, y, 0, 60000, 80, false);
+            check_pair(x, y, 48, 60000, 0, false);      /* still, before what moves: nothing, */
+            check_pair(x, y, 48, 60000, 24, false);     /* but B keeps its speed */
+            check_pair(x, y, 48, 0, 80, false);
+            check_pair(x, y, 0, 33000, 80, true);
+            check_pair(x, y, 24, 32768, 72, true);
+        }
+}
+
+/* Own motion 6 px down, the tile's 10 px to the right: of two pairs the outer looks along the
+ * tile's and is too far away, the inner looks along the own. Only p's column is white. */
+static void test_the_outer_pair_takes_the_tile_s_direction_the_inner_its_own(void)
+{
+    static struct sheet s;
+    sheet_set(&s);
+    memset(s.rgb, 0, sizeof s.rgb);
+    s.in.samples = 4;
+    s.in.encoded = true;
+    s.velocity[2 * at(17, 17)] = 80;
+    s.velocity[2 * at(24, 24) + 1] = 48;
+    for (int y = 0; y < HEIGHT; y++)
+        if (y != 24)
+            memset(s.rgb + 3 * at(24, y), 255, 3);
+    run(&s);
+    double inner = 2.0 * 0.95 / 6.0, center = 1.2 / (2.0 * 6.0 * 2.0);
+    CHECK_CLOSE(s.code[3 * at(24, 24)], 255.0 * inner / (inner + center), 1e-9);
+    s.velocity[2 * at(24, 24) + 1] = 40;    /* half as fast: both pairs look along the tile's */
+    run(&s);
+    CHECK(s.code[3 * at(24, 24)] == 0.0);
+}
+
+/* All tiles but the last two columns move by 1.9 px, which is still; those have 2.5 px in reach. A
+ * pixel beside the border is blurred exactly when its jittered look-up lands beyond it. */
+static void test_the_tile_is_looked_up_a_quarter_tile_away(void)
+{
+    static struct sheet s;
+    int here = 0, there = 0;
+    sheet_set(&s);
+    move_all(&s, 15, 0);
+    s.velocity[2 * at(50, 20)] = 20;
+    run(&s);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 20; x < 40; x++) {
+            double noise = filter_ref_noise(x, y);
+            double angle = 6.28318530717958647693 * filter_ref_noise(x + 2 * WIDTH, y);
+            bool beyond = x + 0.5 + 4.0 * cos(angle) >= 32.0;
+            if (fabs(noise - 0.5) > 0.2)    /* a tap might be the pixel itself */
+                continue;
+            CHECK_EQ(change(&s, at(x, y)) > 0.0, beyond);
+            here += !beyond && x >= 32;
+            there += beyond && x < 32;
+        }
+    CHECK(here > 0 && there > 0);
+}
+
 static void test_samples_beyond_half_the_length_change_nothing(void)
 {
     static struct sheet s, more;
@@ -193,6 +303,19 @@ static void test_a_fence_keeps_a_still_bar_and_blurs_what_moves_behind(void)
             }
         CHECK(fence ? bar < 1e-9 : bar > 1.0);
         CHECK(wall > 20.0);
+    }
+    for (int steps = 4; steps <= 5; steps++) {          /* up to half a pixel is still */
+        double bar = 0.0;
+        fence_set(&s);
+        s.in.flags = SMEAR_FENCE;
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 26; x < 34; x++)
+                s.velocity[2 * at(x, y) + 1] = (int16_t)steps;
+        run(&s);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 26; x < 34; x++)
+                bar = fmax(bar, change(&s, at(x, y)));
+        CHECK(steps == 4 ? bar < 1e-9 : bar > 1.0);
     }
 }
 
@@ -380,6 +503,9 @@ void suite_filter_ref(void)
     RUN(test_a_still_picture_stays_as_it_is);
     RUN(test_one_colour_stays_that_colour_whatever_moves);
     RUN(test_a_pan_is_the_sum_of_its_taps);
+    RUN(test_a_pair_of_taps_is_weighed_by_depth_speed_and_order);
+    RUN(test_the_outer_pair_takes_the_tile_s_direction_the_inner_its_own);
+    RUN(test_the_tile_is_looked_up_a_quarter_tile_away);
     RUN(test_samples_beyond_half_the_length_change_nothing);
     RUN(test_a_fence_keeps_a_still_bar_and_blurs_what_moves_behind);
     RUN(test_a_moving_bar_spreads_by_its_own_length);

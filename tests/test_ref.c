@@ -713,6 +713,26 @@ static void test_half_covered_white_is_188_in_linear_light_and_128_encoded(void)
     }
 }
 
+/* Two instants stand at a quarter and three quarters of the exposure. */
+static void test_instants_stand_in_the_middle_of_their_share(void)
+{
+    float position[12];
+    struct scene_surface surface;
+    struct slide slide = edge_slide(position, &surface);
+    struct scene scene = scene_of(&slide);
+    struct ref_truth_options options = { .shutter_degrees = 180.0, .instants = 2, .encoded = true };
+    struct ref_truth truth;
+    struct failure f = {{0}};
+    position[6] = position[9] += 0.25f;     /* at 20.75, so from 16.75 to 24.75 */
+    if (!CHECK(ref_truth(&scene, &options, &truth, &f)))
+        return;
+    for (int x = 0; x < SIZE; x++) {
+        int want = x + 0.5 < 18.75 ? 255 : x + 0.5 < 22.75 ? 128 : 0;
+        CHECK_EQ(truth.image.rgba[4 * at(x, 9)], want);
+    }
+    ref_truth_free(&truth);
+}
+
 /* The first column that is not black and the first that is not white say where the edge went. */
 static void test_the_exposure_lies_before_around_or_after_the_frame(void)
 {
@@ -972,6 +992,7 @@ void suite_ref(void)
     RUN(test_cutouts_show_what_lies_behind_with_its_depth);
     RUN(test_blended_draws_mix_after_everything_opaque);
     RUN(test_half_covered_white_is_188_in_linear_light_and_128_encoded);
+    RUN(test_instants_stand_in_the_middle_of_their_share);
     RUN(test_the_exposure_lies_before_around_or_after_the_frame);
     RUN(test_truth_does_not_depend_on_threads);
     RUN(test_impossible_requests_fail_with_nothing_kept);
