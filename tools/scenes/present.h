@@ -47,9 +47,9 @@ struct present_options {
     smear_light light;
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
-    bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera a pose one
-                                     * frame ago: the library has kept it. Scale and reference of the
-                                     * world then stay those of the presenter's first frame */
+    bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera get an
+                                     * earlier pose: the library has kept it. Scale and reference of
+                                     * the world stay those of the presenter's first frame */
     const uint8_t *motion;          /* enum scene_motion of each draw of the scene; null: full */
     int motion_count;               /* draws beyond it are full */
 };

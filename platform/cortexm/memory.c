@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* memory.c - the four functions that a compiler calls even where there is no C library. Word by
+ * word where both sides are aligned, as nearly all calls are. */
+#include <stddef.h>
+#include <stdint.h>
+
+/* else gcc turns these loops into calls of themselves */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize ("no-tree-loop-distribute-patterns")
+#endif
+
+void *memcpy(void *restrict to, const void *restrict from, size_t count);
+void *memmove(void *to, const void *from, size_t count);
+void *memset(void *to, int value, size_t count);
+int memcmp(const void *a, const void *b, size_t count);
+
+typedef uint32_t __attribute__((may_alias)) word;
+
+void *memcpy(void *restrict to, const void *restrict from, size_t count)
+{
+    uint8_t *byte = to;
+    const uint8_t *source = from;
+    if ((((uintptr_t)to | (uintptr_t)from) & 3) == 0) {
+        word *w = (word *)to;
+        const word *s = (const word *)from;
+        for (; count >= 16; count -= 16) {
+            word a = s[0], b = s[1], c = s[2], d = s[3];
+            w[0] = a;
+            w[1] = b;
+            w[2] = c;
+            w[3] = d;
+            w += 4;
+            s += 4;
+        }
+        for (; count >= 4; count -= 4)
+            *w++ = *s++;
+        byte = (uint8_t *)w;
+        source = (const uint8_t *)s;
+    }
+    while (count-- != 0)
+        *byte++ = *source++;
+    return to;
+}
+
+void *memmove(void *to, const void *from, size_t count)
+{
+    uint8_t *byte = to;
+    const uint8_t *source = from;
+    if ((uintptr_t)to - (uintptr_t)from >= count)
+        return memcpy(to, from, count);
+    while (count-- != 0)
+        byte[count] = source[count];
+    return to;
+}
+
+void *memset(void *to, int value, size_t count)
+{
+    uint8_t *byte = to;
+    for (; count != 0 && ((uintptr_t)byte & 3) != 0; count--)
+        *byte++ = (uint8_t)value;
+    word *w = (word *)(void *)byte, fill = (uint8_t)value * 0x01010101u;
+    for (; count >= 16; count -= 16) {
+        w[0] = fill;
+        w[1] = fill;
+        w[2] = fill;
+        w[3] = fill;
+        w += 4;
+    }
+    for (; count >= 4; count -= 4)
+        *w++ = fill;
+    byte = (uint8_t *)w;
+    while (count-- != 0)
+        *byte++ = (uint8_t)value;
+    return to;
+}
+
+int memcmp(const void *a, const void *b, size_t count)
+{
+    const uint8_t *x = a, *y = b;
+    for (; count != 0; count--, x++, y++)
+        if (*x != *y)
+            return *x - *y;
+    return 0;
+}

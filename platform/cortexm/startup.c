@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* startup.c - from reset to main on any Cortex-M, without a C library. */
+#include "semihost.h"
+
+#include <stdint.h>
+
+/* From sections.ld. */
+extern uint32_t link_data_load[], link_data_start[], link_data_end[];
+extern uint32_t link_bss_start[], link_bss_end[], link_stack_top[];
+
+enum { FAULT_STATUS = 99, MAX_ARGUMENTS = 8, COMMAND_LINE_BYTES = 128 };
+
+int main(int argc, char **argv);
+
+void reset_handler(void);
+void fault_handler(void);
+
+/* Splits the command line at spaces; the emulator puts the program's name first. */
+static int split_arguments(char *line, char **argument)
+{
+    int count = 0;
+    while (*line != '\0' && count < MAX_ARGUMENTS) {
+        while (*line == ' ')
+            *line++ = '\0';
+        if (*line == '\0')
+            break;
+        argument[count++] = line;
+        while (*line != '\0' && *line != ' ')
+            line++;
+    }
+    argument[count] = NULL;
+    return count;
+}
+
+void reset_handler(void)
+{
+    static char line[COMMAND_LINE_BYTES];
+    static char *argument[MAX_ARGUMENTS + 1];
+    const uint32_t *from = link_data_load;
+    for (uint32_t *to = link_data_start; to < link_data_end; to++)
+        *to = *from++;
+    for (uint32_t *to = link_bss_start; to < link_bss_end; to++)
+        *to = 0;
+    int count = semihost_command_line(line, sizeof line) ? split_arguments(line, argument) : 0;
+    semihost_exit(main(count, argument));
+}
+
+void fault_handler(void)
+{
+    semihost_print("fault\n");
+    semihost_exit(FAULT_STATUS);
+}
+
+union vector {
+    uint32_t *stack;
+    void (*handler)(void);
+};
+
+/* The first sixteen are the architecture's; no interrupt of a device is used. */
+__attribute__((section(".vectors"), used))
+static const union vector vectors[16] = {
+    { .stack = link_stack_top },
+    { .handler = reset_handler },
+    { .handler = fault_handler },       /* NMI */
+    { .handler = fault_handler },       /* HardFault */
+    { .handler = fault_handler },       /* MemManage */
+    { .handler = fault_handler },       /* BusFault */
+    { .handler = fault_handler },       /* UsageFault */
+    { 0 }, { 0 }, { 0 }, { 0 },
+    { .handler = fault_handler },       /* SVCall */
+    { 0 }, { 0 },
+    { .handler = fault_handler },       /* PendSV */
+    { .handler = fault_handler }        /* SysTick */
+};

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: MIT
+# This machine.
+CC ?= cc
+AR ?= ar
+
+CFLAGS += -D_POSIX_C_SOURCE=200809L
+
+PLATFORM_SRC := platform/host/platform.c
+
+RUN       :=
+RUN_BENCH :=

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/* target_golden.c - draws every golden frame: the library gives the same bits on every target.
+ *
+ * Prints a line `TAPE FRAME CRC` per frame, what is wrong beside it, and a summary. Fails on a
+ * wrong or unknown CRC, on an error of the library, and when nothing was drawn. A tape too large
+ * for the machine is skipped, and that is said. With the argument `list` the lines are all it
+ * prints: tests/golden.txt. */
+#include "../platform/platform.h"
+#include "play.h"
+#include "target_print.h"
+
+#include <stdbool.h>
+
+struct tally {
+    uint32_t right, wrong, skipped;
+};
+
+static void print_frame(const struct tape *tape, int frame, uint32_t crc)
+{
+    platform_print(tape->name);
+    platform_print(" ");
+    print_signed(frame);
+    platform_print(" ");
+    print_hex(crc);
+}
+
+static void play_tape(const struct tape *tape, bool is_list, struct tally *tally)
+{
+    struct player player;
+    smear_stats stats;
+    size_t room, need = play_memory(tape);
+    void *arena = platform_arena(&room);
+    if (need > room) {
+        platform_print("# ");
+        platform_print(tape->name);
+        platform_print(" skipped: needs ");
+        print_decimal((uint32_t)need);
+        platform_print(" bytes\n");
+        tally->skipped++;
+        return;
+    }
+    /* exactly as much as it asks for, so that an overrun is not into its own slack */
+    int result = need == 0 ? SMEAR_ERR_ARG : play_start(&player, tape, arena, need, NULL);
+    for (int i = 0; i < tape->frame_count && result == SMEAR_OK; i++) {
+        result = play_frame(&player, i, &stats);
+        if (result != SMEAR_OK)
+            break;
+        print_frame(tape, i, stats.crc32);
+        bool is_right = tape->crc != NULL && tape->crc[i] == stats.crc32;
+        if (is_right)
+            tally->right++;
+        else
+            tally->wrong++;
+        if (!is_right && !is_list) {
+            platform_print(tape->crc != NULL ? " WRONG, want " : " NOT KNOWN");
+            if (tape->crc != NULL)
+                print_hex(tape->crc[i]);
+        }
+        platform_print("\n");
+    }
+    if (result != SMEAR_OK) {
+        platform_print("# ");
+        platform_print(tape->name);
+        platform_print(" ERROR ");
+        print_signed(result);
+        platform_print("\n");
+        tally->wrong++;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    struct tally tally = { 0, 0, 0 };
+    bool is_list = argc > 1 && is_text(argv[1], "list");
+    for (int i = 0; i < tape_count; i++)
+        play_tape(tape_list[i], is_list, &tally);
+    if (is_list)
+        return 0;
+    platform_print("golden frames: ");
+    print_decimal(tally.right);
+    platform_print(" right, ");
+    print_decimal(tally.wrong);
+    platform_print(" wrong, ");
+    print_decimal(tally.skipped);
+    platform_print(" tapes skipped\n");
+    return tally.wrong != 0 || tally.right == 0;
+}

@@ -1,0 +1,76 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# target_objects.sh BUILD-FOLDER [SOURCE...]
+# Compiles the library (src/*.c and src/*/*.c, or the sources given) for Cortex-M0+ at -Os and checks
+# the objects: nothing undefined but what a freestanding target always has, so neither floating
+# point nor 64-bit division; no writable data. Compiles them for the host, too: general registers
+# only, no header but the compiler's own. Prints the size of code and tables. CODE_LIMIT=BYTES makes
+# larger code fail.
+set -u
+if [ $# -lt 1 ]; then
+    echo "usage: target_objects.sh BUILD-FOLDER [SOURCE...]" >&2
+    exit 2
+fi
+out=$1
+shift
+if [ $# -eq 0 ]; then
+    for file in src/*.c src/*/*.c; do
+        [ -f "$file" ] && set -- "$@" "$file"
+    done
+fi
+arm=${ARM_CC:-arm-none-eabi-gcc}
+host=${HOST_CC:-gcc}
+common="-std=c11 -ffreestanding -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc"
+own_headers="-nostdinc -isystem $($arm -print-file-name=include)"
+host_headers="-nostdinc -isystem $($host -print-file-name=include)"
+mkdir -p "$out"
+objects=
+status=0
+for source in "$@"; do
+    object=$out/$(echo "$source" | tr / _ | sed 's/\.c$/.o/')
+    # shellcheck disable=SC2086
+    $arm $common $own_headers -mcpu=cortex-m0plus -mthumb -Os -ffunction-sections -fdata-sections \
+        -fno-common -c -o "$object" "$source" || status=1
+    # shellcheck disable=SC2086
+    $host $common $host_headers -mgeneral-regs-only -O1 -c -o "$out/host.o" "$source" || status=1
+    objects="$objects $object"
+done
+[ $status -eq 0 ] || exit 1
+
+# 32-bit division, 64-bit products, shifts and comparisons, switch tables, and filling and copying
+allowed='^(__aeabi_u?idiv(mod)?|__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)|__gnu_thumb1_case_[a-z]+'
+allowed="$allowed|memcpy|memset|__aeabi_mem(cpy|set|clr)[48]?)\$"
+# shellcheck disable=SC2086
+arm-none-eabi-ld -r -o "$out/all.o" $objects || exit 1
+foreign=$(arm-none-eabi-nm -u "$out/all.o" | awk '{ print $NF }' | sort -u | grep -Ev "$allowed")
+if [ -n "$foreign" ]; then
+    echo "target_objects.sh: the library needs what it must not:" >&2
+    # shellcheck disable=SC2086
+    for symbol in $foreign; do
+        arm-none-eabi-nm -A -u $objects | awk -v s="$symbol" '$NF == s { print "  " s, $1 }' >&2
+    done
+    status=1
+fi
+
+# shellcheck disable=SC2086
+arm-none-eabi-size -A $objects | awk -v limit="${CODE_LIMIT:-0}" '
+    / :$/                           { file = $1; sub(/^.*\//, "", file)
+                                      is_table = file ~ /tables\.o/ }
+    $1 ~ /^\.text/                  { code[file] += $2; if (!is_table) total += $2 }
+    $1 ~ /^\.rodata/                { data[file] += $2
+                                      if (is_table) tables += $2; else constants += $2 }
+    $1 ~ /^\.(data|bss)/ && $2 > 0  { print "target_objects.sh: writable data: " file, $1, $2
+                                      bad = 1 }
+    END {
+        for (file in code) if (code[file] + data[file] > 0)
+            printf "%-32s %6d code %6d constants\n", file, code[file], data[file] | "sort"
+        close("sort")
+        printf "%-32s %6d code %6d constants, %d tables (Cortex-M0+, -Os)\n", "in all but tables", \
+               total, constants, tables
+        if (limit > 0 && total + constants > limit) {
+            print "target_objects.sh: more than " limit " bytes"
+            bad = 1
+        }
+        exit bad
+    }' || status=1
+exit $status

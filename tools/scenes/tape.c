@@ -1,0 +1,519 @@
+/* SPDX-License-Identifier: MIT */
+/* tape.c - writes presented frames as C source.
+ *
+ * Every object of the source is first written into a text of its own. Equal texts are the same
+ * object, so whatever two frames share is found without looking at what it is: a frame's text names
+ * its cameras, a draw's text its mesh, a mesh's text its arrays. */
+#include "tape.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINE_WIDTH = 96 };
+
+struct text {
+    char *at;
+    size_t length, room;
+    bool failed;
+};
+
+/* One object: `static const TYPE oN = VALUE;` */
+struct object {
+    const char *type;               /* a string constant */
+    bool is_array;
+    uint32_t hash;
+    char *value;
+};
+
+struct tape_writer {
+    int object_count, object_room;
+    struct object *object;
+    int bucket_count;               /* a power of two; open addressing, -1 is free */
+    int *bucket;
+    /* the tape being written */
+    bool is_open;
+    char name[64];
+    int desc, frame_count, crc_count;
+    struct text frames, crcs;
+    /* the tapes written */
+    int tape_count;
+    struct text list;
+};
+
+/* ------------------------------------------------------------------ text */
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void add(struct text *text, const char *format, ...)
+{
+    char piece[256];
+    va_list args;
+    va_start(args, format);
+    int length = vsnprintf(piece, sizeof piece, format, args);
+    va_end(args);
+    if (length < 0 || (size_t)length >= sizeof piece || text->failed) {
+        text->failed = true;
+        return;
+    }
+    size_t want = text->length + (size_t)length + 1;
+    if (want > text->room) {
+        size_t room = text->room < 256 ? 256 : text->room;
+        while (room < want)
+            room *= 2;
+        char *grown = realloc(text->at, room);
+        if (grown == NULL) {
+            text->failed = true;
+            return;
+        }
+        text->at = grown;
+        text->room = room;
+    }
+    memcpy(text->at + text->length, piece, (size_t)length + 1);
+    text->length += (size_t)length;
+}
+
+static void append(struct text *to, const char *line)
+{
+    size_t length = strlen(line);
+    for (size_t done = 0; done < length; done += 200)
+        add(to, "%.200s", line + done);
+}
+
+/* Adds an element of an array, breaking lines at LINE_WIDTH. */
+static void add_element(struct text *text, const char *element)
+{
+    size_t line = 0;
+    while (line < text->length && text->at[text->length - 1 - line] != '\n')
+        line++;
+    if (line + strlen(element) > LINE_WIDTH)
+        add(text, "\n    ");
+    add(text, "%s", element);
+}
+
+static void add_number(struct text *text, int64_t value)
+{
+    char element[32];
+    /* INT32_MIN has no literal of its own type */
+    snprintf(element, sizeof element, value == INT32_MIN ? "%" PRId64 " - 1," : "%" PRId64 ",",
+             value == INT32_MIN ? value + 1 : value);
+    add_element(text, element);
+}
+
+/* ------------------------------------------------------------------ objects */
+
+static uint32_t hash_of(const char *type, const char *value)
+{
+    uint32_t hash = 2166136261u;
+    for (; *type != '\0'; type++)
+        hash = (hash ^ (uint8_t)*type) * 16777619u;
+    for (; *value != '\0'; value++)
+        hash = (hash ^ (uint8_t)*value) * 16777619u;
+    return hash;
+}
+
+static void put_bucket(struct tape_writer *w, int object)
+{
+    uint32_t mask = (uint32_t)w->bucket_count - 1, at = w->object[object].hash & mask;
+    while (w->bucket[at] >= 0)
+        at = (at + 1) & mask;
+    w->bucket[at] = object;
+}
+
+static bool more_buckets(struct tape_writer *w)
+{
+    int count = w->bucket_count == 0 ? 1024 : w->bucket_count * 2;
+    int *bucket = malloc((size_t)count * sizeof *bucket);
+    if (bucket == NULL)
+        return false;
+    free(w->bucket);
+    w->bucket = bucket;
+    w->bucket_count = count;
+    for (int i = 0; i < count; i++)
+        bucket[i] = -1;
+    for (int i = 0; i < w->object_count; i++)
+        put_bucket(w, i);
+    return true;
+}
+
+/* The object with this text, new or known; takes the text. -1 when out of memory. */
+static int object(struct tape_writer *w, const char *type, bool is_array, struct text *value)
+{
+    int found = -1;
+    if (value->failed || value->at == NULL ||
+        (w->object_count * 2 >= w->bucket_count && !more_buckets(w))) {
+        free(value->at);
+        return -1;
+    }
+    uint32_t hash = hash_of(type, value->at), mask = (uint32_t)w->bucket_count - 1;
+    for (uint32_t at = hash & mask; w->bucket[at] >= 0 && found < 0; at = (at + 1) & mask) {
+        const struct object *o = &w->object[w->bucket[at]];
+        if (o->hash == hash && strcmp(o->type, type) == 0 && strcmp(o->value, value->at) == 0)
+            found = w->bucket[at];
+    }
+    if (found >= 0) {
+        free(value->at);
+        return found;
+    }
+    if (w->object_count == w->object_room) {
+        int room = w->object_room == 0 ? 256 : w->object_room * 2;
+        struct object *grown = realloc(w->object, (size_t)room * sizeof *grown);
+        if (grown == NULL) {
+            free(value->at);
+            return -1;
+        }
+        w->object = grown;
+        w->object_room = room;
+    }
+    w->object[w->object_count] = (struct object){ type, is_array, hash, value->at };
+    put_bucket(w, w->object_count);
+    return w->object_count++;
+}
+
+/* `.name = &oN, ` (`oN` for arrays); nothing for a null pointer. -1 stands for out of memory. */
+enum { NO_OBJECT = -2 };
+
+static void add_reference(struct text *text, const struct tape_writer *w, const char *name,
+                          int object_index)
+{
+    if (object_index == -1)
+        text->failed = true;
+    if (object_index < 0)
+        return;
+    add(text, ".%s = %so%d, ", name, w->object[object_index].is_array ? "" : "&", object_index);
+}
+
+static void add_field(struct text *text, const char *name, int64_t value)
+{
+    if (value != 0)
+        add(text, ".%s = %" PRId64 ", ", name, value);
+}
+
+enum element { INT8, UINT8, INT16, UINT16, UINT32 };
+
+static int array(struct tape_writer *w, enum element kind, const void *data, size_t count)
+{
+    static const char *const type[] = { "int8_t", "uint8_t", "int16_t", "uint16_t", "uint32_t" };
+    struct text text = { 0 };
+    if (data == NULL)
+        return NO_OBJECT;
+    add(&text, "{\n    ");
+    for (size_t i = 0; i < count; i++) {
+        char element[16];
+        switch (kind) {
+        case INT8: add_number(&text, ((const int8_t *)data)[i]); break;
+        case UINT8: add_number(&text, ((const uint8_t *)data)[i]); break;
+        case INT16: add_number(&text, ((const int16_t *)data)[i]); break;
+        case UINT16: add_number(&text, ((const uint16_t *)data)[i]); break;
+        case UINT32:
+            snprintf(element, sizeof element, "0x%" PRIx32 ",", ((const uint32_t *)data)[i]);
+            add_element(&text, element);
+            break;
+        }
+    }
+    add(&text, "\n}");
+    return object(w, type[kind], true, &text);
+}
+
+static void add_int32s(struct text *text, const char *name, const int32_t *value, int count)
+{
+    add(text, ".%s = { ", name);
+    for (int i = 0; i < count; i++)
+        add_number(text, value[i]);
+    add(text, " }, ");
+}
+
+static int transform(struct tape_writer *w, const smear_transform *t)
+{
+    struct text text = { 0 };
+    if (t == NULL)
+        return NO_OBJECT;
+    add(&text, "{ ");
+    add_int32s(&text, "basis", t->basis, 9);
+    add_int32s(&text, "origin", t->origin, 3);
+    add(&text, "}");
+    return object(w, "smear_transform", false, &text);
+}
+
+static int camera(struct tape_writer *w, const smear_camera *c)
+{
+    struct text text = { 0 };
+    if (c == NULL)
+        return NO_OBJECT;
+    add(&text, "{ .pose = { ");
+    add_int32s(&text, "basis", c->pose.basis, 9);
+    add_int32s(&text, "origin", c->pose.origin, 3);
+    add(&text, "},\n    ");
+    add_field(&text, "focal", c->focal);
+    add_field(&text, "half_height", c->half_height);
+    add_field(&text, "near_plane", c->near_plane);
+    add_field(&text, "far_plane", c->far_plane);
+    add(&text, "}");
+    return object(w, "smear_camera", false, &text);
+}
+
+static int texture(struct tape_writer *w, const smear_texture *t)
+{
+    struct text text = { 0 };
+    if (t == NULL)
+        return NO_OBJECT;
+    size_t count = (size_t)t->width * t->height;
+    enum element kind = t->format == SMEAR_TEXEL_8888  ? UINT32
+                        : t->format == SMEAR_TEXEL_565 ? UINT16
+                                                       : UINT8;
+    int texels = array(w, kind, t->texels, count);
+    int palette = t->format == SMEAR_TEXEL_PALETTE8 ? array(w, UINT32, t->palette, 256) : NO_OBJECT;
+    add(&text, "{ ");
+    add_reference(&text, w, "texels", texels);
+    add_reference(&text, w, "palette", palette);
+    add_field(&text, "width", t->width);
+    add_field(&text, "height", t->height);
+    add_field(&text, "format", t->format);
+    add_field(&text, "wrap_u", t->wrap_u);
+    add_field(&text, "wrap_v", t->wrap_v);
+    add(&text, "}");
+    return object(w, "smear_texture", false, &text);
+}
+
+static int material(struct tape_writer *w, const smear_material *m)
+{
+    struct text text = { 0 };
+    if (m == NULL)
+        return NO_OBJECT;
+    int image = texture(w, m->texture);
+    add(&text, "{ ");
+    add_reference(&text, w, "texture", image);
+    add(&text, ".color = { %d, %d, %d, %d }, ", m->color[0], m->color[1], m->color[2], m->color[3]);
+    add_field(&text, "alpha", m->alpha);
+    add_field(&text, "cutoff", m->cutoff);
+    add_field(&text, "unlit", m->unlit);
+    add_field(&text, "double_sided", m->double_sided);
+    add_field(&text, "bilinear", m->bilinear);
+    add(&text, "}");
+    return object(w, "smear_material", false, &text);
+}
+
+static int mesh(struct tape_writer *w, const smear_mesh *m)
+{
+    struct text text = { 0 };
+    size_t vertices = m->vertex_count, triangles = m->triangle_count;
+    int position = array(w, INT16, m->position, vertices * 3);
+    int normal = array(w, INT8, m->normal, vertices * 3);
+    int uv = array(w, INT16, m->uv, vertices * 2);
+    int color = array(w, UINT8, m->color, vertices * 4);
+    int face_color = array(w, UINT8, m->face_color, triangles * 4);
+    int index = array(w, UINT16, m->index, triangles * 3);
+    add(&text, "{ ");
+    add_reference(&text, w, "position", position);
+    add_reference(&text, w, "normal", normal);
+    add_reference(&text, w, "uv", uv);
+    add_reference(&text, w, "color", color);
+    add_reference(&text, w, "face_color", face_color);
+    add_reference(&text, w, "index", index);
+    add(&text, "\n    ");
+    add_field(&text, "triangle_count", m->triangle_count);
+    add_field(&text, "vertex_count", m->vertex_count);
+    add_field(&text, "shift", m->shift);
+    add_field(&text, "uv_shift", m->uv_shift);
+    add_field(&text, "scale", m->scale);
+    if (m->offset[0] != 0 || m->offset[1] != 0 || m->offset[2] != 0)
+        add_int32s(&text, "offset", m->offset, 3);
+    add(&text, "}");
+    return object(w, "smear_mesh", false, &text);
+}
+
+/* An element of the array of draws. */
+static void add_draw(struct text *text, struct tape_writer *w, const smear_draw *d)
+{
+    size_t coordinates = (size_t)d->mesh->vertex_count * 3;
+    int mesh_object = mesh(w, d->mesh), material_object = material(w, d->material);
+    int now = transform(w, d->now), open = transform(w, d->open), close = transform(w, d->close);
+    int open_position = array(w, INT16, d->open_position, coordinates);
+    int close_position = array(w, INT16, d->close_position, coordinates);
+    add(text, "    { ");
+    add_field(text, "id", d->id);
+    add_reference(text, w, "mesh", mesh_object);
+    add_reference(text, w, "material", material_object);
+    add_reference(text, w, "now", now);
+    add_reference(text, w, "open", open);
+    add_reference(text, w, "close", close);
+    add_reference(text, w, "open_position", open_position);
+    add_reference(text, w, "close_position", close_position);
+    add_field(text, "motion", d->motion);
+    add_field(text, "cut", d->cut);
+    add(text, "},\n");
+}
+
+static int frame_object(struct tape_writer *w, const smear_frame *frame)
+{
+    struct text text = { 0 };
+    int now = camera(w, frame->camera), open = camera(w, frame->open);
+    int close = camera(w, frame->close);
+    add(&text, "{ ");
+    add_reference(&text, w, "camera", now);
+    add_reference(&text, w, "open", open);
+    add_reference(&text, w, "close", close);
+    add_field(&text, "method", frame->method);
+    add_field(&text, "exposure", frame->exposure);
+    add_field(&text, "light", frame->light);
+    add_field(&text, "shutter_poses", frame->shutter_poses);
+    add_field(&text, "cut", frame->cut);
+    add_field(&text, "reconstruct", frame->reconstruct);
+    add_field(&text, "samples", frame->samples);
+    add_field(&text, "shutter_degrees", frame->shutter_degrees);
+    add_field(&text, "clear", frame->clear);
+    add(&text, "}");
+    return object(w, "smear_frame", false, &text);
+}
+
+static int desc_object(struct tape_writer *w, const smear_desc *d)
+{
+    struct text text = { 0 };
+    add(&text, "{ ");
+    add_field(&text, "width", d->width);
+    add_field(&text, "height", d->height);
+    add_field(&text, "reach", d->reach);
+    add_field(&text, "tile", d->tile);
+    add_field(&text, "format", d->format);
+    add_field(&text, "dither", d->dither);
+    add_field(&text, "bands", d->bands);
+    add_field(&text, "workers", d->workers);
+    add_field(&text, "sharp", d->sharp);
+    add_field(&text, "crc", d->crc);
+    add_field(&text, "accumulate", d->accumulate);
+    add_field(&text, "band_rows", d->band_rows);
+    add_field(&text, "max_draws", d->max_draws);
+    add_field(&text, "max_triangles", d->max_triangles);
+    add_field(&text, "vertex_cache", d->vertex_cache);
+    add(&text, "}");
+    return object(w, "smear_desc", false, &text);
+}
+
+/* ------------------------------------------------------------------ tapes */
+
+static bool out_of_room(struct failure *f)
+{
+    return fail(f, "out of memory");
+}
+
+/* Turns what was collected since tape_begin into one struct tape of the list. */
+static bool close_tape(struct tape_writer *w, struct failure *f)
+{
+    struct text value = { 0 };
+    if (!w->is_open)
+        return true;
+    w->is_open = false;
+    add(&w->frames, "}");
+    add(&w->crcs, "\n}");
+    bool all_crcs = w->crc_count == w->frame_count && w->frame_count > 0;
+    int frames = object(w, "struct tape_frame", true, &w->frames);
+    int crcs = NO_OBJECT;
+    if (all_crcs)
+        crcs = object(w, "uint32_t", true, &w->crcs);
+    else
+        free(w->crcs.at);
+    w->frames = w->crcs = (struct text){ 0 };
+    add(&value, "{ .name = \"%s\", ", w->name);
+    add_reference(&value, w, "desc", w->desc);
+    add_reference(&value, w, "frame", frames);
+    add_field(&value, "frame_count", w->frame_count);
+    add_reference(&value, w, "crc", crcs);
+    add(&value, "}");
+    int tape = object(w, "struct tape", false, &value);
+    if (tape < 0)
+        return out_of_room(f);
+    add(&w->list, "    &o%d,\n", tape);
+    w->tape_count++;
+    return !w->list.failed || out_of_room(f);
+}
+
+bool tape_begin(struct tape_writer *w, const char *name, const smear_desc *desc, struct failure *f)
+{
+    if (!close_tape(w, f))
+        return false;
+    if (strlen(name) >= sizeof w->name || strpbrk(name, "\"\\\n") != NULL)
+        return fail(f, "a tape cannot have this name");
+    memcpy(w->name, name, strlen(name) + 1);
+    w->desc = desc_object(w, desc);
+    w->is_open = true;
+    w->frame_count = w->crc_count = 0;
+    add(&w->frames, "{\n");
+    add(&w->crcs, "{\n    ");
+    return w->desc >= 0 || out_of_room(f);
+}
+
+bool tape_add(struct tape_writer *w, const struct presented *frame, const uint32_t *crc,
+              struct failure *f)
+{
+    struct text draws = { 0 };
+    int draw_object = NO_OBJECT;
+    if (!w->is_open)
+        return fail(f, "no tape was begun");
+    int frame_index = frame_object(w, &frame->frame);
+    if (frame->draw_count > 0) {
+        add(&draws, "{\n");
+        for (int i = 0; i < frame->draw_count; i++)
+            add_draw(&draws, w, &frame->draw[i]);
+        add(&draws, "}");
+        draw_object = object(w, "smear_draw", true, &draws);
+    }
+    add(&w->frames, "    { ");
+    add_reference(&w->frames, w, "frame", frame_index);
+    add_reference(&w->frames, w, "draw", draw_object);
+    add_field(&w->frames, "draw_count", frame->draw_count);
+    add(&w->frames, "},\n");
+    w->frame_count++;
+    if (crc != NULL) {
+        char element[16];
+        snprintf(element, sizeof element, "0x%" PRIx32 ",", *crc);
+        add_element(&w->crcs, element);
+        w->crc_count++;
+    }
+    return (!w->frames.failed && !w->crcs.failed) || out_of_room(f);
+}
+
+bool tape_write(struct tape_writer *w, const char *path, const char *command, struct failure *f)
+{
+    struct text out = { 0 };
+    if (!close_tape(w, f))
+        return false;
+    if (w->tape_count == 0)
+        return fail(f, "no tape was begun");
+    add(&out, "/* Written by %s; do not edit. */\n#include \"play.h\"\n\n", command);
+    for (int i = 0; i < w->object_count; i++) {
+        const struct object *o = &w->object[i];
+        add(&out, "static const %s o%d%s = ", o->type, i, o->is_array ? "[]" : "");
+        append(&out, o->value);
+        add(&out, ";\n");
+    }
+    add(&out, "\nconst struct tape *const tape_list[] = {\n");
+    append(&out, w->list.at);
+    add(&out, "};\nconst int tape_count = %d;\n", w->tape_count);
+    bool ok = !out.failed ? file_write(path, (const uint8_t *)out.at, out.length, f)
+                          : out_of_room(f);
+    free(out.at);
+    return ok;
+}
+
+struct tape_writer *tape_writer_new(struct failure *f)
+{
+    struct tape_writer *w = calloc(1, sizeof *w);
+    if (w == NULL)
+        out_of_room(f);
+    return w;
+}
+
+void tape_writer_free(struct tape_writer *w)
+{
+    if (w == NULL)
+        return;
+    for (int i = 0; i < w->object_count; i++)
+        free(w->object[i].value);
+    free(w->object);
+    free(w->bucket);
+    free(w->frames.at);
+    free(w->crcs.at);
+    free(w->list.at);
+    free(w);
+}
