@@ -213,6 +213,79 @@ static void test_ground_through_the_eye_plane_is_cut_at_near_and_far(void)
     ref_frame_free(&frame);
 }
 
+static double triple(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+         + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Where the ray of a pixel centre meets a triangle's plane: its distance along -Z, NAN when it
+ * misses the triangle; *margin is how far it is from changing its mind, 0 on an edge. Both cameras
+ * look from the origin. */
+static double hit(const float corner[9], bool parallel, double x, double y, double *margin)
+{
+    double unit = parallel ? 1.0 : 1.0 / (SIZE / 2);
+    double eye[3] = { 0, 0, 0 }, ray[3] = { 0, 0, -1.0 }, e1[3], e2[3], to_eye[3], none[3];
+    double *across = parallel ? eye : ray;
+    across[0] = (x - SIZE / 2) * unit;
+    across[1] = (SIZE / 2 - y) * unit;
+    for (int i = 0; i < 3; i++) {
+        e1[i] = (double)corner[3 + i] - (double)corner[i];
+        e2[i] = (double)corner[6 + i] - (double)corner[i];
+        to_eye[i] = eye[i] - (double)corner[i];
+        none[i] = -ray[i];
+    }
+    double scale = triple(none, e1, e2);
+    double u = triple(none, to_eye, e2) / scale, v = triple(none, e1, to_eye) / scale;
+    double least = fmin(fmin(u, v), 1.0 - u - v);
+    *margin = fabs(least);
+    return least < 0.0 ? NAN : triple(to_eye, e1, e2) / scale;
+}
+
+/* Random triangles, most of them through the eye plane, against one ray per pixel. */
+static void test_wild_triangles_cover_what_rays_hit(void)
+{
+    static const uint32_t index[3] = { 0, 1, 2 };
+    uint32_t seed = 4711;
+    int wrong = 0, drawn = 0, cut = 0;
+    for (int k = 0; k < 240; k++) {
+        bool parallel = k % 3 == 2;
+        float corner[9];
+        struct scene_camera camera = parallel ? orthographic() : perspective();
+        camera.zfar = k % 2 == 0 ? 6.0 : 0.0;
+        for (int i = 0; i < 9; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            double share = (seed >> 8) / 16777216.0;
+            double wide = (parallel ? 80.0 : 16.0) * (share - 0.5);
+            corner[i] = (float)(i % 3 == 2 ? 2.0 - 10.0 * share : wide);
+        }
+        struct scene_surface surface = surface_of(corner, 3, index, 1);
+        surface.material.double_sided = true;
+        struct scene_draw draw = draw_of(&surface);
+        struct scene_instant now = instant_of(&draw, 1, camera);
+        struct ref_frame frame;
+        if (!draw_now(&now, false, &frame))
+            return;
+        for (int y = 0; y < SIZE; y++)
+            for (int x = 0; x < SIZE; x++) {
+                double margin, d = hit(corner, parallel, x + 0.5, y + 0.5, &margin);
+                double far = camera.zfar > 0.0 ? camera.zfar : INFINITY;
+                bool inside = d >= camera.znear && d <= far;
+                double limit = fmin(fabs(d - camera.znear), fabs(d - far));
+                if (margin < 1e-7 || limit < 1e-7)
+                    continue;
+                wrong += (frame.triangle[at(x, y)] == 0) != inside;
+                if (inside && frame.triangle[at(x, y)] == 0)
+                    wrong += !(fabs(frame.depth[at(x, y)] / d - 1.0) < 1e-6);
+                drawn += inside;
+                cut += !isnan(d) && !inside;
+            }
+        ref_frame_free(&frame);
+    }
+    CHECK_EQ(wrong, 0);
+    CHECK(drawn > 150000 && cut > 40000);
+}
+
 static void test_back_faces_are_culled_and_mirrors_turn_the_winding(void)
 {
     float position[12];
@@ -978,6 +1051,7 @@ void suite_ref(void)
     RUN(test_pixel_centres_on_edges_follow_the_top_left_rule);
     RUN(test_neighbouring_triangles_leave_no_gap_and_no_pixel_twice);
     RUN(test_ground_through_the_eye_plane_is_cut_at_near_and_far);
+    RUN(test_wild_triangles_cover_what_rays_hit);
     RUN(test_back_faces_are_culled_and_mirrors_turn_the_winding);
     RUN(test_nearer_wins_and_the_first_of_equals);
     RUN(test_inverse_depth_is_linear_on_the_screen);
