@@ -7,5 +7,7 @@
 
 bool peer_make(const char *name, struct scene *out, struct failure *f);
 bool demo_make(const char *name, struct scene *out, struct failure *f);
+bool suite_make(const char *name, struct scene *out, struct failure *f);
+bool trial_make(const char *name, struct scene *out, struct failure *f);
 
 #endif

@@ -48,7 +48,7 @@ struct scene_draw {
     const float *normal;            /* posed; the surface's own when rigid */
     bool deformed;
     bool hidden;                    /* not in the scene at this instant (keeps its index) */
-    int epoch;                      /* differs between two instants: the draw was cut (teleported) */
+    int epoch;                      /* differs between two instants: cut (teleported) in between */
     int node;                       /* node of the model it comes from, or -1 */
 };
 
