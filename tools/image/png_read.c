@@ -271,7 +271,7 @@ static unsigned sample(const struct reader *r, const uint8_t *row, size_t i)
         return be16(row + i * 2);
     size_t per_byte = 8 / (size_t)r->depth;
     unsigned shift = (unsigned)((per_byte - 1 - i % per_byte) * (size_t)r->depth);
-    return row[i / per_byte] >> shift & ((1u << r->depth) - 1);
+    return (unsigned)row[i / per_byte] >> shift & ((1u << r->depth) - 1);
 }
 
 /* To 8 bits, rounded to nearest; exact for depths below 8, which divide 255. */
