@@ -234,11 +234,12 @@ static void invert(double m[3][3], double inverse[3][3])
             inverse[i][j] /= determinant;
 }
 
-/* The matrices of the sRGB standard from the chromaticities of its primaries and white. */
+/* The matrices of sRGB from the chromaticities of its primaries and its white, D65, with the five
+ * digits that FLIP is defined with. */
 static void flip_color_matrices(struct flip *p)
 {
     static const double primary[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
-    static const double white[2] = {0.3127, 0.3290};
+    static const double white[2] = {0.31271, 0.32902};
     double columns[3][3], inverse[3][3];
     for (int i = 0; i < 3; i++) {
         columns[0][i] = primary[i][0] / primary[i][1];
