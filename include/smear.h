@@ -71,6 +71,7 @@ typedef struct smear_mesh {
     const int8_t  *normal;      /* x y z of each vertex, 127 is one; null: flat, from the triangle */
     const int16_t *uv;          /* u v of each vertex, in 1/2^uv_shift of the texture; null: none */
     const uint8_t *color;       /* r g b a of each vertex, r g b sRGB-encoded; null: white */
+    const uint8_t *face_color;  /* r g b a of each triangle, likewise, times color; null: white */
     const uint16_t *index;      /* three vertices per triangle, counter-clockwise seen from the front */
     uint32_t triangle_count;
     uint16_t vertex_count;      /* every index is below it (checked where a triangle is read) */
@@ -223,13 +224,16 @@ typedef struct smear_desc {
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint8_t sharp;              /* 1: SMEAR_NONE (and SMEAR_ACCUMULATE) only: no window is kept */
+    uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
+    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame and ids kept; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping); 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_flush_fn *flush;      /* required */
-    smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of a tile row */
+    smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
     uint32_t (*clock)(void *user);      /* null: no times in the statistics */
+    void (*idle)(void *user);   /* null: spin. Called while waiting for a band to be sent or for a worker */
     void *user;                 /* handed to the callbacks */
 } smear_desc;
 
@@ -309,21 +313,29 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* ------------------------------------------------------------------ memory in detail */
 
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
-#define SMEAR_CONTEXT_BYTES 1024u           /* the context itself, at most */
-#define SMEAR_DRAW_BYTES 248u               /* a draw and its kept pose, at most */
-#define SMEAR_TRIANGLE_BYTES 36u            /* list entry and the vertices it shares, in the mean */
-#define SMEAR_CACHE_BYTES 48u               /* a transformed vertex in the cache, at most */
+#define SMEAR_CONTEXT_BYTES 1536u           /* the context itself, at most */
+#define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
+#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and the vertices it shares (20), in the mean */
+#define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
+#define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 
+/* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
+ * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
 #define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
     (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
-     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * ((reach) <= 15 ? 8u : 10u)) \
+     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) \
+     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 2u) \
+     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * ((reach) <= 15 ? 2u : 4u)) \
      + SMEAR_ALIGN8((size_t)(width) * 2u * (tile)) \
-     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 48u) \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) \
-     + SMEAR_ALIGN8(((size_t)2u * (tile) + (reach)) * 8u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) \
+     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
+     + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u) \
+     + SMEAR_ALIGN8((size_t)(tile) * (tile) * 4u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
      + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
-     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES))
+     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
+     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
+                    * SMEAR_SEGMENT_BYTES))
 
 #ifdef __cplusplus
 }

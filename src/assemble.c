@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: MIT */
+/* assemble.c - the loop over a draw's triangles.
+ *
+ * Order of work, cheapest rejection first: share an outcode, need clipping, face away, touch no pixel centre.
+ * Only then are vertices shaded, moved to the other poses and stored, once each. */
+#include "assemble.h"
+
+#include "clip.h"
+#include "fixmath.h"
+
+void smear_assembler_reset(struct smear_assembler *a)
+{
+    for (uint32_t i = 0; i <= a->cache_mask; i++)
+        a->cache[i].tag = 0;
+    a->serial = 0;
+}
+
+static void fill_cached(struct smear_cached_vertex *v, const struct smear_assembler *a,
+                        const struct smear_assembly *d, uint32_t index)
+{
+    v->stored = 0;
+    smear_transform_vertex(&v->now, &d->now, d->position + 3 * index);
+    for (int i = 0; i < d->extra_count; i++) {
+        struct smear_homogeneous term;
+        smear_transform_vertex(&term, &d->extra[i], d->extra_position[i] + 3 * index);
+        v->now.x += term.x;
+        v->now.y += term.y;
+        v->now.w += term.w;
+        v->now.distance += term.distance;
+    }
+    if (v->now.distance < d->now.near_distance) {
+        v->outcode = OUT_NEAR;
+        return;
+    }
+    smear_project(&v->screen, &d->now, &v->now, &a->viewport);
+    v->outcode = outcode_sides(&v->screen, &a->viewport);
+    if (v->now.distance > d->now.far_distance)
+        v->outcode |= OUT_FAR;
+}
+
+/* Where the point `h` of the surface is in another pose: the words of MOTION_*.
+ *
+ * A point that was behind the near plane has no place on the screen. It is moved along its path to where it
+ * crosses the plane: the direction stays right, the length ends at the crossing. */
+static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
+                         const struct smear_homogeneous *h, const struct smear_homogeneous *now,
+                         const struct smear_screen *screen, const struct smear_viewport *viewport)
+{
+    const struct smear_projection *p = &d->pose[pose];
+    struct smear_homogeneous at = *h;
+    int shift = clamp_i32(p->scale - d->now.scale, -31, 31);
+    if (!p->orthographic && at.w < p->near_distance) {
+        int32_t w = scale_sat(now->w, shift);
+        if (w <= p->near_distance) {
+            at.x = scale_sat(now->x, shift);
+            at.y = scale_sat(now->y, shift);
+        } else {
+            int32_t t = ratio_q30((int64_t)w - p->near_distance, (int64_t)w - at.w);
+            int32_t x = scale_sat(now->x, shift), y = scale_sat(now->y, shift);
+            at.x = (int32_t)(x + (((int64_t)at.x - x) * t >> 30));
+            at.y = (int32_t)(y + (((int64_t)at.y - y) * t >> 30));
+        }
+        at.w = p->near_distance;
+    }
+    struct smear_screen there;
+    smear_project(&there, p, &at, viewport);
+    const int32_t far_out = 1 << 20;
+    out[MOTION_DX] = (uint32_t)clamp_i32(there.x - screen->x, -far_out, far_out);
+    out[MOTION_DY] = (uint32_t)clamp_i32(there.y - screen->y, -far_out, far_out);
+
+    /* w_there / w_now in q16, both brought to 1 by powers of two first. */
+    int zeros = count_leading_zeros((uint32_t)now->w);
+    uint32_t r = recip_norm((uint32_t)now->w << zeros);             /* 2^(61 - zeros) / w */
+    int32_t ratio = scale_sat(mulh_i32(at.w, (int32_t)r), clamp_i32(zeros - 13 - shift, -31, 31));
+    out[MOTION_RATIO] = (uint32_t)clamp_i32(ratio, 1 << 6, 1 << 26);
+}
+
+static uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
+{
+    record[VERTEX_X] = (uint32_t)screen->x;
+    record[VERTEX_Y] = (uint32_t)screen->y;
+    record[VERTEX_DEPTH] = (uint32_t)screen->depth;
+    return record;
+}
+
+static void store_color(uint32_t *record, const uint16_t channel[4])
+{
+    record[0] = (uint32_t)channel[0] | (uint32_t)channel[1] << 16;
+    record[1] = (uint32_t)channel[2] | (uint32_t)channel[3] << 16;
+}
+
+static void store_uv(uint32_t *record, int32_t u, int32_t v)
+{
+    *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
+}
+
+static void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                         const uint8_t *face_color, uint32_t face_cosine, bool flip)
+{
+    const smear_mesh *mesh = d->mesh;
+    uint32_t cosine = face_cosine;
+    if (d->shading.lit && mesh->normal != NULL) {
+        const int8_t *n = mesh->normal + 3 * index;
+        if (flip) {
+            const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
+                                     (int8_t)-max_i32(n[2], -127) };
+            cosine = smear_light_normal(&d->shading, back);
+        } else {
+            cosine = smear_light_normal(&d->shading, n);
+        }
+    }
+    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
+                cosine);
+}
+
+/* The three vertices of a triangle on their way through. */
+struct corner {
+    uint32_t index;
+    struct smear_cached_vertex *cached;
+    bool shared;                /* the cached record may be used and kept */
+};
+
+/* What a triangle has in common. */
+struct face {
+    bool back;                  /* seen from behind: double-sided */
+    const uint8_t *color;
+    uint32_t cosine;            /* flat light */
+};
+
+static void store_vertex(uint32_t *record, const struct smear_assembler *a,
+                         const struct smear_assembly *d, const struct smear_segment *s,
+                         const struct corner *c, const struct face *face)
+{
+    const smear_mesh *mesh = d->mesh;
+    store_place(record, &c->cached->screen);
+    if (s->uv != 0)
+        store_uv(record + s->uv, mesh->uv[2 * c->index], mesh->uv[2 * c->index + 1]);
+    if (s->color != 0) {
+        struct smear_color color;
+        shade_vertex(&color, d, c->index, face->color, face->cosine, face->back);
+        store_color(record + s->color, color.channel);
+    }
+    for (int pose = 0; pose < s->moves; pose++) {
+        struct smear_homogeneous h;
+        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * c->index);
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &c->cached->now,
+                     &c->cached->screen, &a->viewport);
+    }
+}
+
+/* Twice the signed area in q16 pixels, positive when clockwise on the screen (y down): seen from behind. */
+static int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
+                       const struct smear_screen *c)
+{
+    int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
+#if !SMEAR_HAS_MUL64
+    const int32_t small = 1 << 14;
+    if (x1 < small && x1 > -small && y1 < small && y1 > -small
+        && x2 < small && x2 > -small && y2 < small && y2 > -small)
+        return x1 * y2 - x2 * y1;
+#endif
+    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
+}
+
+/* First tile row in which a pixel centre can be covered, or -1: none at all, or none in this part of the frame. */
+static int first_row(const struct smear_assembler *a, const struct smear_screen *v[3])
+{
+    const struct smear_geometry *g = a->geometry;
+    int32_t left = min_i32(v[0]->x, min_i32(v[1]->x, v[2]->x));
+    int32_t right = max_i32(v[0]->x, max_i32(v[1]->x, v[2]->x));
+    int32_t x0 = max_i32((left + 127) >> 8, 0), x1 = min_i32((right + 127) >> 8, a->viewport.width);
+    if (x0 >= x1)
+        return -1;
+    int32_t top = min_i32(v[0]->y, min_i32(v[1]->y, v[2]->y));
+    int32_t bottom = max_i32(v[0]->y, max_i32(v[1]->y, v[2]->y));
+    int32_t y0 = max_i32((top + 127) >> 8, g->row_first * g->row_px);
+    int32_t y1 = min_i32((bottom + 127) >> 8, min_i32(a->viewport.height, g->row_end * g->row_px));
+    if (y0 >= y1)
+        return -1;
+    return (int)((uint32_t)y0 / (uint32_t)g->row_px);
+}
+
+static bool is_blend(const struct smear_assembly *d)
+{
+    return d->material->alpha == SMEAR_BLEND;
+}
+
+/* Lays out the vertex records of this draw. */
+static struct smear_segment *open_segment(struct smear_assembler *a, const struct smear_assembly *d)
+{
+    struct smear_segment *s = smear_geometry_open(a->geometry);
+    if (s == NULL)
+        return NULL;
+    const smear_mesh *mesh = d->mesh;
+    bool textured = d->material->texture != NULL && mesh->uv != NULL;
+    bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
+    bool white = d->shading.base[0] == 65535 && d->shading.base[1] == 65535
+              && d->shading.base[2] == 65535 && d->shading.base[3] == 65535;
+    int at = VERTEX_BASE_WORDS;
+    s->draw = d->draw;
+    s->uv = s->color = s->motion = 0;
+    if (textured)
+        s->uv = (uint8_t)at++;
+    if (per_vertex) {
+        s->color = (uint8_t)at;
+        at += 2;
+    }
+    s->moves = a->keep_motion && !is_blend(d) ? d->moves : 0;
+    if (s->moves != 0) {
+        s->motion = (uint8_t)at;
+        at += s->moves * MOTION_WORDS;
+    }
+    s->shade = per_vertex ? SHADE_GOURAUD
+             : textured && !d->shading.lit && white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
+    s->flat_depth = d->now.orthographic;
+    s->stride = (uint8_t)at;
+    return s;
+}
+
+/* Vertices cannot be shared when a face's own light or colour goes into them. */
+static bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
+{
+    return s->color == 0
+        || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
+}
+
+/* Room for one more triangle with `fresh` new vertices; opens a new segment where offsets run out. */
+static struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
+                                       struct smear_segment *s, uint32_t fresh)
+{
+    struct smear_geometry *g = a->geometry;
+    if (s == NULL || g->vertex_words + fresh * s->stride - s->base > 65536u) {
+        s = open_segment(a, d);
+        if (s == NULL)
+            return NULL;
+    }
+    return geometry_has_room(g, fresh * s->stride, 1) ? s : NULL;
+}
+
+static struct smear_triangle *add_triangle(struct smear_assembler *a, const struct smear_segment *s,
+                                           uint32_t color, int row, bool blend)
+{
+    struct smear_geometry *g = a->geometry;
+    uint32_t i = g->triangle_count++;
+    struct smear_triangle *t = geometry_triangle(g, i);
+    t->segment = (uint16_t)(s - g->segment);
+    t->color = color;
+    smear_geometry_link(g, i, row, blend);
+    a->triangles_drawn++;
+    return t;
+}
+
+static uint32_t face_color_of(const struct smear_assembly *d, const struct smear_segment *s,
+                              const struct face *face)
+{
+    if (s->shade != SHADE_FLAT)
+        return 0xffffffffu;
+    struct smear_color color;
+    smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
+    return smear_color_pack(&color, d->shading.linear);
+}
+
+static struct face face_of(const struct smear_assembly *d, uint32_t triangle,
+                           const struct corner corner[3], bool back)
+{
+    struct face face = { back, NULL, 65536u };
+    if (d->mesh->face_color != NULL)
+        face.color = d->mesh->face_color + 4 * triangle;
+    if (d->shading.lit && d->mesh->normal == NULL) {
+        const int16_t *p = d->position;
+        const int16_t *v[3] = { p + 3 * corner[0].index, p + 3 * corner[1].index,
+                                p + 3 * corner[2].index };
+        face.cosine = smear_light_face(&d->shading, v[0], v[back ? 2 : 1], v[back ? 1 : 2]);
+    }
+    return face;
+}
+
+/* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
+static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
+                        struct smear_segment **segment, uint32_t triangle,
+                        const struct corner corner[3])
+{
+    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_screen screen[SMEAR_CLIP_MAX];
+    const smear_mesh *mesh = d->mesh;
+    int codes = 0;
+    for (int i = 0; i < 3; i++) {
+        struct smear_clip_vertex *v = &polygon[i];
+        codes |= corner[i].cached->outcode;
+        v->now = corner[i].cached->now;
+        for (int pose = 0; pose < 2; pose++)
+            v->pose[pose] = v->now;
+        for (int pose = 0; pose < d->moves; pose++)
+            smear_transform_vertex(&v->pose[pose], &d->pose[pose],
+                                   d->pose_position[pose] + 3 * corner[i].index);
+        v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * corner[i].index] : 0;
+        v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * corner[i].index + 1] : 0;
+        for (int c = 0; c < 4; c++)
+            v->color[c] = 0;
+    }
+
+    /* Which side is seen decides the light, and only the cut polygon can tell: clip places first. */
+    struct smear_clip_vertex probe[SMEAR_CLIP_MAX];
+    for (int i = 0; i < 3; i++)
+        probe[i] = polygon[i];
+    int count = smear_clip_triangle(probe, &d->now, codes);
+    int64_t area = 0;
+    for (int i = 0; i < count; i++)
+        smear_project(&screen[i], &d->now, &probe[i].now, &a->viewport);
+    for (int i = 2; i < count; i++)
+        area += area_of(&screen[0], &screen[i - 1], &screen[i]);
+    bool back = (area > 0) != d->mirrored;
+    if (area == 0 || (back && !d->material->double_sided))
+        return true;
+
+    struct face face = face_of(d, triangle, corner, back);
+    if (*segment == NULL)
+        *segment = open_segment(a, d);
+    if (*segment == NULL)
+        return false;
+    if ((*segment)->color != 0) {
+        for (int i = 0; i < 3; i++) {
+            struct smear_color color;
+            shade_vertex(&color, d, corner[i].index, face.color, face.cosine, back);
+            for (int c = 0; c < 4; c++)
+                polygon[i].color[c] = color.channel[c];
+        }
+    }
+    count = smear_clip_triangle(polygon, &d->now, codes);
+
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
+    for (int i = 0; i < count; i++) {
+        smear_project(&screen[i], &d->now, &polygon[i].now, &a->viewport);
+        screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
+        screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
+    }
+    for (int i = 2; i < count; i++) {
+        const int fan[3] = { 0, i - 1, i };
+        const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
+        int row = first_row(a, place);
+        if (row < 0)
+            continue;
+        struct smear_segment *s = make_room(a, d, *segment, 3);
+        if (s == NULL)
+            return false;
+        *segment = s;
+        struct smear_triangle *t = NULL;
+        uint16_t offset[3];
+        for (int k = 0; k < 3; k++) {
+            const struct smear_clip_vertex *v = &polygon[fan[k]];
+            uint32_t *record = a->geometry->pool + a->geometry->vertex_words;
+            offset[k] = (uint16_t)(a->geometry->vertex_words - s->base);
+            a->geometry->vertex_words += s->stride;
+            store_place(record, place[k]);
+            if (s->uv != 0)
+                store_uv(record + s->uv, v->uv[0], v->uv[1]);
+            if (s->color != 0) {
+                const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1],
+                                              (uint16_t)v->color[2], (uint16_t)v->color[3] };
+                store_color(record + s->color, channel);
+            }
+            for (int pose = 0; pose < s->moves; pose++)
+                store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
+                             &v->now, place[k], &a->viewport);
+        }
+        t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
+        for (int k = 0; k < 3; k++)
+            t->vertex[k] = offset[k];
+    }
+    return true;
+}
+
+/* A triangle that lies within the guard band. */
+static bool add_whole(struct smear_assembler *a, const struct smear_assembly *d,
+                      struct smear_segment **segment, bool shares, uint32_t triangle,
+                      struct corner corner[3])
+{
+    const struct smear_screen *place[3];
+    for (int i = 0; i < 3; i++)
+        place[i] = &corner[i].cached->screen;
+    int64_t area = area_of(place[0], place[1], place[2]);
+    bool back = (area > 0) != d->mirrored;
+    if (area == 0 || (back && !d->material->double_sided))
+        return true;
+    int row = first_row(a, place);
+    if (row < 0)
+        return true;
+
+    struct smear_segment *s = make_room(a, d, *segment, 3);
+    if (s == NULL)
+        return false;
+    *segment = s;
+    struct face face = face_of(d, triangle, corner, back);
+    struct smear_triangle *t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
+    struct smear_geometry *g = a->geometry;
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    shares = shares && (!back || s->color == 0);
+    for (int i = 0; i < 3; i++) {
+        struct smear_cached_vertex *v = corner[i].cached;
+        if (!shares || !corner[i].shared || v->stored <= s->base) {
+            uint32_t word = g->vertex_words;
+            g->vertex_words += s->stride;
+            store_vertex(g->pool + word, a, d, s, &corner[i], &face);
+            t->vertex[i] = (uint16_t)(word - s->base);
+            if (shares && corner[i].shared)
+                v->stored = word + 1;
+        } else {
+            t->vertex[i] = (uint16_t)(v->stored - 1 - s->base);
+        }
+    }
+    return true;
+}
+
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+{
+    const smear_mesh *mesh = d->mesh;
+    struct smear_segment *segment = open_segment(a, d);
+    if (segment == NULL) {
+        if (drop)
+            a->triangles_dropped += mesh->triangle_count;
+        return drop;
+    }
+    bool shares = shares_vertices(d, segment);
+    uint32_t tag = ++a->serial << 16;
+    const uint16_t *index = mesh->index;
+    struct smear_cached_vertex spare[3];
+
+    for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+        struct corner corner[3];
+        int all = OUT_REJECT, any = 0;
+        if (index[0] >= mesh->vertex_count || index[1] >= mesh->vertex_count
+            || index[2] >= mesh->vertex_count) {
+            a->triangles_dropped++;
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            struct corner *c = &corner[k];
+            c->index = index[k];
+            c->shared = true;
+            c->cached = &a->cache[c->index & a->cache_mask];
+            if (c->cached->tag != (tag | c->index)) {
+                /* A slot that this triangle already uses for another vertex must not be overwritten. */
+                for (int other = 0; other < k; other++)
+                    if (corner[other].cached == c->cached)
+                        c->shared = false;
+                if (!c->shared)
+                    c->cached = &spare[k];
+                c->cached->tag = tag | c->index;
+                fill_cached(c->cached, a, d, c->index);
+            }
+            all &= c->cached->outcode;
+            any |= c->cached->outcode;
+        }
+        if (all != 0)
+            continue;
+        bool added = any & OUT_CLIP ? add_clipped(a, d, &segment, i, corner)
+                                    : add_whole(a, d, &segment, shares, i, corner);
+        if (!added) {
+            if (!drop)
+                return false;
+            a->triangles_dropped++;
+        }
+    }
+    a->triangles_in += mesh->triangle_count;
+    return true;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* base.h - the few words every file uses. Bottom layer: includes nothing of ours but the configuration. */
+#ifndef SMEAR_BASE_H
+#define SMEAR_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "smear_config.h"
+
+/* A broken promise of ours, never of the caller. Stops at once when checks are on, costs nothing when off. */
+#if SMEAR_CHECK
+#define SMEAR_ASSERT(condition) ((condition) ? (void)0 : __builtin_trap())
+#else
+#define SMEAR_ASSERT(condition) ((void)0)
+#endif
+
+/* Inner loops that take constants: inlined so that each call site becomes a loop of its own. */
+#define SMEAR_INLINE static inline __attribute__((always_inline))
+#define SMEAR_NOINLINE __attribute__((noinline))
+
+_Static_assert((-1 >> 1) == -1, "right shift of a negative number must keep its sign");
+_Static_assert(sizeof(int) == 4, "int products of 16-bit values must be 32 bits wide");
+
+static inline int32_t min_i32(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t max_i32(int32_t a, int32_t b) { return a > b ? a : b; }
+static inline uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static inline uint32_t max_u32(uint32_t a, uint32_t b) { return a > b ? a : b; }
+static inline int32_t abs_i32(int32_t a) { return a < 0 ? -a : a; }      /* not INT32_MIN */
+
+static inline int32_t clamp_i32(int32_t a, int32_t low, int32_t high)
+{
+    return a < low ? low : a > high ? high : a;
+}
+
+#endif

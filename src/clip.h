@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* clip.h - cuts a triangle at the near and far plane and at the guard band, in homogeneous space. */
+#ifndef SMEAR_CLIP_H
+#define SMEAR_CLIP_H
+
+#include "transform.h"
+
+/* All that is interpolated along a cut edge. Poses other than the present one are cut at the same place of the
+ * surface, so that velocities stay right up to the near plane. */
+struct smear_clip_vertex {
+    struct smear_homogeneous now;
+    struct smear_homogeneous pose[2];   /* open, close: each in its own projection's scale */
+    int32_t uv[2];                      /* mesh units */
+    int32_t color[4];                   /* 0 .. 65535 */
+};
+
+/* A triangle cut by six planes has at most nine corners. */
+#define SMEAR_CLIP_MAX 9
+
+/* Clips vertex[0..2] in place of vertex[0 .. n-1], a convex polygon in the same order; returns n, 0 when nothing is
+ * left. `codes` is the union of the three outcodes: only those planes are looked at. An edge is always cut
+ * from its inner towards its outer end, so two triangles that share it get the same new vertex, bit for bit. */
+int smear_clip_triangle(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX],
+                        const struct smear_projection *projection, int codes);
+
+#endif

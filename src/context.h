@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/* context.h - all state of a context. Only smear.c (the public functions) and frame.c (the order of stages) see it;
+ * stages get the plain structs they work on. */
+#ifndef SMEAR_CONTEXT_H
+#define SMEAR_CONTEXT_H
+
+#include "smear.h"
+
+#include "assemble.h"
+#include "blur.h"
+#include "geometry.h"
+#include "jobs.h"
+#include "raster.h"
+#include "window.h"
+
+/* The pose a draw had, kept under its id. */
+struct smear_kept_pose {
+    uint32_t id;                    /* 0: free */
+    uint32_t frame;                 /* in which it was last submitted */
+    smear_transform now, before;    /* before: valid when it was also seen in the frame before */
+    uint8_t has_before;
+};
+
+struct smear_submitted {
+    smear_draw draw;
+    int32_t kept;                   /* index of its kept pose, or -1 */
+};
+
+enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
+
+struct smear_context {
+    smear_desc desc;                /* defaults filled in */
+    enum smear_state state;
+
+    /* the frame */
+    smear_frame frame;
+    smear_camera camera, camera_open, camera_close;
+    bool camera_moves;              /* the earlier camera is known */
+    smear_camera kept_camera;
+    bool has_kept_camera;
+    uint32_t frame_number;
+    struct smear_submitted *submitted;
+    struct smear_kept_pose *kept;
+    struct smear_raster_draw *raster_draw;
+    uint32_t draw_count;
+
+    /* stages */
+    struct smear_geometry geometry;
+    struct smear_assembler assembler;
+    struct smear_window window;
+    struct smear_raster_frame raster;
+    struct smear_blur_settings blur;
+    struct smear_jobs jobs;
+    uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
+    uint32_t *row_offset;           /* of the window rows a blur may read */
+    uint32_t *scratch;              /* one tile of finished pixels per worker */
+    uint32_t *sums;                 /* accumulate: r g b per pixel */
+    int32_t *inspect;               /* wide velocities, a plane like the window's */
+    bool blends;                    /* some draw is blended */
+
+    /* bands */
+    uint8_t *band[2];
+    uint32_t band_bytes;
+    uint32_t bands_handed;
+    atomic_uint bands_sent;
+
+    int32_t filter_row;             /* rows taken by smear_filter_row */
+    uint32_t worker_samples[SMEAR_WORKERS_MAX];
+    smear_stats stats;
+};
+
+/* frame.c: draws what was submitted. */
+int smear_frame_render(struct smear_context *c);
+
+/* frame.c: the filter alone. */
+void smear_frame_filter_begin(struct smear_context *c);
+int smear_frame_filter_row(struct smear_context *c, const uint32_t *color, const uint32_t *depth,
+                           const int16_t *velocity);
+
+#endif

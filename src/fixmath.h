@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/* fixmath.h - reciprocals, lengths and roots in fixed point. Errors are stated and tested (test_fixmath.c). */
+#ifndef SMEAR_FIXMATH_H
+#define SMEAR_FIXMATH_H
+
+#include "fixed.h"
+#include "tables.h"
+
+/* Leading zeros of x > 0. */
+static inline int count_leading_zeros(uint32_t x)
+{
+#if SMEAR_HAS_CLZ
+    return __builtin_clz(x);
+#else
+    int n = 0;
+    if (x < 0x10000u) { n += 16; x <<= 16; }
+    if (x < 0x1000000u) { n += 8; x <<= 8; }
+    if (x < 0x10000000u) { n += 4; x <<= 4; }
+    if (x < 0x40000000u) { n += 2; x <<= 2; }
+    return n + (int)(~x >> 31);
+#endif
+}
+
+/* Leading zeros of x > 0. */
+static inline int count_leading_zeros_64(uint64_t x)
+{
+    uint32_t high = (uint32_t)(x >> 32);
+    return high != 0 ? count_leading_zeros(high) : 32 + count_leading_zeros((uint32_t)x);
+}
+
+/* 2^61 / m for a normalised m in [2^31, 2^32); result in [2^29, 2^30]. Relative error below 2^-18.
+ *
+ * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton step r (1 - e) squares
+ * the error. All products fit 32 bits: m is cut to 21 bits, r has 11, and r x (e >> 4) stays below 2^30. */
+static inline uint32_t recip_norm(uint32_t m)
+{
+    uint32_t r = smear_recip_seed[m >> 22 & 511u];
+    int32_t error = (int32_t)(0x80000000u - (m >> 11) * r);
+    return (uint32_t)((int32_t)(r << 19) + ((int32_t)r * (error >> 4) >> 8));
+}
+
+/* The same with relative error below 2^-26: one more Newton step on the high product. */
+static inline uint32_t recip_norm_precise(uint32_t m)
+{
+    uint32_t r = recip_norm(m);
+    int32_t error = (int32_t)((1u << 29) - mulh_u32(m, r));         /* 2^29 e, |error| < 2^12 */
+    return (uint32_t)((int32_t)r + ((int32_t)(r >> 12) * error >> 17));
+}
+
+/* floor(a / b) and the remainder in [0, b), for b > 0. */
+static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
+{
+    int32_t q = a / b, r = a - q * b;
+    if (r < 0) {
+        q--;
+        r += b;
+    }
+    *remainder = r;
+    return q;
+}
+
+/* a b / c with c > 0 as a ratio in [0, 1]: a <= c. Used where few vertices are made (clipping). Result q30. */
+static inline int32_t ratio_q30(int64_t a, int64_t c)
+{
+    SMEAR_ASSERT(a >= 0 && c > 0 && a <= c);
+    int shift = count_leading_zeros_64((uint64_t)c);
+    uint32_t cn = (uint32_t)((uint64_t)c << shift >> 32), an = (uint32_t)((uint64_t)a << shift >> 33);
+    /* an / cn with an in q31 of cn's scale: (2^31 a') (2^61 / c') / 2^32 = 2^29 ... in [0, 2^29]. */
+    uint32_t q = mulh_u32(an, recip_norm_precise(cn)) << 2;
+    return (int32_t)min_u32(q, 1u << 30);
+}
+
+/* floor(sqrt(x)), exact. One bit per step: once per draw or per normal, never per pixel. */
+static inline uint32_t sqrt_floor_64(uint64_t x)
+{
+    uint64_t root = 0, bit = (uint64_t)1 << 62;
+    while (bit > x)
+        bit >>= 2;
+    while (bit != 0) {
+        if (x >= root + bit) {
+            x -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+        bit >>= 2;
+    }
+    return (uint32_t)root;
+}
+
+/* 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */
+static inline uint32_t sqrt_q3(uint32_t x)
+{
+    int shift = 0;
+    while (x >= 1024u) {
+        x >>= 2;
+        shift++;
+    }
+    return (uint32_t)smear_sqrt_q3[x] << shift;
+}
+
+#endif

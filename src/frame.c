@@ -1,0 +1,821 @@
+/* SPDX-License-Identifier: MIT */
+/* frame.c - the order of the stages and the rolling window. Start reading here.
+ *
+ *     for each part of the frame (one, unless the triangle list is too small):
+ *         assemble    every draw's triangles into lists per tile row
+ *         for each tile row:
+ *             raster      the row's list into the window: colour, depth, velocity
+ *             reduce      longest velocity per tile
+ *             finish      the row above, which now has neighbours on both sides:
+ *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
+ */
+#include "context.h"
+
+#include "convert.h"
+#include "fixmath.h"
+#include "pixel.h"
+#include "tilemax.h"
+
+/* ------------------------------------------------------------------ time */
+
+static uint32_t now(const struct smear_context *c)
+{
+    return c->desc.clock != NULL ? c->desc.clock(c->desc.user) : 0;
+}
+
+static void charge(const struct smear_context *c, uint32_t *stage, uint32_t start)
+{
+    *stage += now(c) - start;
+}
+
+/* ------------------------------------------------------------------ poses */
+
+/* Weights of the poses now, open, close for an instant, q24; they add up to one. */
+struct instant {
+    int32_t weight[3];
+};
+
+static const struct instant sharp_instant = { { 1 << 24, 0, 0 } };
+
+/* `u` in q16 runs from -1 at shutter open to 1 at shutter close.
+ *
+ * Poses at shutter open, centre and close: the parabola through them. A pose one frame ago: the straight line
+ * through it and now, inside and beyond. */
+static struct instant instant_at(const struct smear_context *c, int32_t u)
+{
+    struct instant i;
+    if (c->frame.shutter_poses) {
+        int64_t square = (int64_t)u * u >> 16;
+        i.weight[1] = (int32_t)((square - u) << 7);
+        i.weight[2] = (int32_t)((square + u) << 7);
+    } else {
+        /* Frames from now: the exposure's centre plus u half exposures. */
+        int64_t half = ((int64_t)c->frame.shutter_degrees << 24) / 720;
+        int64_t centre = c->frame.exposure == SMEAR_TRAILING ? -half
+                       : c->frame.exposure == SMEAR_LEADING ? half : 0;
+        i.weight[1] = (int32_t)-(centre + (half * u >> 16));
+        i.weight[2] = 0;
+    }
+    i.weight[0] = (1 << 24) - i.weight[1] - i.weight[2];
+    return i;
+}
+
+static bool same_transform(const smear_transform *a, const smear_transform *b)
+{
+    for (int i = 0; i < 9; i++)
+        if (a->basis[i] != b->basis[i])
+            return false;
+    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1]
+        && a->origin[2] == b->origin[2];
+}
+
+static bool same_camera(const smear_camera *a, const smear_camera *b)
+{
+    return same_transform(&a->pose, &b->pose) && a->focal == b->focal
+        && a->half_height == b->half_height;
+}
+
+static bool is_mirrored(const smear_transform *t)
+{
+    /* Sign of the determinant, in 20-bit entries. */
+    int64_t b[9];
+    for (int i = 0; i < 9; i++)
+        b[i] = t->basis[i] >> 11;
+    int64_t d = b[0] * (b[4] * b[8] - b[5] * b[7]) - b[1] * (b[3] * b[8] - b[5] * b[6])
+              + b[2] * (b[3] * b[7] - b[4] * b[6]);
+    return d < 0;
+}
+
+/* Where a draw is in each known pose; equal poses mean it does not move. */
+struct draw_poses {
+    const smear_transform *object[3];   /* now, open, close */
+    const smear_camera *camera[3];
+    const int16_t *position[3];
+};
+
+static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
+                     struct draw_poses *p)
+{
+    static const smear_transform identity = SMEAR_IDENTITY;
+    const smear_draw *d = &s->draw;
+    const smear_transform *object = d->now != NULL ? d->now : &identity;
+    for (int i = 0; i < 3; i++) {
+        p->object[i] = object;
+        p->camera[i] = &c->camera;
+        p->position[i] = d->mesh->position;
+    }
+    if (c->frame.cut || d->motion == SMEAR_MOTION_NONE)
+        return;
+    if (c->camera_moves) {
+        p->camera[1] = &c->camera_open;
+        if (c->frame.shutter_poses)
+            p->camera[2] = &c->camera_close;
+    }
+    if (d->cut || d->motion == SMEAR_MOTION_CAMERA)
+        return;
+    if (d->open_position != NULL)
+        p->position[1] = d->open_position;
+    if (d->open != NULL)
+        p->object[1] = d->open;
+    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
+        p->object[1] = &c->kept[s->kept].before;
+    if (c->frame.shutter_poses) {
+        if (d->close_position != NULL)
+            p->position[2] = d->close_position;
+        if (d->close != NULL)
+            p->object[2] = d->close;
+    }
+}
+
+static bool pose_differs(const struct draw_poses *p, int i)
+{
+    return p->position[i] != p->position[0] || !same_transform(p->object[i], p->object[0])
+        || !same_camera(p->camera[i], p->camera[0]);
+}
+
+static void project_pose(struct smear_projection *out, const struct smear_context *c,
+                         const struct draw_poses *p, int i, const smear_mesh *mesh)
+{
+    struct smear_view view;
+    smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
+    smear_projection_make(out, &view, p->camera[i], c->window.height);
+}
+
+/* Everything the assembler needs of draw `i`, for the given instant. */
+static void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
+                          struct smear_assembly *a)
+{
+    static const smear_material plain = { 0 };
+    const struct smear_submitted *s = &c->submitted[i];
+    struct draw_poses poses;
+    poses_of(c, s, &poses);
+    a->mesh = s->draw.mesh;
+    a->material = s->draw.material != NULL ? s->draw.material : &plain;
+    a->draw = (uint16_t)i;
+    a->mirrored = is_mirrored(poses.object[0]);
+    a->moves = 0;
+    a->extra_count = 0;
+    a->position = poses.position[0];
+    smear_shading_make(&a->shading, poses.object[0], a->material,
+                       c->frame.light == SMEAR_LIGHT_LINEAR);
+
+    bool moves[3] = { false, pose_differs(&poses, 1), pose_differs(&poses, 2) };
+    project_pose(&a->now, c, &poses, 0, a->mesh);
+    if (!moves[1] && !moves[2])
+        return;
+
+    /* Another instant than now: a sum of poses, linear in clip space. */
+    bool shifted = instant->weight[0] != 1 << 24;
+    struct smear_projection sum[3];
+    const int16_t *position[3];
+    int32_t weight[3];
+    int count = 0;
+    if (shifted) {
+        for (int k = 0; k < 3; k++) {
+            if (instant->weight[k] == 0)
+                continue;
+            project_pose(&sum[count], c, &poses, k, a->mesh);
+            position[count] = poses.position[k];
+            weight[count++] = instant->weight[k];
+        }
+        smear_projection_weigh(sum, weight, count, &c->camera);
+        a->now = sum[0];
+        a->position = position[0];
+        for (int k = 1; k < count; k++) {
+            if (position[k] == a->position) {
+                smear_projection_add(&a->now, &sum[k]);
+            } else {
+                a->extra[a->extra_count] = sum[k];
+                a->extra_position[a->extra_count++] = position[k];
+            }
+        }
+    }
+    if (!c->assembler.keep_motion)
+        return;
+    /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
+     * itself, one further pose is enough. */
+    project_pose(&a->pose[0], c, &poses, 1, a->mesh);
+    a->pose_position[0] = poses.position[1];
+    a->moves = 1;
+    if (c->frame.shutter_poses || shifted) {
+        int later = c->frame.shutter_poses ? 2 : 0;
+        project_pose(&a->pose[1], c, &poses, later, a->mesh);
+        a->pose_position[1] = poses.position[later];
+        a->moves = 2;
+    }
+}
+
+/* ------------------------------------------------------------------ assembling */
+
+/* Assembles all draws for the tile rows [first, end). False when the store is full. */
+static bool assemble_rows(struct smear_context *c, int first, int end, const struct instant *instant,
+                          bool drop)
+{
+    smear_geometry_reset(&c->geometry, first, end);
+    smear_assembler_reset(&c->assembler);
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        struct smear_assembly a;
+        make_assembly(c, i, instant, &a);
+        if (!smear_assemble(&c->assembler, &a, drop))
+            return false;
+    }
+    return true;
+}
+
+/* Assembles as many tile rows from `first` on as find room; returns their end. `before` rows above are included, for
+ * blended draws that come a row late. When even one row is too much, triangles are dropped and counted. */
+static int assemble_part(struct smear_context *c, int first, int before, const struct instant *instant)
+{
+    int end = c->window.rows;
+    int top = max_i32(first - before, 0);
+    uint32_t start = now(c);
+    for (;;) {
+        uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
+        bool last = end - first <= 1;
+        if (assemble_rows(c, top, end, instant, last))
+            break;
+        c->assembler.triangles_drawn = drawn;
+        c->assembler.triangles_dropped = dropped;
+        end = first + (end - first) / 2;
+        c->stats.triangles_split++;
+    }
+    c->opaque = c->blend = SMEAR_NO_TRIANGLE;
+    for (int row = top; row < first; row++)
+        c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
+    charge(c, &c->stats.time_submit, start);
+    return end;
+}
+
+/* ------------------------------------------------------------------ raster */
+
+static void fill_words(uint32_t *p, uint32_t value, int32_t n)
+{
+    /* Two at a time: rows are 8-byte aligned when the width is even, and a pair store needs no more elsewhere. */
+    int32_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        p[i] = value;
+        p[i + 1] = value;
+        p[i + 2] = value;
+        p[i + 3] = value;
+    }
+    for (; i < n; i++)
+        p[i] = value;
+}
+
+static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t x0, int32_t x1)
+{
+    struct smear_window *w = &c->window;
+    uint32_t clear = c->frame.clear & 0xffffffu;
+    for (int32_t y = y0; y < y1; y++) {
+        int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
+        fill_words(w->color + at, clear, n);
+        __builtin_memset(w->depth + at, 0, (size_t)n * 2);
+        if (w->velocity8 != NULL)
+            __builtin_memset(w->velocity8 + 2 * at, 0, (size_t)n * 2);
+        if (w->velocity16 != NULL)
+            __builtin_memset(w->velocity16 + 2 * at, 0, (size_t)n * 4);
+        if (c->inspect != NULL)
+            __builtin_memset(c->inspect + 2 * at, 0, (size_t)n * 8);
+    }
+}
+
+/* Pixel rows of a tile row. */
+static int32_t row_top(const struct smear_context *c, int row)
+{
+    return row * c->geometry.row_px;
+}
+
+static int32_t row_bottom(const struct smear_context *c, int row)
+{
+    return min_i32(row_top(c, row) + c->geometry.row_px, c->window.height);
+}
+
+/* Columns of a raster job: the frame's width in as many equal cuts as there are workers. */
+static void job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1)
+{
+    int32_t unit = max_i32(c->window.tile, 16), n = c->jobs.workers;
+    int32_t units = (c->window.width + unit - 1) / unit;
+    *x0 = min_i32(units * job / n * unit, c->window.width);
+    *x1 = min_i32(units * (job + 1) / n * unit, c->window.width);
+}
+
+static void window_target(const struct smear_context *c, int row, struct smear_raster_target *t)
+{
+    const struct smear_window *w = &c->window;
+    struct smear_plane_rows rows = { w->width, window_slot(w, row_top(c, row)), w->ring, 0 };
+    *t = (struct smear_raster_target){
+        .x0 = 0, .x1 = w->width, .y0 = row_top(c, row), .y1 = row_bottom(c, row),
+        .color = w->color, .color_rows = rows, .depth = w->depth, .window_rows = rows,
+        .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
+    };
+}
+
+struct row_job {
+    struct smear_context *c;
+    int row;
+    uint8_t *band;              /* finished rows */
+};
+
+static void raster_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_context *c = r->c;
+    struct smear_window *w = &c->window;
+    struct smear_raster_target t;
+    (void)worker;
+    window_target(c, r->row, &t);
+    job_columns(c, job, &t.x0, &t.x1);
+    if (t.x0 >= t.x1)
+        return;
+    clear_rows(c, t.y0, t.y1, t.x0, t.x1);
+    if (c->assembler.keep_motion) {
+        t.velocity8 = w->velocity8;
+        t.velocity16 = w->velocity16;
+        t.inspect = c->inspect;
+    }
+    smear_raster_list(&c->raster, &t, c->opaque);
+}
+
+/* Blended draws straight over the window's rows: where no filter will read them. */
+static void blend_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_raster_target t;
+    (void)worker;
+    window_target(r->c, r->row, &t);
+    job_columns(r->c, job, &t.x0, &t.x1);
+    if (t.x0 < t.x1)
+        smear_raster_list(&r->c->raster, &t, r->c->blend);
+}
+
+static void inspect_rows(struct smear_context *c, int row)
+{
+    const struct smear_window *w = &c->window;
+    for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
+        int32_t at = window_slot(w, y) * w->width;
+        c->desc.inspect(c->desc.user, y, w->color + at, w->depth + at,
+                        c->inspect + 2 * at);
+    }
+}
+
+/* Draws tile row `row` into the window. */
+static void draw_row(struct smear_context *c, int row)
+{
+    struct row_job job = { .c = c, .row = row };
+    uint32_t start = now(c);
+    c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
+    for (int32_t i = 0; i < c->window.columns; i++)
+        c->window.moving[i] = 0;
+    smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
+    if (c->inspect != NULL)
+        inspect_rows(c, row);
+    charge(c, &c->stats.time_raster, start);
+}
+
+static void blend_row(struct smear_context *c, int row)
+{
+    if (!c->blends)
+        return;
+    struct row_job job = { .c = c, .row = row };
+    c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+    smear_jobs_run(&c->jobs, blend_job, &job, c->jobs.workers);
+}
+
+/* ------------------------------------------------------------------ bands */
+
+static uint8_t *band_buffer(struct smear_context *c)
+{
+    /* With two buffers, the one from two bands ago must have been sent. */
+    while (c->desc.bands == 2
+           && c->bands_handed - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
+        if (c->desc.idle != NULL)
+            c->desc.idle(c->desc.user);
+    uint8_t *band = c->band[c->desc.bands == 2 ? c->bands_handed & 1u : 0];
+    if (c->desc.format == SMEAR_L1_PAGES)
+        __builtin_memset(band, 0, c->band_bytes);
+    return band;
+}
+
+/* The CRC is over what goes to the display; of 32-bit pixels, over their bytes R, G, B. */
+static void add_crc(struct smear_context *c, const uint8_t *band, uint32_t size)
+{
+    if (c->desc.format != SMEAR_XRGB8888) {
+        c->stats.crc32 = smear_crc32(c->stats.crc32, band, size);
+        return;
+    }
+    const uint32_t *pixel = (const uint32_t *)(const void *)band;
+    for (uint32_t i = 0; i < size / 4; i++) {
+        const uint8_t rgb[3] = { (uint8_t)(pixel[i] >> 16), (uint8_t)(pixel[i] >> 8), (uint8_t)pixel[i] };
+        c->stats.crc32 = smear_crc32(c->stats.crc32, rgb, 3);
+    }
+}
+
+static int flush_band(struct smear_context *c, int row, uint8_t *band)
+{
+    smear_format format = (smear_format)c->desc.format;
+    int32_t y = row_top(c, row), height = row_bottom(c, row) - y;
+    smear_band b = {
+        .pixels = band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
+        .stride = smear_convert_stride(c->window.width, format),
+        .size = smear_convert_size(c->window.width, height, format)
+    };
+    if (c->desc.crc)
+        add_crc(c, band, b.size);
+    c->bands_handed++;
+    int result = c->desc.flush(c->desc.user, &b);
+    return result < 0 ? result : SMEAR_OK;
+}
+
+/* ------------------------------------------------------------------ finishing without a filter */
+
+static void convert_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_context *c = r->c;
+    const struct smear_window *w = &c->window;
+    smear_format format = (smear_format)c->desc.format;
+    uint32_t stride = smear_convert_stride(w->width, format);
+    int32_t x0, x1;
+    (void)worker;
+    job_columns(c, job, &x0, &x1);
+    for (int32_t y = row_top(c, r->row); x0 < x1 && y < row_bottom(c, r->row); y++)
+        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
+                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
+}
+
+static int finish_sharp(struct smear_context *c, int row)
+{
+    blend_row(c, row);
+    uint32_t start = now(c);
+    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
+    charge(c, &c->stats.time_convert, start);
+    return flush_band(c, row, job.band);
+}
+
+/* ------------------------------------------------------------------ finishing with a filter */
+
+static void reduce_job(void *argument, int column, int worker)
+{
+    const struct row_job *r = argument;
+    const struct smear_window *w = &r->c->window;
+    (void)worker;
+    if (w->moving[column])
+        smear_tilemax(w, r->row, column);
+    else
+        window_motion(w, r->row)[column] = (struct smear_tile_motion){ 0, 0, 0, 0, 0, 0 };
+}
+
+static void reduce_row(struct smear_context *c, int row)
+{
+    struct row_job job = { .c = c, .row = row };
+    uint32_t start = now(c);
+    smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
+    charge(c, &c->stats.time_reduce, start);
+}
+
+/* Blended draws over one finished tile. */
+static void blend_tile(struct smear_context *c, int row, int column, uint32_t *tile)
+{
+    const struct smear_window *w = &c->window;
+    struct smear_raster_target t;
+    window_target(c, row, &t);
+    t.x0 = column << w->tile_shift;
+    t.x1 = min_i32(t.x0 + w->tile, w->width);
+    t.color = tile;
+    t.color_rows = (struct smear_plane_rows){ w->tile, 0, w->tile, t.x0 };
+    smear_raster_list(&c->raster, &t, c->blend);
+}
+
+static struct smear_row_table row_table(const struct smear_context *c, int row)
+{
+    return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
+}
+
+static void tile_job(void *argument, int column, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_context *c = r->c;
+    const struct smear_window *w = &c->window;
+    struct smear_row_table rows = row_table(c, r->row);
+    uint32_t *tile = c->scratch + worker * w->tile * w->tile;
+    uint8_t kind = window_around(w, r->row)[column].kind;
+
+    if (kind == TILE_STILL)
+        smear_blur_copy(tile, w, r->row, column);
+    else if (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM))
+        c->worker_samples[worker] += smear_blur_uniform(tile, w, &rows, r->row, column, &c->blur);
+    else
+        c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
+
+    if (c->blend != SMEAR_NO_TRIANGLE)
+        blend_tile(c, r->row, column, tile);
+
+    smear_format format = (smear_format)c->desc.format;
+    uint32_t stride = smear_convert_stride(w->width, format);
+    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
+    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++, tile += w->tile)
+        smear_convert_row(r->band, stride, tile, x1 - x0, x0, y, row_top(c, r->row), format,
+                          (smear_dither)c->desc.dither);
+}
+
+static void count_tiles(struct smear_context *c, int row)
+{
+    const struct smear_tile_neighborhood *around = window_around(&c->window, row);
+    for (int32_t i = 0; i < c->window.columns; i++) {
+        if (around[i].kind == TILE_STILL) {
+            c->stats.tiles_still++;
+            c->stats.tiles_none++;
+        } else {
+            c->stats.tiles_reconstruct++;
+            if (around[i].kind == TILE_UNIFORM)
+                c->stats.tiles_uniform++;
+            else
+                c->stats.tiles_complex++;
+        }
+    }
+}
+
+/* Finishes tile row `row`; rows up to `known` are in the window. */
+static int finish_blurred(struct smear_context *c, int row, int known)
+{
+    struct smear_window *w = &c->window;
+    bool corner = c->frame.reconstruct & SMEAR_CORNER;
+    smear_neighbormax_row(w, row, known, corner);
+    if (known > row)
+        smear_neighbormax_row(w, known, known, corner);
+    count_tiles(c, row);
+    int32_t first = row_top(c, row) - w->reach;
+    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
+        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, w->height - 1)) * w->width);
+    if (c->blends)
+        c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+
+    uint32_t start = now(c);
+    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
+    charge(c, &c->stats.time_blur, start);
+    return flush_band(c, row, job.band);
+}
+
+/* ------------------------------------------------------------------ methods */
+
+static int render_none(struct smear_context *c)
+{
+    for (int row = 0; row < c->window.rows;) {
+        int end = assemble_part(c, row, 0, &sharp_instant);
+        for (; row < end; row++) {
+            draw_row(c, row);
+            int result = finish_sharp(c, row);
+            if (result != SMEAR_OK)
+                return result;
+        }
+    }
+    return SMEAR_OK;
+}
+
+/* One step of the rolling window: tile row `row` has been drawn; row - 1 has a neighbour on both sides now.
+ *
+ *      row - 2    row - 1    row         the oldest is overwritten next
+ *      drawn      drawn      drawn       colour, depth, velocity: the blur only reads them
+ *                 blurred -> band -> flush
+ *
+ * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). */
+static int roll(struct smear_context *c, int row)
+{
+    reduce_row(c, row);
+    int result = row > 0 ? finish_blurred(c, row - 1, row) : SMEAR_OK;
+    if (result == SMEAR_OK && row == c->window.rows - 1)
+        result = finish_blurred(c, row, row);
+    return result;
+}
+
+static int render_reconstruct(struct smear_context *c)
+{
+    /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
+    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    for (int row = 0; row < c->window.rows;) {
+        int end = assemble_part(c, row, c->blends ? 1 : 0, &middle);
+        for (; row < end; row++) {
+            draw_row(c, row);
+            int result = roll(c, row);
+            if (result != SMEAR_OK)
+                return result;
+        }
+    }
+    return SMEAR_OK;
+}
+
+/* Adds the row's pixels to the sums: linear light, or codes in the same 16 bits. */
+static void add_row(struct smear_context *c, int row)
+{
+    const struct smear_window *w = &c->window;
+    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
+        const uint32_t *in = w->color + window_slot(w, y) * w->width;
+        uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        for (int32_t x = 0; x < w->width; x++, sum += 3) {
+            uint32_t p = in[x];
+            sum[0] += linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p);
+            sum[1] += linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p);
+            sum[2] += linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p);
+        }
+    }
+}
+
+/* sum / n to nearest. */
+static uint32_t mean_of(uint32_t sum, uint32_t n)
+{
+    return (sum + n / 2) / n;
+}
+
+static void average_row(struct smear_context *c, int row, uint32_t n)
+{
+    const struct smear_window *w = &c->window;
+    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
+        uint32_t *out = w->color + window_slot(w, y) * w->width;
+        const uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        for (int32_t x = 0; x < w->width; x++, sum += 3) {
+            uint32_t r = mean_of(sum[0], n), g = mean_of(sum[1], n), b = mean_of(sum[2], n);
+            out[x] = linear ? pixel_make(0, smear_srgb_encode[r >> 4], smear_srgb_encode[g >> 4],
+                                         smear_srgb_encode[b >> 4])
+                            : pixel_make(0, r, g, b);
+        }
+    }
+}
+
+static int render_accumulate(struct smear_context *c)
+{
+    uint32_t n = c->frame.samples;
+    size_t words = 3 * (size_t)c->window.width * (size_t)c->window.height;
+    for (size_t i = 0; i < words; i++)
+        c->sums[i] = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
+        for (int row = 0; row < c->window.rows;) {
+            int end = assemble_part(c, row, 0, &instant);
+            for (; row < end; row++) {
+                draw_row(c, row);
+                blend_row(c, row);
+                add_row(c, row);
+            }
+        }
+    }
+    c->stats.samples = n * c->stats.pixels;
+    c->blends = false;          /* they are in the sums */
+    for (int row = 0; row < c->window.rows; row++) {
+        average_row(c, row, n);
+        int result = finish_sharp(c, row);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    return SMEAR_OK;
+}
+
+/* ------------------------------------------------------------------ a frame */
+
+static void prepare(struct smear_context *c)
+{
+    struct smear_window *w = &c->window;
+    smear_stats *s = &c->stats;
+    *s = (smear_stats){ .arena_bytes = s->arena_bytes };
+    s->pixels = (uint32_t)(w->width * w->height);
+    for (int i = 0; i < c->jobs.workers; i++)
+        c->worker_samples[i] = 0;
+    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    uint32_t degrees = c->frame.shutter_degrees;
+
+    c->raster.linear = linear;
+    c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : (int32_t)((degrees << 16) / 720u);
+    c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
+    c->raster.reach_q3 = w->reach * 8;
+    c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
+    c->assembler.triangles_in = c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
+
+    c->blur = (struct smear_blur_settings){
+        .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,
+        .flags = c->frame.reconstruct
+    };
+    if (c->blur.orthographic) {
+        uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
+        c->blur.far_over_range = (uint32_t)(((uint64_t)c->camera.far_plane << 16) / range);
+    }
+
+    c->blends = false;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        const smear_draw *d = &c->submitted[i].draw;
+        struct smear_raster_draw *r = &c->raster_draw[i];
+        const smear_material *m = d->material;
+        r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
+        r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
+        if (m != NULL && m->texture != NULL)
+            smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
+                               m->bilinear, linear);
+        c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        s->triangles_in += d->mesh->triangle_count;
+    }
+}
+
+static void sum_up(struct smear_context *c)
+{
+    smear_stats *s = &c->stats;
+    s->triangles_drawn = c->assembler.triangles_drawn;
+    s->triangles_dropped = c->assembler.triangles_dropped;
+    for (int i = 0; i < c->jobs.workers; i++)
+        s->samples += c->worker_samples[i];
+    uint32_t tiles = (uint32_t)(((c->window.width + c->window.tile - 1) >> c->window.tile_shift)
+                                * ((c->window.height + c->window.tile - 1) >> c->window.tile_shift));
+    if (c->frame.method == SMEAR_NONE)
+        s->tiles_none = s->tiles_still = tiles;
+    else if (c->frame.method == SMEAR_ACCUMULATE)
+        s->tiles_accumulate = s->tiles_complex = tiles;
+}
+
+int smear_frame_render(struct smear_context *c)
+{
+    uint32_t start = now(c);
+    prepare(c);
+    int result = c->frame.method == SMEAR_NONE ? render_none(c)
+               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c) : render_reconstruct(c);
+    smear_jobs_end_frame(&c->jobs);
+    sum_up(c);
+    charge(c, &c->stats.time_total, start);
+    return result;
+}
+
+/* ------------------------------------------------------------------ the filter alone */
+
+void smear_frame_filter_begin(struct smear_context *c)
+{
+    c->draw_count = 0;
+    prepare(c);
+    c->opaque = c->blend = SMEAR_NO_TRIANGLE;
+    c->filter_row = 0;
+}
+
+/* Depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
+static uint16_t depth_code(uint32_t distance, int32_t near_plane)
+{
+    if (distance == 0)
+        return 0;
+    if (distance <= (uint32_t)near_plane)
+        return 65535;
+    int zeros = count_leading_zeros(distance);
+    uint64_t near_units = (uint64_t)(uint32_t)near_plane * SMEAR_DEPTH_NEAR;        /* 51 bits */
+    uint32_t r = recip_norm(distance << zeros);                                     /* 2^(61 - zeros) / d */
+    uint64_t units = ((near_units >> 20) * r) >> (41 - zeros);
+    if (units < 32768u)
+        return (uint16_t)max_u32((uint32_t)units, 2);
+    return (uint16_t)min_u32(32768u + (((uint32_t)units - 32768u + 8u) >> 4), 65535u);
+}
+
+/* Half the exposure's displacement in 1/8 px, no longer than the reach; from 1/16 px per frame. */
+static void pack_velocity(const struct smear_context *c, const int16_t in[2], int32_t out[2])
+{
+    int32_t scale = c->raster.velocity_scale;       /* q16 */
+    int32_t x = (int32_t)((int64_t)in[0] * scale >> 9), y = (int32_t)((int64_t)in[1] * scale >> 9);  /* q11 */
+    uint64_t square = (uint64_t)((int64_t)x * x) + (uint64_t)((int64_t)y * y);
+    uint32_t reach = (uint32_t)c->window.reach << 11;
+    if (square > (uint64_t)reach * reach) {
+        uint32_t length = sqrt_floor_64(square);
+        int32_t factor = ratio_q30(reach, length);
+        x = (int32_t)((int64_t)x * factor >> 30);
+        y = (int32_t)((int64_t)y * factor >> 30);
+    }
+    out[0] = (x + 128) >> 8;
+    out[1] = (y + 128) >> 8;
+}
+
+int smear_frame_filter_row(struct smear_context *c, const uint32_t *color, const uint32_t *depth,
+                           const int16_t *velocity)
+{
+    struct smear_window *w = &c->window;
+    int32_t y = c->filter_row++, at = window_slot(w, y) * w->width;
+    int row = y >> w->tile_shift;
+    if ((y & (w->tile - 1)) == 0)
+        for (int32_t i = 0; i < w->columns; i++)
+            w->moving[i] = 0;
+    for (int32_t x = 0; x < w->width; x++) {
+        int32_t v[2] = { 0, 0 };
+        if ((velocity[2 * x] | velocity[2 * x + 1]) != 0)
+            pack_velocity(c, velocity + 2 * x, v);
+        if ((v[0] | v[1]) != 0)
+            w->moving[x >> w->tile_shift] = 1;
+        w->color[at + x] = color[x] & 0xffffffu;
+        w->depth[at + x] = depth_code(depth[x], c->camera.near_plane);
+        if (w->velocity8 != NULL) {
+            w->velocity8[2 * (at + x)] = (int8_t)v[0];
+            w->velocity8[2 * (at + x) + 1] = (int8_t)v[1];
+        } else {
+            w->velocity16[2 * (at + x)] = (int16_t)v[0];
+            w->velocity16[2 * (at + x) + 1] = (int16_t)v[1];
+        }
+    }
+    if (y + 1 != row_bottom(c, row))
+        return SMEAR_OK;
+    int result = roll(c, row);
+    if (row == w->rows - 1)
+        sum_up(c);
+    return result;
+}

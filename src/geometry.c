@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* geometry.c - rings of triangles per tile row, and the list that rolls down the frame with the window. */
+#include "geometry.h"
+
+void smear_geometry_reset(struct smear_geometry *g, int first, int end)
+{
+    g->vertex_words = 0;
+    g->triangle_count = 0;
+    g->segment_count = 0;
+    g->row_first = first;
+    g->row_end = end;
+    for (int row = first; row < end; row++)
+        g->opaque_last[row] = g->blend_last[row] = SMEAR_NO_TRIANGLE;
+}
+
+struct smear_segment *smear_geometry_open(struct smear_geometry *g)
+{
+    if (g->segment_count == g->segment_limit)
+        return NULL;
+    struct smear_segment *s = &g->segment[g->segment_count++];
+    s->base = g->vertex_words;
+    return s;
+}
+
+void smear_geometry_link(struct smear_geometry *g, uint32_t triangle, int row, bool blend)
+{
+    uint32_t *last = blend ? &g->blend_last[row] : &g->opaque_last[row];
+    struct smear_triangle *t = geometry_triangle(g, triangle);
+    if (*last == SMEAR_NO_TRIANGLE) {
+        t->next = triangle;
+    } else {
+        struct smear_triangle *before = geometry_triangle(g, *last);
+        t->next = before->next;
+        before->next = triangle;
+    }
+    *last = triangle;
+}
+
+/* True when the triangle covers a pixel centre at or below pixel row y. */
+static bool reaches(const struct smear_geometry *g, const struct smear_triangle *t, int32_t y)
+{
+    const struct smear_segment *s = &g->segment[t->segment];
+    int32_t end = (y << 8) + 128;
+    for (int i = 0; i < 3; i++)
+        if (geometry_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
+            return true;
+    return false;
+}
+
+uint32_t smear_geometry_advance(const struct smear_geometry *g, uint32_t head, int row, bool blend)
+{
+    uint32_t last = blend ? g->blend_last[row] : g->opaque_last[row];
+    uint32_t fresh = SMEAR_NO_TRIANGLE;
+    if (last != SMEAR_NO_TRIANGLE) {        /* open the ring: from here on it is a list */
+        struct smear_triangle *t = geometry_triangle(g, last);
+        fresh = t->next;
+        t->next = SMEAR_NO_TRIANGLE;
+    }
+    uint32_t first = SMEAR_NO_TRIANGLE;
+    uint32_t *link = &first;
+    int32_t y = row * g->row_px;
+    while (head != SMEAR_NO_TRIANGLE) {
+        struct smear_triangle *t = geometry_triangle(g, head);
+        uint32_t after = t->next;
+        if (reaches(g, t, y)) {
+            while (fresh < head) {          /* none is the largest number */
+                *link = fresh;
+                link = &geometry_triangle(g, fresh)->next;
+                fresh = *link;
+            }
+            *link = head;
+            link = &t->next;
+        }
+        head = after;
+    }
+    *link = fresh;
+    return first;
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+/* geometry.h - where the triangles of a frame lie until they are drawn.
+ *
+ * One block of memory. Vertices grow from the bottom, in records whose layout is set per segment; triangles grow
+ * from the top. A triangle is linked into the tile row in which it starts; rows keep their lists as rings, in
+ * submission order, so one word per row is enough:
+ *
+ *     | vertices ->                  free                  <- triangles |
+ *
+ * Vertices are shared between triangles through the vertex cache, so a closed mesh keeps about half a record
+ * per triangle. */
+#ifndef SMEAR_GEOMETRY_H
+#define SMEAR_GEOMETRY_H
+
+#include "smear.h"
+
+#include "fixed.h"
+
+#define SMEAR_NO_TRIANGLE UINT32_MAX
+
+struct smear_triangle {
+    uint16_t vertex[3];     /* words from the segment's base */
+    uint16_t segment;
+    uint32_t next;          /* in its row's ring, later in the row's list */
+    uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */
+};
+
+enum smear_shade_mode {
+    SHADE_NONE,             /* texel alone */
+    SHADE_FLAT,             /* triangle.color (times texel) */
+    SHADE_GOURAUD           /* vertex colours (times texel) */
+};
+
+/* Triangles of one draw whose vertices lie within reach of 16-bit offsets. Vertex record, in 32-bit words:
+ * x y depth, then at the given offsets (0: absent) uv (1 word), color (2 words), motion (3 or 6 words). */
+struct smear_segment {
+    uint32_t base;          /* first word */
+    uint16_t draw;
+    uint8_t stride;
+    uint8_t uv, color, motion;
+    uint8_t shade;          /* smear_shade_mode */
+    uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
+    uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
+};
+
+/* Words of a vertex record. */
+enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
+
+/* Of one pose in `motion`: where the point was (or will be) against where it is, and how the two depths compare. */
+enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };  /* q8 pixels, q8 pixels, w_pose / w in q16 */
+
+struct smear_geometry {
+    uint32_t *pool;
+    uint32_t pool_words;
+    uint32_t vertex_words;          /* in use, from the bottom */
+    uint32_t triangle_count;        /* in use, from the top */
+    struct smear_segment *segment;
+    uint32_t segment_count, segment_limit;
+    uint32_t *opaque_last, *blend_last;     /* per tile row: last triangle of the ring, or none */
+    int row_px;                     /* pixel rows of a tile row */
+    int row_count;
+    int row_first, row_end;         /* tile rows that are being filled: a part of the frame */
+};
+
+static inline struct smear_triangle *geometry_triangle(const struct smear_geometry *g, uint32_t i)
+{
+    return (struct smear_triangle *)(void *)(g->pool + g->pool_words) - (i + 1);
+}
+
+static inline const int32_t *geometry_vertex(const struct smear_geometry *g,
+                                             const struct smear_segment *s, uint16_t offset)
+{
+    return (const int32_t *)(const void *)(g->pool + s->base + offset);
+}
+
+static inline bool geometry_has_room(const struct smear_geometry *g, uint32_t vertex_words,
+                                     uint32_t triangles)
+{
+    uint32_t triangle_words = (g->triangle_count + triangles) * (sizeof(struct smear_triangle) / 4);
+    return g->vertex_words + vertex_words + triangle_words <= g->pool_words;
+}
+
+/* Empties the store for the tile rows [first, end). */
+void smear_geometry_reset(struct smear_geometry *g, int first, int end);
+
+/* Starts a segment at the next free vertex word; null when the table is full. */
+struct smear_segment *smear_geometry_open(struct smear_geometry *g);
+
+/* Links the newest triangle into the list of tile row `row`. */
+void smear_geometry_link(struct smear_geometry *g, uint32_t triangle, int row, bool blend);
+
+/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission order.
+ * `head` is the list of the row before (or none); returns the new head; lists end with SMEAR_NO_TRIANGLE. */
+uint32_t smear_geometry_advance(const struct smear_geometry *g, uint32_t head, int row, bool blend);
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* jobs.c - see jobs.h. */
+#include "jobs.h"
+
+static void do_share(struct smear_jobs *jobs, int worker)
+{
+    for (int i = worker; i < jobs->count; i += jobs->workers)
+        jobs->job(jobs->argument, i, worker);
+}
+
+static void wait_a_little(struct smear_jobs *jobs)
+{
+    if (jobs->idle != NULL)
+        jobs->idle(jobs->user);
+}
+
+static void announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count)
+{
+    jobs->job = job;
+    jobs->argument = argument;
+    jobs->count = count;
+    unsigned stage = atomic_load_explicit(&jobs->stage, memory_order_relaxed) + 1u;
+    atomic_store_explicit(&jobs->stage, stage, memory_order_release);
+    if (job != NULL)
+        do_share(jobs, 0);
+    for (int worker = 1; worker < jobs->workers; worker++)
+        while (atomic_load_explicit(&jobs->done[worker], memory_order_acquire) != stage)
+            wait_a_little(jobs);
+}
+
+void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count)
+{
+    if (jobs->workers > 1) {
+        announce(jobs, job, argument, count);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        job(argument, i, 0);
+}
+
+void smear_jobs_end_frame(struct smear_jobs *jobs)
+{
+    if (jobs->workers > 1)
+        announce(jobs, NULL, NULL, 0);
+}
+
+void smear_jobs_work(struct smear_jobs *jobs, int worker)
+{
+    for (;;) {
+        unsigned last = atomic_load_explicit(&jobs->done[worker], memory_order_relaxed), stage;
+        while ((stage = atomic_load_explicit(&jobs->stage, memory_order_acquire)) == last)
+            wait_a_little(jobs);
+        bool over = jobs->job == NULL;
+        if (!over)
+            do_share(jobs, worker);
+        atomic_store_explicit(&jobs->done[worker], stage, memory_order_release);
+        if (over)
+            return;
+    }
+}

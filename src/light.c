@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/* light.c - the directional light of the conventions: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70. */
+#include "light.h"
+
+#include "fixmath.h"
+
+/* World direction towards the light, q14; (0.36, 0.80, 0.48) has length one. */
+static const int32_t light_direction[3] = { 5898, 13107, 7864 };
+
+static int32_t dot_q(const int32_t a[3], const int32_t b[3], int shift)
+{
+    return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> shift);
+}
+
+static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
+{
+    return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
+}
+
+/* Scales nine values so that the largest has `bits` bits. */
+static void normalize(int32_t out[3][3], int64_t in[3][3], int bits)
+{
+    uint64_t largest = 1;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            uint64_t size = in[i][j] < 0 ? 0u - (uint64_t)in[i][j] : (uint64_t)in[i][j];
+            largest = largest > size ? largest : size;
+        }
+    int shift = 64 - count_leading_zeros_64(largest) - bits;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out[i][j] = (int32_t)(shift >= 0 ? in[i][j] >> shift
+                                             : (int64_t)((uint64_t)in[i][j] << -shift));
+}
+
+/* Columns of equal length at right angles, within 1/256: the matrix is a rotation times a scale. */
+static bool keeps_lengths(int32_t m[3][3])
+{
+    int64_t length = 0;
+    for (int i = 0; i < 3; i++)
+        length += (int64_t)m[i][0] * m[i][0];
+    for (int j = 0; j < 3; j++)
+        for (int k = j; k < 3; k++) {
+            int64_t dot = 0;
+            for (int i = 0; i < 3; i++)
+                dot += (int64_t)m[i][j] * m[i][k];
+            int64_t off = j == k ? dot - length : dot;
+            if (off > length >> 8 || off < -(length >> 8))
+                return false;
+        }
+    return true;
+}
+
+void smear_shading_make(struct smear_shading *s, const smear_transform *object,
+                        const smear_material *material, bool linear)
+{
+    static const smear_material plain = { 0 };
+    const smear_material *m = material != NULL ? material : &plain;
+    s->linear = linear;
+    s->lit = !m->unlit;
+    for (int i = 0; i < 3; i++)
+        s->base[i] = m->color[3] == 0 ? 65535u : smear_srgb_decode[m->color[i]];
+    s->base[3] = m->color[3] == 0 ? 65535u : (u16lin)(m->color[3] * 257u);
+    s->even = true;
+    if (!s->lit)
+        return;
+
+    int64_t raw[3][3], cofactor[3][3];
+    int32_t b[3][3];
+    for (int i = 0; i < 9; i++)
+        raw[i / 3][i % 3] = object->basis[i];
+    normalize(b, raw, 28);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            cofactor[i][j] = (int64_t)b[i1][j1] * b[i2][j2] - (int64_t)b[i1][j2] * b[i2][j1];
+        }
+    normalize(s->normal_matrix, cofactor, 15);
+
+    /* Cofactors carry the determinant's sign; a normal must not. */
+    int32_t row[3] = { b[0][0] >> 8, b[0][1] >> 8, b[0][2] >> 8 };
+    if (dot_q(row, s->normal_matrix[0], 0) < 0)
+        for (int i = 0; i < 9; i++)
+            s->normal_matrix[i / 3][i % 3] = -s->normal_matrix[i / 3][i % 3];
+
+    s->even = keeps_lengths(s->normal_matrix);
+    if (s->even) {
+        uint32_t length = sqrt_floor_64(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
+                                                   s->normal_matrix[2][0]));
+        for (int j = 0; j < 3; j++) {
+            int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
+                                  s->normal_matrix[2][j] };
+            s->direction[j] = dot_q(column, light_direction, 0) / (int32_t)max_u32(length, 1)
+                            * 512 / 127;                        /* q14 to q23 / 127 */
+        }
+    }
+}
+
+/* max(0, cosine) of an object-space normal of any length, components up to 2^14. */
+static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
+{
+    int32_t world[3];
+    for (int i = 0; i < 3; i++)
+        world[i] = dot_q(s->normal_matrix[i], normal, 0) >> 7;      /* 31 bits to 24 */
+    int64_t along = (int64_t)world[0] * light_direction[0] + (int64_t)world[1] * light_direction[1]
+                  + (int64_t)world[2] * light_direction[2];         /* q14 x length */
+    if (along <= 0)
+        return 0;
+    uint32_t length = sqrt_floor_64(square_sum(world[0], world[1], world[2]));
+    if (length == 0)
+        return 0;
+    /* along 2^2 / length, by reciprocal: along has up to 39 bits. */
+    int zeros = count_leading_zeros(length);
+    uint64_t q = (uint64_t)(along >> 8) * recip_norm(length << zeros) >> 32;
+    int shift = 61 - 32 - zeros - 8 - 2;
+    q = shift >= 0 ? q >> shift : q << -shift;
+    return q > 65536u ? 65536u : (uint32_t)q;
+}
+
+uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3])
+{
+    if (s->even) {
+        int32_t sum = normal[0] * s->direction[0] + normal[1] * s->direction[1]
+                    + normal[2] * s->direction[2];
+        return (uint32_t)clamp_i32(sum >> 7, 0, 65536);
+    }
+    int32_t n[3] = { normal[0], normal[1], normal[2] };
+    return cosine_of(s, n);
+}
+
+uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
+                          const int16_t c[3])
+{
+    int32_t u[3], v[3], n[3];
+    int64_t cross[3];
+    uint64_t largest = 1;
+    for (int i = 0; i < 3; i++) {
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
+        uint64_t size = cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
+        largest = largest > size ? largest : size;
+    }
+    int shift = 64 - count_leading_zeros_64(largest) - 14;
+    for (int i = 0; i < 3; i++)
+        n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
+    return cosine_of(s, n);
+}
+
+/* a b with 65535 as one, for both. */
+static uint32_t times_lin(uint32_t a, uint32_t b)
+{
+    return a * (b + (b >> 15)) >> 16;
+}
+
+void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
+                 const uint8_t face_color[4], uint32_t cosine)
+{
+    /* 0.30 and 0.70 in q16 */
+    uint32_t light = s->lit ? 19661u + (45875u * cosine >> 16) : 65536u;
+    for (int i = 0; i < 3; i++) {
+        uint32_t c = s->base[i];
+        if (color != NULL)
+            c = times_lin(c, smear_srgb_decode[color[i]]);
+        if (face_color != NULL)
+            c = times_lin(c, smear_srgb_decode[face_color[i]]);
+        c = min_u32(c * light >> 16, 65535u);
+        out->channel[i] = s->linear ? (uint16_t)c : (uint16_t)(smear_srgb_encode[c >> 4] << 8);
+    }
+    uint32_t alpha = s->base[3];
+    if (color != NULL)
+        alpha = times_lin(alpha, color[3] * 257u);
+    if (face_color != NULL)
+        alpha = times_lin(alpha, face_color[3] * 257u);
+    out->channel[3] = (uint16_t)alpha;
+}
+
+uint32_t smear_color_pack(const struct smear_color *color, bool linear)
+{
+    uint32_t packed = (uint32_t)(color->channel[3] >> 8) << 24;
+    for (int i = 0; i < 3; i++) {
+        uint32_t code = linear ? smear_srgb_encode[color->channel[i] >> 4]
+                               : (uint32_t)color->channel[i] >> 8;
+        packed |= code << (16 - 8 * i);
+    }
+    return packed;
+}

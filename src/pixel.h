@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* pixel.h - the working pixel: 0xAARRGGBB, r g b as sRGB codes in both light modes.
+ *
+ * A working pixel is what the display would show, in 8 bits. Linear light is a matter of how values are multiplied,
+ * interpolated and averaged (through smear_srgb_decode and back), not of how they are kept: so a window costs
+ * the same in both modes, and a still pixel passes every filter unchanged. */
+#ifndef SMEAR_PIXEL_H
+#define SMEAR_PIXEL_H
+
+#include "fixed.h"
+#include "tables.h"
+
+static inline uint32_t pixel_red(uint32_t p) { return p >> 16 & 255u; }
+static inline uint32_t pixel_green(uint32_t p) { return p >> 8 & 255u; }
+static inline uint32_t pixel_blue(uint32_t p) { return p & 255u; }
+static inline uint32_t pixel_alpha(uint32_t p) { return p >> 24; }
+
+static inline uint32_t pixel_make(uint32_t a, uint32_t r, uint32_t g, uint32_t b)
+{
+    return a << 24 | r << 16 | g << 8 | b;
+}
+
+/* a b / 255 to nearest, a and b codes; exact for all pairs. */
+static inline uint32_t code_times(uint32_t a, uint32_t b)
+{
+    uint32_t t = a * b + 128u;
+    return (t + (t >> 8)) >> 8;
+}
+
+/* A code times linear light (65535 is one), as a code again. */
+static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
+{
+    return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
+}
+
+/* src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
+static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
+{
+    uint32_t a = alpha + (alpha >> 7), b = 256u - a;
+    if (!linear) {      /* two channels per word; a lane is at most 0xff80 before the shift */
+        uint32_t rb = ((src & 0xff00ffu) * a + (dst & 0xff00ffu) * b + 0x800080u) >> 8 & 0xff00ffu;
+        uint32_t g = (pixel_green(src) * a + pixel_green(dst) * b + 0x80u) >> 8;
+        return rb | g << 8;
+    }
+    if (a == 256u)
+        return src & 0xffffffu;
+    if (a == 0)
+        return dst;
+    uint32_t out[3];
+    for (int i = 0; i < 3; i++) {
+        int shift = 16 - 8 * i;
+        out[i] = smear_srgb_encode[(smear_srgb_decode[src >> shift & 255u] * a
+                                    + smear_srgb_decode[dst >> shift & 255u] * b) >> 12];
+    }
+    return pixel_make(0, out[0], out[1], out[2]);
+}
+
+#endif

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: MIT */
+/* smear.c - the public functions: check, fill in defaults, cut memory, keep poses, call frame.c. */
+#include "context.h"
+
+#include "arena.h"
+#include "convert.h"
+
+/* ------------------------------------------------------------------ desc */
+
+static bool is_power_of_two(uint32_t x)
+{
+    return x != 0 && (x & (x - 1)) == 0;
+}
+
+/* Fills in defaults; false when something is out of range. */
+static bool resolve(smear_desc *d)
+{
+    if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
+        return false;
+    if (d->reach == 0)
+        d->reach = (int16_t)clamp_i32(d->height * 5 / 100, 1, 64);
+    if (d->reach < 1 || d->reach > 64)
+        return false;
+    if (d->tile == 0)
+        d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
+    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || d->tile < d->reach)
+        return false;
+    if (d->band_rows == 0)
+        d->band_rows = d->tile;
+    if (d->band_rows < 8 || d->band_rows % 8 != 0 || (!d->sharp && d->band_rows != d->tile))
+        return false;
+    if (d->bands == 0)
+        d->bands = 1;
+    if (d->workers == 0)
+        d->workers = 1;
+    if (d->max_draws == 0)
+        d->max_draws = 16;
+    if (d->max_triangles == 0)
+        d->max_triangles = 1024;
+    if (d->vertex_cache == 0)
+        d->vertex_cache = 64;
+    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && d->format <= SMEAR_L1_PAGES
+        && d->dither <= SMEAR_DITHER_BLUE && d->max_triangles <= 16u << 20
+        && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
+}
+
+/* A 24-byte minimum keeps one triangle with every attribute drawable at any capacity. */
+static uint32_t pool_words(const smear_desc *d)
+{
+    const uint32_t least = 64;
+    return max_u32(d->max_triangles * (SMEAR_TRIANGLE_BYTES / 4), least);
+}
+
+_Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
+_Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
+               + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
+_Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
+_Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
+_Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
+
+/* Measures or cuts all that a context needs; `c` receives the pieces. d is resolved. */
+static void layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
+{
+    struct smear_window *w = &c->window;
+    *w = (struct smear_window){ .width = d->width, .height = d->height, .tile = d->tile,
+                                .reach = d->reach };
+    for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
+        w->tile_shift++;
+    w->columns = (d->width + d->tile - 1) / d->tile;
+    w->rows = (d->height + d->band_rows - 1) / d->band_rows;
+    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : 2 * d->tile + d->reach;
+    size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
+    w->color = arena_take(a, plane, 4);
+    w->depth = arena_take(a, plane, 2);
+    w->moving = arena_take(a, columns, 1);
+    w->velocity8 = NULL;
+    w->velocity16 = NULL;
+    if (!d->sharp) {
+        if (d->reach <= 15)
+            w->velocity8 = arena_take(a, plane, 2);
+        else
+            w->velocity16 = arena_take(a, plane, 4);
+        w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
+        w->around = arena_take(a, 3 * columns, sizeof *w->around);
+        c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
+        c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
+    }
+    c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
+    c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
+
+    c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
+    for (int i = 0; i < d->bands; i++)
+        c->band[i] = arena_take(a, c->band_bytes, 1);
+
+    c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
+    c->kept = arena_take(a, d->max_draws, sizeof *c->kept);
+    c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
+
+    struct smear_geometry *g = &c->geometry;
+    g->row_px = d->band_rows;
+    g->row_count = w->rows;
+    g->pool_words = pool_words(d);
+    g->pool = arena_take(a, g->pool_words, 4);
+    g->segment_limit = d->max_draws + 2u + g->pool_words / 50000u;
+    g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
+    g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
+    g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
+    c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
+    c->assembler.cache_mask = d->vertex_cache - 1u;
+}
+
+size_t smear_memory_size(const smear_desc *desc)
+{
+    if (desc == NULL)
+        return 0;
+    smear_desc d = *desc;
+    if (!resolve(&d))
+        return 0;
+    struct smear_context measured;
+    struct smear_arena a = { NULL, 0 };
+    arena_take(&a, 1, sizeof measured);
+    layout(&measured, &a, &d);
+    return a.used;
+}
+
+int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes)
+{
+    if (ctx == NULL || desc == NULL || desc->flush == NULL)
+        return SMEAR_ERR_ARG;
+    *ctx = NULL;
+    smear_desc d = *desc;
+    if (!resolve(&d))
+        return SMEAR_ERR_ARG;
+    if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_memory_size(desc))
+        return SMEAR_ERR_MEMORY;
+
+    struct smear_arena a = { memory, 0 };
+    struct smear_context *c = arena_take(&a, 1, sizeof *c);
+    *c = (struct smear_context){ 0 };
+    layout(c, &a, &d);
+    c->desc = d;
+    c->stats.arena_bytes = (uint32_t)a.used;
+    c->assembler.viewport = (struct smear_viewport){ d.width, d.height };
+    c->assembler.geometry = &c->geometry;
+    c->raster.geometry = &c->geometry;
+    c->raster.draw = c->raster_draw;
+    c->jobs.workers = d.workers;
+    c->jobs.idle = d.idle;
+    c->jobs.user = d.user;
+    for (uint32_t i = 0; i < d.max_draws; i++)
+        c->kept[i].id = 0;
+    *ctx = c;
+    return SMEAR_OK;
+}
+
+/* ------------------------------------------------------------------ frame */
+
+static bool is_camera(const smear_camera *c)
+{
+    for (int i = 0; i < 9; i++)
+        if (c->pose.basis[i] > 2 * SMEAR_BASIS_ONE || c->pose.basis[i] < -2 * SMEAR_BASIS_ONE)
+            return false;
+    if (c->near_plane <= 0 || (c->far_plane != 0 && c->far_plane <= c->near_plane))
+        return false;
+    return c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
+}
+
+/* Defaults of a frame; false when something is out of range. */
+static bool resolve_frame(const struct smear_context *c, smear_frame *f)
+{
+    if (f->method == SMEAR_DEFAULT_METHOD)
+        f->method = c->desc.sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT;
+    if (f->samples == 0)
+        f->samples = 8;
+    if (f->shutter_degrees == 0)
+        f->shutter_degrees = 180;
+    if (f->method > SMEAR_RECONSTRUCT || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+        || f->samples > 1024 || f->shutter_degrees > 3600)
+        return false;
+    if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
+        return false;
+    return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
+}
+
+int smear_begin(smear_context *c, const smear_frame *frame)
+{
+    if (c == NULL || frame == NULL || frame->camera == NULL || !is_camera(frame->camera)
+        || (frame->open != NULL && !is_camera(frame->open))
+        || (frame->close != NULL && !is_camera(frame->close)))
+        return SMEAR_ERR_ARG;
+    smear_frame f = *frame;
+    if (!resolve_frame(c, &f))
+        return SMEAR_ERR_ARG;
+    c->camera = *frame->camera;
+    c->camera_moves = true;
+    c->camera_close = frame->close != NULL ? *frame->close : *frame->camera;
+    if (frame->open != NULL)
+        c->camera_open = *frame->open;
+    else if (c->has_kept_camera && !f.shutter_poses)
+        c->camera_open = c->kept_camera;
+    else
+        c->camera_moves = f.shutter_poses && frame->close != NULL;
+    if (!c->camera_moves || (f.shutter_poses && frame->open == NULL))
+        c->camera_open = *frame->camera;
+    c->kept_camera = *frame->camera;
+    c->has_kept_camera = true;
+    f.camera = f.open = f.close = NULL;
+    c->frame = f;
+    c->frame_number++;
+    c->draw_count = 0;
+    c->state = STATE_BEGUN;
+    return SMEAR_OK;
+}
+
+static bool is_texture(const smear_texture *t)
+{
+    return t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
+        && t->format <= SMEAR_TEXEL_PALETTE8 && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL)
+        && t->wrap_u <= SMEAR_MIRROR && t->wrap_v <= SMEAR_MIRROR;
+}
+
+static bool is_mesh(const smear_mesh *m)
+{
+    if (m == NULL || m->position == NULL || (m->index == NULL && m->triangle_count != 0))
+        return false;
+    if (m->shift < -32 || m->shift > 62 || m->uv_shift > 15 || m->scale < 0)
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (m->offset[i] > 1 << 20 || m->offset[i] < -(1 << 20))
+            return false;
+    return true;
+}
+
+/* The kept pose of an id: its own, else a free one, else one not seen in the last frame; or -1. */
+static int32_t find_kept(struct smear_context *c, uint32_t id)
+{
+    int32_t spare = -1;
+    uint32_t n = c->desc.max_draws, at = id % n;
+    for (uint32_t i = 0; i < n; i++, at = at + 1 == n ? 0 : at + 1) {
+        struct smear_kept_pose *k = &c->kept[at];
+        if (k->id == id)
+            return (int32_t)at;
+        if (k->id == 0)
+            return spare >= 0 ? spare : (int32_t)at;
+        if (spare < 0 && c->frame_number - k->frame > 1u)
+            spare = (int32_t)at;
+    }
+    return spare;
+}
+
+static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
+{
+    static const smear_transform identity = SMEAR_IDENTITY;
+    if (draw->id == 0)
+        return -1;
+    int32_t at = find_kept(c, draw->id);
+    if (at < 0)
+        return -1;
+    struct smear_kept_pose *k = &c->kept[at];
+    bool known = k->id == draw->id && k->frame + 1u == c->frame_number;
+    k->has_before = known;
+    if (known)
+        k->before = k->now;
+    k->now = draw->now != NULL ? *draw->now : identity;
+    k->id = draw->id;
+    k->frame = c->frame_number;
+    return at;
+}
+
+int smear_submit(smear_context *c, const smear_draw *draw)
+{
+    if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
+        return SMEAR_ERR_ARG;
+    const smear_material *m = draw->material;
+    if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))))
+        return SMEAR_ERR_ARG;
+    if (c->state != STATE_BEGUN)
+        return SMEAR_ERR_ORDER;
+    if (c->draw_count == c->desc.max_draws)
+        return SMEAR_ERR_FULL;
+    struct smear_submitted *s = &c->submitted[c->draw_count++];
+    s->draw = *draw;
+    s->kept = keep_pose(c, draw);
+    return SMEAR_OK;
+}
+
+int smear_render(smear_context *c)
+{
+    if (c == NULL)
+        return SMEAR_ERR_ARG;
+    if (c->state != STATE_BEGUN)
+        return SMEAR_ERR_ORDER;
+    c->state = STATE_IDLE;
+    return smear_frame_render(c);
+}
+
+void smear_band_done(smear_context *c)
+{
+    /* Only this function writes the word, so a plain increment is enough. */
+    unsigned sent = atomic_load_explicit(&c->bands_sent, memory_order_relaxed);
+    atomic_store_explicit(&c->bands_sent, sent + 1u, memory_order_release);
+}
+
+void smear_work(smear_context *c, int worker)
+{
+    if (c != NULL && worker > 0 && worker < c->jobs.workers)
+        smear_jobs_work(&c->jobs, worker);
+}
+
+void smear_get_stats(const smear_context *c, smear_stats *stats)
+{
+    *stats = c->stats;
+}
+
+/* ------------------------------------------------------------------ the filter alone */
+
+int smear_filter_begin(smear_context *c, const smear_frame *frame)
+{
+    if (c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
+        return SMEAR_ERR_ARG;
+    smear_frame f = *frame;
+    if (!resolve_frame(c, &f) || f.method != SMEAR_RECONSTRUCT || c->desc.workers > 1)
+        return SMEAR_ERR_ARG;
+    f.camera = f.open = f.close = NULL;
+    f.shutter_poses = 0;
+    c->camera = *frame->camera;
+    c->camera.half_height = 0;
+    c->frame = f;
+    c->state = STATE_FILTER;
+    smear_frame_filter_begin(c);
+    return SMEAR_OK;
+}
+
+int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth,
+                     const int16_t *velocity)
+{
+    if (c == NULL || color == NULL || depth == NULL || velocity == NULL)
+        return SMEAR_ERR_ARG;
+    if (c->state != STATE_FILTER)
+        return SMEAR_ERR_ORDER;
+    int result = smear_frame_filter_row(c, color, depth, velocity);
+    if (result != SMEAR_OK || c->filter_row == c->window.height)
+        c->state = STATE_IDLE;
+    return result;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+/* texture.c - texel (floor(u W), floor(v H)), row 0 at the top; wrap modes; nearest and bilinear. */
+#include "texture.h"
+
+#include "fixmath.h"
+#include "pixel.h"
+
+static int log2_exact(uint32_t x)
+{
+    return (x & (x - 1)) == 0 ? 31 - count_leading_zeros(x) : -1;
+}
+
+/* Ratio q29 counts 2^15 mesh units: texels i32q16 = ratio size 2^(15 - uv_shift) 2^16 / 2^29. */
+static int32_t scale_for(int32_t size, int uv_shift, int8_t *shift)
+{
+    int zeros = count_leading_zeros((uint32_t)size) - 2;        /* size 2^zeros lies in [2^29, 2^30) */
+    *shift = (int8_t)(32 + 2 - uv_shift - zeros);
+    return size << zeros;
+}
+
+void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
+                        bool bilinear, bool linear)
+{
+    s->texels = texture->texels;
+    s->palette = texture->palette;
+    s->width = texture->width;
+    s->height = texture->height;
+    s->format = texture->format;
+    s->wrap_u = texture->wrap_u;
+    s->wrap_v = texture->wrap_v;
+    s->bilinear = bilinear;
+    s->linear = linear;
+    int log2_width = log2_exact(texture->width), log2_height = log2_exact(texture->height);
+    s->masked = log2_width >= 0 && log2_height >= 0;
+    if (s->masked) {
+        s->log2_width = (uint8_t)log2_width;
+        s->mask_u = texture->width - 1u;
+        s->mask_v = (texture->height - 1u) << log2_width;
+    }
+    s->scale_u = scale_for(texture->width, uv_shift, &s->shift_u);
+    s->scale_v = scale_for(texture->height, uv_shift, &s->shift_v);
+}
+
+static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
+{
+    if (s->format == SMEAR_TEXEL_8888)
+        return ((const uint32_t *)s->texels)[at];
+    if (s->format == SMEAR_TEXEL_PALETTE8)
+        return s->palette[((const uint8_t *)s->texels)[at]];
+    uint32_t c = ((const uint16_t *)s->texels)[at];
+    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
+    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
+}
+
+/* Any integer texel coordinate into 0 .. size - 1. */
+static int32_t wrap(int32_t i, int32_t size, int mode)
+{
+    if (mode == SMEAR_CLAMP)
+        return clamp_i32(i, 0, size - 1);
+    int32_t period = mode == SMEAR_MIRROR ? 2 * size : size;
+    i %= period;
+    if (i < 0)
+        i += period;
+    return i < size ? i : period - 1 - i;
+}
+
+static uint32_t texel(const struct smear_sampler *s, int32_t iu, int32_t iv)
+{
+    return fetch(s, (uint32_t)(wrap(iv, s->height, s->wrap_v) * s->width
+                               + wrap(iu, s->width, s->wrap_u)));
+}
+
+/* Blends by weight 0 .. 256 towards b; alpha is always linear. */
+static uint32_t mix_texels(uint32_t a, uint32_t b, uint32_t weight, bool linear)
+{
+    uint32_t rest = 256u - weight, result = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+        uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
+        uint32_t c = linear && shift < 24
+            ? smear_srgb_encode[(smear_srgb_decode[ca] * rest + smear_srgb_decode[cb] * weight) >> 12]
+            : (ca * rest + cb * weight + 128u) >> 8;
+        result |= c << shift;
+    }
+    return result;
+}
+
+static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_t v)
+{
+    u = sub_wrap(u, 0x8000);
+    v = sub_wrap(v, 0x8000);
+    int32_t iu = u >> 16, iv = v >> 16;
+    uint32_t fu = (uint32_t)u >> 8 & 255u, fv = (uint32_t)v >> 8 & 255u;
+    uint32_t top = mix_texels(texel(s, iu, iv), texel(s, iu + 1, iv), fu, s->linear);
+    uint32_t bottom = mix_texels(texel(s, iu, iv + 1), texel(s, iu + 1, iv + 1), fu, s->linear);
+    return mix_texels(top, bottom, fv, s->linear);
+}
+
+void smear_sample(uint32_t *out, const struct smear_sampler *s, int32_t u, int32_t v, int32_t du,
+                  int32_t dv, int n)
+{
+    if (s->bilinear) {
+        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
+            *out++ = sample_bilinear(s, u, v);
+    } else if (s->masked && s->wrap_u == SMEAR_REPEAT && s->wrap_v == SMEAR_REPEAT) {
+        int down = 16 - s->log2_width;
+        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
+            *out++ = fetch(s, ((uint32_t)v >> down & s->mask_v) | ((uint32_t)u >> 16 & s->mask_u));
+    } else {
+        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
+            *out++ = texel(s, u >> 16, v >> 16);
+    }
+}

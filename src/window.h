@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* window.h - the rolling window: the rows of the sharp frame that a filter may still read.
+ *
+ * A ring of pixel rows: the tile row being finished, the one below it, and `reach` rows of the one above.
+ *
+ *      row - 2    row - 1    row
+ *      (reach)    finished   drawn        the oldest rows are overwritten next
+ *
+ * Depth, velocity and colour are planes of one shape. Velocities take 8 bits per axis where the reach allows
+ * (1/8 px steps up to 15 px), 16 where it does not. */
+#ifndef SMEAR_WINDOW_H
+#define SMEAR_WINDOW_H
+
+#include "fixed.h"
+
+/* Velocity class of a tile. */
+enum smear_tile_class { TILE_STILL, TILE_UNIFORM, TILE_COMPLEX };
+
+/* What is known of a tile's velocities, in 1/8 px; of all its pixels inside the frame. */
+struct smear_tile_motion {
+    int16_t x, y;                   /* the longest; of equals the first in row order */
+    int16_t min_x, max_x, min_y, max_y;
+};
+
+struct smear_tile_neighborhood {
+    int16_t x, y;                   /* longest of the 3 x 3 tiles, in 1/256 px */
+    uint8_t kind;                   /* smear_tile_class */
+};
+
+struct smear_window {
+    int32_t width, height;          /* of the frame */
+    int32_t tile, tile_shift;
+    int32_t reach;
+    int32_t columns, rows;          /* tiles */
+    int32_t ring;                   /* pixel rows kept */
+    uint32_t *color;
+    uint16_t *depth;
+    int8_t *velocity8;              /* one of the two, or none (sharp only) */
+    int16_t *velocity16;
+    uint8_t *moving;                /* per tile column of the row being drawn */
+    struct smear_tile_motion *motion;           /* three tile rows, row r at r % 3 */
+    struct smear_tile_neighborhood *around;     /* likewise, of rows with both neighbours */
+};
+
+static inline int32_t window_slot(const struct smear_window *w, int32_t y)
+{
+    return (int32_t)((uint32_t)y % (uint32_t)w->ring);
+}
+
+static inline struct smear_tile_motion *window_motion(const struct smear_window *w, int32_t row)
+{
+    return w->motion + (uint32_t)row % 3u * (uint32_t)w->columns;
+}
+
+static inline struct smear_tile_neighborhood *window_around(const struct smear_window *w, int32_t row)
+{
+    return w->around + (uint32_t)row % 3u * (uint32_t)w->columns;
+}
+
+#endif

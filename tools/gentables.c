@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+/* gentables.c - writes src/tables.c to standard output: `make tables`. The only place where the library's
+ * constants meet floating point; `make test` compares a fresh run with the committed file. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_table(const char *comment, const char *type, const char *name, const uint32_t *value,
+                        int count)
+{
+    printf("\n/* %s */\nconst %s %s[%d] = {", comment, type, name, count);
+    for (int i = 0; i < count; i++)
+        printf("%s%u,", i % 16 == 0 ? "\n    " : " ", value[i]);
+    printf("\n};\n");
+}
+
+static void print_signed_table(const char *comment, const char *name, const uint32_t *value, int count)
+{
+    printf("\n/* %s */\nconst int8_t %s[%d] = {", comment, name, count);
+    for (int i = 0; i < count; i++)
+        printf("%s%d,", i % 16 == 0 ? "\n    " : " ", (int)value[i]);
+    printf("\n};\n");
+}
+
+static double srgb_decode(double c)
+{
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double srgb_encode(double l)
+{
+    return l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055;
+}
+
+/* Void and cluster [Ulichney 1993]: ranks of a tileable dither pattern with a blue spectrum. */
+enum { BLUE = 32, BLUE_CELLS = BLUE * BLUE };
+
+static double blue_energy[BLUE_CELLS];
+static int blue_set[BLUE_CELLS];
+
+static void blue_flip(int cell, int set)
+{
+    blue_set[cell] = set;
+    for (int other = 0; other < BLUE_CELLS; other++) {
+        int dx = abs(cell % BLUE - other % BLUE), dy = abs(cell / BLUE - other / BLUE);
+        dx = dx > BLUE / 2 ? BLUE - dx : dx;
+        dy = dy > BLUE / 2 ? BLUE - dy : dy;
+        double weight = exp(-(dx * dx + dy * dy) / (2 * 1.9 * 1.9));
+        blue_energy[other] += set ? weight : -weight;
+    }
+}
+
+/* The set cell in the densest place, or the empty cell in the emptiest; the first of equals. */
+static int blue_extreme(int set)
+{
+    int best = -1;
+    for (int cell = 0; cell < BLUE_CELLS; cell++)
+        if (blue_set[cell] == set
+            && (best < 0 || (set ? blue_energy[cell] > blue_energy[best] + 1e-9
+                                 : blue_energy[cell] < blue_energy[best] - 1e-9)))
+            best = cell;
+    return best;
+}
+
+static void blue_noise(uint32_t *rank)
+{
+    int start[BLUE_CELLS], ones = BLUE_CELLS / 10;
+    uint32_t random = 1;
+    for (int placed = 0; placed < ones;) {
+        random = random * 1664525u + 1013904223u;
+        int cell = (int)(random >> 22);
+        if (!blue_set[cell]) {
+            blue_flip(cell, 1);
+            placed++;
+        }
+    }
+    for (;;) {      /* even the seed out: move the tightest point to the largest hole until it stays */
+        int cluster = blue_extreme(1);
+        blue_flip(cluster, 0);
+        int hole = blue_extreme(0);
+        blue_flip(hole, 1);
+        if (hole == cluster)
+            break;
+    }
+    memcpy(start, blue_set, sizeof start);
+    for (int r = ones - 1; r >= 0; r--) {
+        int cell = blue_extreme(1);
+        blue_flip(cell, 0);
+        rank[cell] = (uint32_t)r;
+    }
+    for (int cell = 0; cell < BLUE_CELLS; cell++)
+        if (start[cell])
+            blue_flip(cell, 1);
+    for (int r = ones; r < BLUE_CELLS; r++) {
+        int cell = blue_extreme(0);
+        blue_flip(cell, 1);
+        rank[cell] = (uint32_t)r;
+    }
+}
+
+int main(void)
+{
+    static uint32_t t[4096];
+    printf("/* SPDX-License-Identifier: MIT */\n"
+           "/* tables.c - written by tools/gentables.c (`make tables`); do not edit. */\n"
+           "#include \"tables.h\"\n");
+
+    for (int i = 0; i < 512; i++)       /* the reciprocal of the middle of each 1/512 of [1, 2) */
+        t[i] = (uint32_t)floor(2048 / (1 + (i + 0.5) / 512) + 0.5);
+    print_table("2^11 / m for m = 1 + (i + 1/2) / 512; relative error below 2^-9.4", "uint16_t",
+                "smear_recip_seed", t, 512);
+
+    for (int i = 0; i < 256; i++)
+        t[i] = (uint32_t)floor(65535 * srgb_decode(i / 255.0) + 0.5);
+    print_table("sRGB code to linear light, 65535 is one", "uint16_t", "smear_srgb_decode", t, 256);
+
+    for (int i = 0; i < 4096; i++)
+        t[i] = (uint32_t)floor(255 * srgb_encode((i + 0.5) / 4096) + 0.5);
+    print_table("linear light >> 4 to sRGB code", "uint8_t", "smear_srgb_encode", t, 4096);
+
+    for (int i = 0; i < 1024; i++)
+        t[i] = (uint32_t)fmin(255, floor(8 * sqrt((double)i) + 0.5));
+    print_table("8 sqrt(i), at most 255", "uint8_t", "smear_sqrt_q3", t, 1024);
+
+    for (int i = 0; i < 256; i++)
+        t[i] = (uint32_t)(int)floor(127 * sin(i * 2 * 3.14159265358979323846 / 256) + 0.5);
+    print_signed_table("127 sin(i 2 pi / 256)", "smear_sine", t, 256);
+
+    for (int i = 0; i < 64; i++) {      /* Bayer: the bits of x ^ y and y, interleaved from the lowest up */
+        int x = i & 7, y = i >> 3, v = 0;
+        for (int bit = 0; bit < 3; bit++)
+            v = v << 2 | ((x ^ y) >> bit & 1) << 1 | (y >> bit & 1);
+        t[i] = (uint32_t)v * 4 + 2;
+    }
+    print_table("ordered dither, 8 x 8, thresholds in 1/256", "uint8_t", "smear_dither_ordered", t, 64);
+
+    blue_noise(t);
+    for (int i = 0; i < BLUE_CELLS; i++)
+        t[i] = t[i] / 4;
+    print_table("blue noise dither, 32 x 32, thresholds in 1/256", "uint8_t", "smear_dither_blue", t,
+                BLUE_CELLS);
+    return 0;
+}
