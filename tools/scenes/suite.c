@@ -11,7 +11,7 @@
  *     pan        18.99  19.72     enter      10.01  10.90     teleport    3.15   3.06
  *     dolly      11.09  11.82     near        9.51   9.71     textured   26.70  27.83
  *     roll       22.85  24.67     long       18.61  17.26     morph       3.65   3.91
- *     cross      13.10  13.87     subpixel    1.41   1.41     cubic       5.48   5.29
+ *     cross      13.10  13.87     subpixel    1.33   1.41     cubic       5.48   5.29
  *                                 skin        6.61   6.78     arena      10.08  11.10
  */
 #include "builtin.h"

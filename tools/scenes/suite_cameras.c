@@ -217,9 +217,8 @@ static void subpixel_build(struct stage *stage)
 
 static void subpixel_move(const struct stage *stage, double time, struct scene_instant *out)
 {
-    double turn = time - 0.5;
     (void)stage;
-    stage_camera(out, aim(vec3(0.3, 1.8, 0.2), 0.7 + 0.1 * turn, -0.07, 0.06 * turn), 52);
+    stage_camera(out, aim(vec3(0.3, 1.8, 0.2), 0.7 + 0.102 * (time - 0.5), -0.07, 0), 52);
 }
 
 /* ------------------------------------------------------------------ still */

@@ -377,7 +377,7 @@ static void teleport_move(const struct stage *stage, double time, struct scene_i
 {
     int lap;
     double period = 14 / 30.0, since = suite_lap(time - 0.5 + 0.75 / 30 - period / 2, period, &lap);
-    double start = lap & 1 ? -3.4 : 0.1, lane = lap & 1 ? -1.3 : 1.0;
+    double start = lap & 1 ? -4.6 : 0.1, lane = lap & 1 ? -1.3 : 1.0;
     (void)stage;
     yard_camera(out);
     stage_place(out, 1, xform_move(start + 6.0 * (since + period / 2), 0, lane));
