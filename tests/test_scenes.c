@@ -135,13 +135,13 @@ static void test_a_pose_depends_on_nothing_but_time(void)
 
 /* ------------------------------------------------------------------ shapes */
 
-enum { SHAPES = 6 };
+enum { SHAPES = 5 };
 
 /* Closed solids of known volume, up to how well flat facets fill a round one. */
 static void shapes_build(struct stage *stage)
 {
     for (int i = 0; i < SHAPES; i++) {
-        struct build b = build_begin(stage, i & 1 ? BUILD_NORMAL : 0);
+        struct build b = build_begin(stage, i == 1 || i == 2 ? BUILD_NORMAL : 0);
         const struct vec3 wedge[6] = {
             vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 2, 0),
             vec3(0, 0, 3), vec3(2, 0, 3), vec3(0, 2, 3),
@@ -151,8 +151,7 @@ static void shapes_build(struct stage *stage)
         case 0: build_box(&b, vec3(-1, -2, 0), vec3(1, 1, 3)); break;
         case 1: build_ball(&b, 2, 64, 64); break;
         case 2: build_drum(&b, 1, 0.5, -1, 1, 64); break;
-        case 3: build_ring(&b, 3, 0.5, 64, 64); break;
-        case 4: build_loft(&b, wedge, 2, 3); break;
+        case 3: build_loft(&b, wedge, 2, 3); break;
         default: build_lathe(&b, cone, 3, 64); break;
         }
         stage_add(stage, build_finish(&b));
@@ -169,7 +168,7 @@ static void shapes_move(const struct stage *stage, double time, struct scene_ins
 static void test_shapes_are_closed_and_face_outward(void)
 {
     static const struct stage_kind kind = {"shapes", 64, 64, 0, 0, shapes_build, shapes_move};
-    const double volume[SHAPES] = {18, 32.0 / 3 * PI, 3.5 / 3 * PI, 1.5 * PI * PI, 6, 2.0 / 3 * PI};
+    const double volume[SHAPES] = {18, 32.0 / 3 * PI, 3.5 / 3 * PI, 6, 2.0 / 3 * PI};
     struct shown s = {0};
     if (!CHECK(stage_open(&kind, 1, "shapes", &s.scene, &s.f)))
         return;

@@ -200,28 +200,6 @@ void build_drum(struct build *b, double radius0, double radius1, double y0, doub
         disc(b, radius1, y1, sides, true);
 }
 
-void build_ring(struct build *b, double radius, double thickness, int sides, int around)
-{
-    uint32_t first = 0;
-    for (int i = 0; i < sides; i++)
-        for (int k = 0; k < around; k++) {
-            double a = 2 * PI * i / sides, c = 2 * PI * k / around;
-            struct vec3 n = vec3(cos(c) * sin(a), sin(c), cos(c) * cos(a));
-            struct vec3 p = vec3_add(vec3(radius * sin(a), 0, radius * cos(a)),
-                                     vec3_scale(n, thickness));
-            uint32_t v = build_vertex(b, p, n, (double)i / sides, (double)k / around);
-            if (i == 0 && k == 0)
-                first = v;
-        }
-    for (int i = 0; i < sides; i++)
-        for (int k = 0; k < around; k++) {
-            uint32_t here = first + (uint32_t)(i * around), next = (uint32_t)((k + 1) % around);
-            uint32_t there = first + (uint32_t)((i + 1) % sides * around), at = (uint32_t)k;
-            build_triangle(b, here + at, there + at, there + next);
-            build_triangle(b, here + at, there + next, here + next);
-        }
-}
-
 void build_loft(struct build *b, const struct vec3 *corner, int rings, int sides)
 {
     uint32_t first = 0, n = (uint32_t)sides;

@@ -40,7 +40,6 @@ void build_lathe(struct build *b, const double *profile, int points, int sides);
 void build_ball(struct build *b, double radius, int sides, int rings);
 /* Along y from y0 to y1, closed at both ends; the rim is sharp. */
 void build_drum(struct build *b, double radius0, double radius1, double y0, double y1, int sides);
-void build_ring(struct build *b, double radius, double thickness, int sides, int around);
 /* `rings` polygons of `sides` corners each, ring after ring, joined to a closed solid with flat
  * ends; seen from beyond the last ring the corners run counter-clockwise. Convex rings, flat
  * shading only. */
