@@ -147,6 +147,7 @@ static void test_syntax_errors_tell_line_and_column(void)
         { "\"\\u0000\"", "NUL character in a string (line 1, column 2)" },
         { "\"\\ud800\"", "half a surrogate pair in a string (line 1, column 2)" },
         { "\"\\ud800\\u0041\"", "half a surrogate pair in a string (line 1, column 2)" },
+        { "\"\\ud800\\ue000\"", "half a surrogate pair in a string (line 1, column 2)" },
         { "\"\\udc00\"", "half a surrogate pair in a string (line 1, column 2)" },
         { "{\"a\":1,\"b\":2,\"a\":3}",
           "an object that ends here has a name twice (line 1, column 19)" },

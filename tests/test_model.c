@@ -344,10 +344,12 @@ static void test_an_accessor_without_a_view_is_zeros(void)
 /* --- containers --- */
 
 #define TRIANGLE_BASE64 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
-#define EMBEDDED(uri) "{\"asset\":{\"version\":\"2.1\"},\"buffers\":[{\"byteLength\":36," \
-    "\"uri\":\"" uri "\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]," \
+#define EMBEDDED_AT(length, offset, uri) "{\"asset\":{\"version\":\"2.1\"},\"buffers\":[{" \
+    "\"byteLength\":" length ",\"uri\":\"" uri "\"}],\"bufferViews\":[{\"buffer\":0," \
+    "\"byteOffset\":" offset ",\"byteLength\":36}]," \
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}]," \
     "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}"
+#define EMBEDDED(uri) EMBEDDED_AT("36", "0", uri)
 
 static void test_buffers_come_from_data_uris(void)
 {
@@ -364,6 +366,17 @@ static void test_buffers_come_from_data_uris(void)
         model_free(&m);
     if (CHECK(parses(EMBEDDED("data:;base64," TRIANGLE_BASE64 "AA"), &m)))
         model_free(&m);
+    /* The last number ends in the last, incomplete group of characters: 37 and 38 bytes. */
+    static const char *const incomplete[] = {
+        EMBEDDED_AT("37", "1", "data:;base64,AQAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA0A9JQA=="),
+        EMBEDDED_AT("38", "2", "data:;base64,AQIAAIA/AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAANAPSUA=")
+    };
+    for (int i = 0; i < 2; i++) {
+        if (!CHECK(parses(incomplete[i], &m)))
+            continue;
+        CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 1e-6, 1, 0, 0, 0, 0, 0, 0, 0, 3.14159));
+        model_free(&m);
+    }
     CHECK(!model_parse((const uint8_t *)bad, strlen(bad), NULL, &m, &f));
     CHECK(same_text(f.text, "bad base64 (buffers[0].uri)"));
     f = (struct failure){ 0 };
@@ -556,19 +569,25 @@ static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
     struct model m;
     ADD(&s, F32, "VEC2", 3, "", 9, 9, 9, 9, 9, 9);
     ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);
-    /* The extension's own example: the lower left quadrant of the picture, turned by a quarter. */
+    /* The extension's own example, the lower left quadrant of the picture, turned by a quarter;
+     * then each side's scale told apart, without and with the turn. */
     if (!CHECK(loads(&s, PICTURE "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
                      "{'index':0,'texCoord':1,'extensions':{'KHR_texture_transform':"
                      "{'offset':[0,1],'rotation':1.57079632679,'scale':[0.5,0.5]}}}}},"
                      "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':0,"
                      "'extensions':{'KHR_texture_transform':{'offset':[0.5,0.25],'scale':[2,-3],"
-                     "'texCoord':1}}}}}]," ONE_NODE "'meshes':[{'primitives':["
+                     "'texCoord':1}}}}},{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,"
+                     "'texCoord':1,'extensions':{'KHR_texture_transform':"
+                     "{'rotation':1.57079632679,'scale':[2,3]}}}}}]," ONE_NODE
+                     "'meshes':[{'primitives':["
                      "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':0},"
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':1}]}]",
+                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':1},"
+                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':2}]}]",
                      &m)))
         return;
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 1e-7, 0, 1, 0, 0.5, 0.5, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 1e-7, 0.5, 0.25, 2.5, 0.25, 0.5, -2.75));
+    CHECK(SAME_FLOATS(m.mesh[0].primitive[2].uv, 1e-7, 0, 0, 0, -2, 3, 0));
     model_free(&m);
 }
 
@@ -608,10 +627,11 @@ static void test_transforms_multiply_down_the_tree(void)
     struct source s = triangle();
     struct model m;
     struct model_pose pose = { 0 };
-    /* Children before parents in the file; a quarter turn about z above a matrix. */
+    /* Children before parents in the file; above a matrix, a quarter turn about z
+     * whose quaternion is too short. */
     if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'matrix':[0,2,0,0,-2,0,0,0,0,0,2,0,5,6,7,1]},"
                      "{'mesh':0,'translation':[1,2,3],'scale':[1,-1,2]},"
-                     "{'name':'top','children':[0,1],'rotation':[0,0,0.70710678,0.70710678],"
+                     "{'name':'top','children':[0,1],'rotation':[0,0,0.5,0.5],"
                      "'translation':[10,0,0]}]," ONE_MESH, &m)))
         return;
     CHECK_EQ(m.order[0], 2);
@@ -825,6 +845,22 @@ static void test_cubic_rotations_are_made_unit_length(void)
     model_free(&m);
 }
 
+static void test_a_single_key_holds_forever_looped_or_not(void)
+{
+    struct source s = triangle();
+    struct model m;
+    ADD(&s, F32, "SCALAR", 1, "", 0);
+    ADD(&s, F32, "VEC3", 1, "", 4, 5, 6);
+    if (!CHECK(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
+                     "'translation'}}],'samplers':[{'input':1,'output':2}]}]," ONE_NODE ONE_MESH,
+                     &m)))
+        return;
+    static const double cases[][4] = { { -1, 4, 5, 6 }, { 0, 4, 5, 6 }, { 7.5, 4, 5, 6 } };
+    check_translations(&m, false, cases, (int)COUNT(cases));
+    check_translations(&m, true, cases, (int)COUNT(cases));
+    model_free(&m);
+}
+
 static void test_quantized_rotation_keys_are_normalised(void)
 {
     struct source s = triangle();
@@ -858,10 +894,14 @@ static void test_all_clips_together_let_the_later_win_and_share_the_longest_loop
                      "{'sampler':1,'target':{'node':0,'path':'scale'}}],"
                      "'samplers':[{'input':1,'output':3},{'input':1,'output':5}]},"
                      "{'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}},"
-                     "{'sampler':0,'target':{'path':'pointer'}}],"
-                     "'samplers':[{'input':2,'output':4}]}]," ONE_NODE ONE_MESH, &m)))
+                     "{'sampler':0,'target':{'path':'pointer'}},"
+                     "{'sampler':1,'target':{'node':1,'path':'scale'}}],"
+                     "'samplers':[{'input':2,'output':4},{'input':1,'output':5}]}],"
+                     "'nodes':[{'mesh':0},{}]," ONE_MESH, &m)))
         return;
-    CHECK_EQ(m.clip[1].channel_count, 1);
+    CHECK_EQ(m.clip[1].channel_count, 2);       /* what has no node is some extension's */
+    CHECK_CLOSE(m.clip[0].duration, 1, 0);
+    CHECK_CLOSE(m.clip[1].duration, 4, 0);
     if (CHECK(poses(&m, 0, 0.5, false, &pose)))
         CHECK(world_column(&pose, 0, 3, 0.5, 0, 0) && world_column(&pose, 0, 0, 2, 0, 0));
     if (CHECK(poses(&m, 1, 0.5, false, &pose)))
@@ -1134,6 +1174,8 @@ static void test_mistakes_are_refused_with_their_place(void)
           "a weight is negative (meshes[0].primitives[0].attributes.WEIGHTS_0)" },
         { SKINNED "'nodes':[{'mesh':0,'skin':0}],'skins':[{'joints':[0]}]",
           "mesh 0 uses joint 4, skin 0 has 1 joints (nodes[0])" },
+        { SKINNED "'nodes':[{'mesh':0,'skin':0}],'skins':[{'joints':[0,0,0,0]}]",
+          "mesh 0 uses joint 4, skin 0 has 4 joints (nodes[0])" },
         { SKINNED "'nodes':[{}],'skins':[{'joints':[1]}]",
           "there is no node 1 (skins[0].joints[0])" },
         { SKINNED "'nodes':[{}],'skins':[{'joints':[]}]", "no joints (skins[0])" },
@@ -1203,6 +1245,10 @@ static void test_extents_that_lie_are_refused_before_memory_is_taken(void)
           "view 0 of 36 bytes (accessors[1].byteOffset)" },
         { ",'bufferView':0,'byteOffset':1e300",
           "1.0000000000000001e+300 is not in 0 to 9007199254740992 (accessors[1].byteOffset)" },
+        { ",'bufferView':0,'byteOffset':36", "1000000000 elements reach past buffer view 0 of 36 "
+          "bytes (accessors[1].byteOffset)" },
+        { ",'bufferView':0,'byteOffset':25", "1000000000 elements reach past buffer view 0 of 36 "
+          "bytes (accessors[1].byteOffset)" },
         { ",'bufferView':0,'byteOffset':-1",
           "-1 is not in 0 to 9007199254740992 (accessors[1].byteOffset)" },
     };
@@ -1230,6 +1276,16 @@ static void test_extents_that_lie_are_refused_before_memory_is_taken(void)
         { "{'count':2,'indices':{'bufferView':1,'componentType':5121,'byteOffset':1},"
           "'values':{'bufferView':0}}",
           "sparse index 5 is out of order or not below 3 (accessors[1].sparse.indices)" },
+        { "{'count':2,'indices':{'bufferView':2,'componentType':5121},"
+          "'values':{'bufferView':0}}",
+          "sparse index 2 is out of order or not below 3 (accessors[1].sparse.indices)" },
+        { "{'count':2,'indices':{'bufferView':2,'componentType':5121,'byteOffset':1},"
+          "'values':{'bufferView':0}}",
+          "sparse index 3 is out of order or not below 3 (accessors[1].sparse.indices)" },
+        { "{'count':1,'indices':{'bufferView':1,'componentType':5121},"
+          "'values':{'bufferView':0,'byteOffset':25}}",
+          "1 elements reach past buffer view 0 of 36 bytes "
+          "(accessors[1].sparse.values.byteOffset)" },
         { "{'count':3,'indices':{'bufferView':1,'componentType':5126},'values':{'bufferView':0}}",
           "5126 is no component type for this (accessors[1].sparse.indices.componentType)" },
         { "{'count':3}", "count, indices or values are missing (accessors[1].sparse)" },
@@ -1240,6 +1296,7 @@ static void test_extents_that_lie_are_refused_before_memory_is_taken(void)
         struct failure f;
         char extra[300];
         add_view(&s, U8, "", (const double[]){ 0, 2, 5 }, 3);
+        add_view(&s, U8, "", (const double[]){ 2, 2, 3 }, 3);
         snprintf(extra, sizeof extra, ",'sparse':%s", sparse[i].sparse);
         add_accessor(&s, F32, "VEC3", 3, extra);
         CHECK(!load(&s, ONE_NODE ONE_MESH, &m, &f));
@@ -1719,6 +1776,7 @@ void suite_model(void)
     RUN(test_cubic_splines_follow_the_hermite_form);
     RUN(test_rotations_take_the_short_way_at_even_speed);
     RUN(test_cubic_rotations_are_made_unit_length);
+    RUN(test_a_single_key_holds_forever_looped_or_not);
     RUN(test_quantized_rotation_keys_are_normalised);
     RUN(test_all_clips_together_let_the_later_win_and_share_the_longest_loop);
     RUN(test_morph_targets_add_up_by_weight);
