@@ -6,6 +6,7 @@
 #include "test.h"
 
 #include "../tools/model/model.h"
+#include "../tools/model/obj.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -329,6 +330,25 @@ static void test_sparse_indices_and_dropped_vertices_work_together(void)
     model_free(&m);
 }
 
+static void test_indices_may_be_sparse_too(void)
+{
+    struct source s = triangle();
+    struct model m;
+    /* A list of three zeros whose number 1 becomes 2. */
+    add_view(&s, U8, "", (const double[]){ 1, 0 }, 2);
+    add_view(&s, U16, "", (const double[]){ 2 }, 1);
+    add_accessor(&s, U16, "SCALAR", 3, ",'sparse':{'count':1,'indices':{'bufferView':1,"
+                 "'componentType':5121},'values':{'bufferView':2}}");
+    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
+                     "'indices':1}]}]", &m)))
+        return;
+    const struct model_primitive *p = &m.mesh[0].primitive[0];
+    CHECK_EQ(p->vertex_count, 2);
+    CHECK(p->index[0] == 0 && p->index[1] == 1 && p->index[2] == 0);
+    CHECK(SAME_FLOATS(p->position, 0, 0, 0, 0, 0, 1, 0));
+    model_free(&m);
+}
+
 static void test_an_accessor_without_a_view_is_zeros(void)
 {
     struct source s = triangle();
@@ -441,6 +461,8 @@ static void test_what_is_no_model_is_refused(void)
         { "{\"asset\":{\"version\":\"1.0\"}}", 27, "glTF version 1.0, not 2 (asset.version)" },
         { "{\"asset\":{\"version\":\"2.0\",\"minVersion\":\"2.1\"}}", 46,
           "needs glTF version 2.1 (asset.minVersion)" },
+        { "\xef\xbb\xbf\n{\"asset\":{\"version\":\"3.0\"}}", 31,
+          "glTF version 3.0, not 2 (asset.version)" },
         { "{\"asset\":7}", 11, "expected an object, found a number (asset)" },
         { "\x89PNG\r\n\x1a\n\0\0", 10, "neither glTF nor text" },
         { "Dear reader,\n", 13, "holds no faces (if it is an OBJ file at all)" },
@@ -1529,6 +1551,65 @@ static void test_obj_without_its_library_is_loaded_with_a_warning(void)
     }
 }
 
+static void test_mtl_options_are_understood_or_skipped(void)
+{
+    static const char text[] = "Kd 9 9 9\nnewmtl a\nKd 0.5\nTr 0.75\n"
+        "map_Kd -blendu on -mm 0 1 -t 1 1 1 -o 0.25 -s 2 3 4 -texres 64 dir\\my pic.png\n"
+        "newmtl b\nKd xyz 1 1 1\nd -halo 2\nKs 1 1 1\nillum 2\n"
+        "newmtl c\nKd spectral file.rfl 1\nillum 0\nnewmtl a\nd 1\n";
+    struct mtl_library library = { 0 };
+    struct model m = { 0 };
+    struct failure f = { 0 };
+    if (CHECK(mtl_parse((const uint8_t *)text, strlen(text), &library, &m, &f)) &&
+        CHECK_EQ(m.material_count, 3)) {
+        /* The second `a` goes on where the first ended. */
+        CHECK(SAME_FLOATS(m.material[0].base, 0, 0.5, 0.5, 0.5, 1));
+        CHECK(m.material[0].alpha == MODEL_ALPHA_OPAQUE);
+        CHECK(m.material[0].wrap_u == MODEL_WRAP_REPEAT);
+        CHECK(same_text(library.material[0].map, "dir/my pic.png"));
+        CHECK(SAME_FLOATS(library.material[0].scale, 0, 2, 3));
+        CHECK(SAME_FLOATS(library.material[0].offset, 0, 0.25, 0));
+        CHECK(SAME_FLOATS(m.material[1].base, 0, 1, 1, 1, 1));
+        CHECK(m.material[2].unlit && !m.material[1].unlit);
+    }
+    mtl_library_free(&library);
+    model_free(&m);
+    static const struct { const char *text, *message; } bad[] = {
+        { "newmtl a\nKd\n", "bad number after Kd (line 2)" },
+        { "newmtl a\n\nKd 1 1 x\n", "bad number after Kd (line 3)" },
+        { "newmtl a\nd one\n", "bad number after d (line 2)" },
+    };
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        f = (struct failure){ 0 };
+        CHECK(!mtl_parse((const uint8_t *)bad[i].text, strlen(bad[i].text), &library, &m, &f));
+        CHECK(same_text(f.text, bad[i].message));
+        mtl_library_free(&library);
+        model_free(&m);
+    }
+}
+
+static void test_obj_pictures_that_are_missing_warn_and_others_fail(void)
+{
+    struct model m;
+    struct failure f = { 0 };
+    char path[200];
+    snprintf(path, sizeof path, "%slost.obj", corpus);
+    if (CHECK(model_load(path, &m, &f))) {
+        CHECK(strstr(m.warning, "gone.mtl") != NULL);           /* the first of them */
+        CHECK_EQ(m.image_count, 0);
+        CHECK(m.material[0].image == -1 && m.material[1].image == -1);
+        CHECK(SAME_FLOATS(m.material[0].base, 0, 1, 0, 0, 1));
+        model_free(&m);
+    }
+    snprintf(path, sizeof path, "%sphoto.obj", corpus);
+    CHECK(!model_load(path, &m, &f));
+    CHECK(same_text(f.text, "photo.jpg: a JPEG picture; only PNG is read"));
+    f = (struct failure){ 0 };
+    snprintf(path, sizeof path, "%stext.glb", corpus);
+    CHECK(!model_load(path, &m, &f));
+    CHECK(same_text(f.text, "not glTF: begins neither like a GLB nor like JSON"));
+}
+
 static void test_obj_mistakes_are_refused_with_their_line(void)
 {
     static const struct { const char *text, *message; } cases[] = {
@@ -1757,6 +1838,7 @@ void suite_model(void)
     RUN(test_interleaved_accessors_follow_stride_and_offset);
     RUN(test_sparse_accessors_replace_elements_of_a_view_or_of_zeros);
     RUN(test_sparse_indices_and_dropped_vertices_work_together);
+    RUN(test_indices_may_be_sparse_too);
     RUN(test_an_accessor_without_a_view_is_zeros);
     RUN(test_buffers_come_from_data_uris);
     RUN(test_external_files_are_looked_up_beside_the_model);
@@ -1795,6 +1877,8 @@ void suite_model(void)
     RUN(test_obj_objects_and_groups_become_nodes);
     RUN(test_obj_materials_come_from_the_library_beside_it);
     RUN(test_obj_without_its_library_is_loaded_with_a_warning);
+    RUN(test_mtl_options_are_understood_or_skipped);
+    RUN(test_obj_pictures_that_are_missing_warn_and_others_fail);
     RUN(test_obj_mistakes_are_refused_with_their_line);
     RUN(test_obj_with_very_many_groups_stays_fast);
     if (sample_folder() == NULL) {

@@ -198,11 +198,6 @@ static bool read_influence_set(struct gltf *g, const struct source *s, int set,
         size_t to = i / 4 * (size_t)out->influences + 4 * (size_t)set + i % 4;
         if (weight[i] < 0)
             ok = json_fail(&g->json, s->attributes, weights_key, g->f, "a weight is negative");
-        else if (weight[i] > 0 && joint[i] > UINT16_MAX)
-            ok = json_fail(&g->json, s->attributes, joints_key, g->f, "there is no joint %.0f",
-                           (double)joint[i]);
-        if (!ok)
-            break;
         out->weight[to] = weight[i];
         out->joint[to] = weight[i] > 0 ? (uint16_t)joint[i] : 0;
     }
@@ -241,8 +236,6 @@ static bool read_influences(struct gltf *g, const struct source *s, struct model
         for (size_t k = 0; k < n; k++)
             weight[k] = (float)((double)weight[k] / sum);
     }
-    if (*max_joint < 0)
-        *max_joint = 0;
     return true;
 }
 
