@@ -40,7 +40,7 @@ void smear_geometry_link(struct smear_geometry *g, uint32_t triangle, int row, b
 static bool reaches(const struct smear_geometry *g, const struct smear_triangle *t, int32_t y)
 {
     const struct smear_segment *s = &g->segment[t->segment];
-    int32_t end = (y << 8) + 128;
+    int32_t end = y * 256 + 128;
     for (int i = 0; i < 3; i++)
         if (geometry_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
             return true;

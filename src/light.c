@@ -79,7 +79,7 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
 
     /* Cofactors carry the determinant's sign; a normal must not. */
     int32_t row[3] = { b[0][0] >> 8, b[0][1] >> 8, b[0][2] >> 8 };
-    if (dot_q(row, s->normal_matrix[0], 0) < 0)
+    if (dot_q(row, s->normal_matrix[0], 8) < 0)
         for (int i = 0; i < 9; i++)
             s->normal_matrix[i / 3][i % 3] = -s->normal_matrix[i / 3][i % 3];
 
@@ -168,7 +168,7 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
         if (face_color != NULL)
             c = times_lin(c, smear_srgb_decode[face_color[i]]);
         c = min_u32(c * light >> 16, 65535u);
-        out->channel[i] = s->linear ? (uint16_t)c : (uint16_t)(smear_srgb_encode[c >> 4] << 8);
+        out->channel[i] = s->linear ? (uint16_t)c : (uint16_t)(smear_srgb_encode[c >> 4] * 256u);
     }
     uint32_t alpha = s->base[3];
     if (color != NULL)

@@ -367,8 +367,8 @@ static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t
     if (s->poses == 2) {
         pose_place(s, 1, x, y, close);
     } else {
-        close[0] = (x << 8) + 128 - s->v[0][VERTEX_X];
-        close[1] = (y << 8) + 128 - s->v[0][VERTEX_Y];
+        close[0] = x * 256 + 128 - s->v[0][VERTEX_X];
+        close[1] = y * 256 + 128 - s->v[0][VERTEX_Y];
     }
     out[0] = clamp_i32(sub_wrap(close[0], open[0]), -(1 << 22), 1 << 22);
     out[1] = clamp_i32(sub_wrap(close[1], open[1]), -(1 << 22), 1 << 22);
@@ -814,7 +814,7 @@ static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, 
     e->dy = b[VERTEX_Y] - a[VERTEX_Y];
     e->step = divide_floor(dx * 256, e->dy, &e->step_rest);     /* |dx| <= 2^20 */
     int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
-    int32_t down = (first << 8) + 128 - a[VERTEX_Y];            /* 0 .. 255 */
+    int32_t down = first * 256 + 128 - a[VERTEX_Y];            /* 0 .. 255 */
     e->x = a[VERTEX_X] + divide_floor(dx * down, e->dy, &e->rest);
     uint32_t rows = (uint32_t)(y - first);
     if (rows != 0) {        /* rows < 2^11, rest < 2^20: the sum fits */
@@ -880,7 +880,7 @@ enum { SMALL_PX = 8 };
 static void cover_small(const struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom)
 {
     int32_t value[3], step_x[3], step_y[3];
-    int32_t cx = (left << 8) + 128, cy = (top << 8) + 128;
+    int32_t cx = left * 256 + 128, cy = top * 256 + 128;
     for (int i = 0; i < 3; i++) {
         /* Inside is >= 0 when the triangle is walked with the interior on its left (y down: clockwise). */
         const int32_t *a = s->v[i], *b = s->v[i == 2 ? 0 : i + 1];
