@@ -67,6 +67,6 @@ target-bench: $(BUILD)/target_bench$(EXE)
 	$(RUN_BENCH) $(BUILD)/target_bench$(EXE)
 
 ## take today's golden frames as right (look at the pictures first)
-target-accept: $(BUILD)/target_golden$(EXE)
-	$(RUN) $(BUILD)/target_golden$(EXE) list > tests/golden.txt.new
-	mv tests/golden.txt.new tests/golden.txt
+target-accept: $(TAPES)/target_tapes
+	$(TAPES)/target_tapes list > $(TAPES)/golden.txt
+	mv $(TAPES)/golden.txt tests/golden.txt

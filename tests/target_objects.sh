@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # target_objects.sh BUILD-FOLDER [SOURCE...]
-# Compiles the library (src/*.c and src/*/*.c, or the sources given) for Cortex-M0+ at -Os and checks
-# the objects: nothing undefined but what a freestanding target always has, so neither floating
-# point nor 64-bit division; no writable data. Compiles them for the host, too: general registers
-# only, no header but the compiler's own. Prints the size of code and tables. CODE_LIMIT=BYTES makes
-# larger code fail.
+# Compiles the library (src/*.c and src/*/*.c, or the sources given) for Cortex-M0+ at -Os and
+# checks the objects: nothing undefined but what a freestanding target always has, so neither
+# floating point nor 64-bit division; no writable data. Compiles them for the host, too: general
+# registers only, no header but the compiler's own. Prints the size of code and tables.
+# CODE_LIMIT=BYTES makes larger code fail.
 set -u
 if [ $# -lt 1 ]; then
     echo "usage: target_objects.sh BUILD-FOLDER [SOURCE...]" >&2

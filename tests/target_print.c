@@ -31,10 +31,3 @@ void print_hex(uint32_t value)
     digits[8] = '\0';
     platform_print(digits);
 }
-
-bool is_text(const char *a, const char *b)
-{
-    while (*a != '\0' && *a == *b)
-        a++, b++;
-    return *a == *b;
-}

@@ -3,14 +3,10 @@
 #ifndef SMEAR_TESTS_TARGET_PRINT_H
 #define SMEAR_TESTS_TARGET_PRINT_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 void print_decimal(uint32_t value);
 void print_signed(int32_t value);
 void print_hex(uint32_t value);         /* 8 digits */
-
-/* Same text? */
-bool is_text(const char *a, const char *b);
 
 #endif

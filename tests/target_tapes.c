@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* target_tapes.c - host program that records the tapes which the programs for targets play.
  *
- *     target_tapes golden OUT.c GOLDEN.txt     frames with known CRCs, all within 256 kB of RAM
+ *     target_tapes list                        draws the golden frames here, prints GOLDEN.txt
+ *     target_tapes golden OUT.c GOLDEN.txt     the same frames as tapes, all within 256 kB of RAM
  *     target_tapes bench OUT.c                 the peers' scenes at 320x240, whole and in bands
  *
- * A line of GOLDEN.txt is `TAPE FRAME CRC`; other lines are comments. A tape of which a frame is
- * missing there is recorded without CRCs, and target_golden fails; `target_golden list` prints
- * them. */
+ * A line of GOLDEN.txt is `TAPE FRAME CRC`; other lines are comments. `list` draws without tapes,
+ * so equal CRCs also mean that tapes lose nothing. A tape of which a frame is missing in GOLDEN.txt
+ * is recorded without CRCs, and target_golden fails. */
 #include "../tools/scenes/present.h"
 #include "../tools/scenes/tape.h"
 
@@ -21,7 +22,7 @@ struct spec {
     struct present_options present; /* fps, clear and a shutter of 0 degrees are filled in */
 };
 
-enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_FRAMES = 64, MAX_GOLDEN_BYTES = 1 << 20 };
+enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20 };
 
 /* Every method, output format, dither and light, all tile sizes, both pose models, kept poses, a
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. */
@@ -133,71 +134,167 @@ static bool find_crc(const char *text, const char *tape, int frame, uint32_t *cr
     return false;
 }
 
-static bool record(struct tape_writer *writer, const struct spec *spec, const char *crcs,
-                   struct failure *f)
+/* What is done with each presented frame of a spec. */
+struct visitor {
+    bool (*take)(struct visitor *visitor, const struct spec *spec, int index,
+                 const struct presented *frame, struct failure *f);
+    struct tape_writer *writer;     /* of tapes */
+    const char *crcs;
+    smear_context *ctx;             /* of drawing */
+    void *memory;
+    uint32_t crc;                   /* of what the library flushed */
+    int row_bytes;
+    bool is_paged;
+};
+
+static bool visit(const struct spec *golden_or_bench, struct visitor *visitor, struct failure *f)
 {
+    struct spec spec = *golden_or_bench;
     struct scene scene = { 0 };
-    if (!scene_builtin(spec->scene, &scene, f))
+    if (!scene_builtin(spec.scene, &scene, f))
         return false;
-    struct present_options options = spec->present;
-    options.fps = scene.fps;
-    options.clear = scene.clear;
-    if (options.shutter_degrees == 0.0)
-        options.shutter_degrees = DEFAULT_SHUTTER_DEGREES;
+    spec.present.fps = scene.fps;
+    spec.present.clear = scene.clear;
+    if (spec.present.shutter_degrees == 0.0)
+        spec.present.shutter_degrees = DEFAULT_SHUTTER_DEGREES;
     struct presenter *presenter = presenter_new(&scene, f);
     bool ok = presenter != NULL;
-    for (int i = 0; i < spec->count && ok; i++) {
-        int frame = spec->first + i * spec->step;
-        const struct presented *presented =
-            presenter_frame(presenter, frame / scene.fps, &options, f);
-        ok = presented != NULL;
-        if (ok && i == 0) {
-            smear_desc desc = spec->desc;
-            /* no draw of these scenes appears later than in the first frame */
-            desc.max_draws = presented_desc(presented, desc.width, desc.height).max_draws;
-            ok = tape_begin(writer, spec->name, &desc, f);
-        }
-        uint32_t crc;
-        bool has_crc = crcs != NULL && find_crc(crcs, spec->name, i, &crc);
-        ok = ok && tape_add(writer, presented, has_crc ? &crc : NULL, f);
+    for (int i = 0; i < spec.count && ok; i++) {
+        double time = (spec.first + i * spec.step) / scene.fps;
+        const struct presented *frame = presenter_frame(presenter, time, &spec.present, f);
+        ok = frame != NULL;
+        if (ok && i == 0)           /* all draws of these scenes are there from the start */
+            spec.desc.max_draws = presented_desc(frame, 1, 1).max_draws;
+        ok = ok && visitor->take(visitor, &spec, i, frame, f);
     }
     presenter_free(presenter);
     scene_free(&scene);
     return ok;
 }
 
-int main(int argc, char **argv)
+static bool record(struct visitor *v, const struct spec *spec, int index,
+                   const struct presented *frame, struct failure *f)
 {
-    struct failure f = { "" };
-    bool is_golden = argc == 4 && strcmp(argv[1], "golden") == 0;
-    bool is_bench = argc == 3 && strcmp(argv[1], "bench") == 0;
-    if (!is_golden && !is_bench) {
-        fprintf(stderr, "usage: target_tapes golden OUT.c GOLDEN.txt | target_tapes bench OUT.c\n");
-        return 2;
+    uint32_t crc;
+    bool has_crc = v->crcs != NULL && find_crc(v->crcs, spec->name, index, &crc);
+    return (index > 0 || tape_begin(v->writer, spec->name, &spec->desc, f)) &&
+           tape_add(v->writer, frame, has_crc ? &crc : NULL, f);
+}
+
+static int add_to_crc(void *user, const smear_band *band)
+{
+    struct visitor *v = user;
+    const uint8_t *row = band->pixels;
+    int rows = v->is_paged ? (band->height + 7) / 8 : band->height;
+    for (int y = 0; y < rows; y++, row += band->stride)
+        v->crc = crc32_update(v->crc, row, (size_t)v->row_bytes);
+    return 0;
+}
+
+/* Bytes of a row of pixels, or of a row of pages. */
+static int row_bytes(const smear_desc *desc)
+{
+    switch (desc->format) {
+    case SMEAR_XRGB8888: return desc->width * 4;
+    case SMEAR_RGB565: case SMEAR_RGB565_SWAPPED: case SMEAR_RGB555: return desc->width * 2;
+    case SMEAR_L4: return (desc->width + 1) / 2;
+    case SMEAR_L1: return (desc->width + 7) / 8;
+    default: return desc->width;
     }
+}
+
+static bool draw(struct visitor *v, const struct spec *spec, int index,
+                 const struct presented *frame, struct failure *f)
+{
+    int result = SMEAR_OK;
+    smear_stats stats;
+    if (index == 0) {
+        smear_desc desc = spec->desc;
+        desc.flush = add_to_crc;
+        desc.user = v;
+        v->row_bytes = row_bytes(&desc);
+        v->is_paged = desc.format == SMEAR_L1_PAGES;
+        size_t bytes = smear_memory_size(&desc);
+        free(v->memory);
+        v->memory = malloc(bytes > 0 ? bytes : 1);
+        if (v->memory == NULL)
+            return fail(f, "out of memory");
+        result = smear_init(&v->ctx, &desc, v->memory, bytes);
+    }
+    v->crc = 0;
+    if (result == SMEAR_OK)
+        result = presented_submit(frame, v->ctx);
+    if (result == SMEAR_OK)
+        result = smear_render(v->ctx);
+    if (result != SMEAR_OK)
+        return fail(f, "the library refused frame %d (error %d)", index, result);
+    smear_get_stats(v->ctx, &stats);
+    if (stats.crc32 != v->crc)
+        return fail(f, "the library's CRC is not that of frame %d", index);
+    printf("%s %d %08" PRIx32 "\n", spec->name, index, v->crc);
+    return true;
+}
+
+static bool list_golden(struct failure *f, const char **file)
+{
+    struct visitor visitor = { .take = draw };
+    bool ok = true;
+    for (size_t i = 0; i < sizeof golden / sizeof *golden && ok; i++) {
+        struct spec spec = golden[i];
+        spec.desc.crc = 1;
+        *file = spec.name;
+        ok = visit(&spec, &visitor, f);
+    }
+    free(visitor.memory);
+    return ok;
+}
+
+static bool write_tapes(const char *path, const char *golden_path, struct failure *f,
+                        const char **file)
+{
     uint8_t *crcs = NULL;
-    size_t size;
-    const char *file = is_golden ? argv[3] : argv[2];
-    bool ok = !is_golden || file_read(file, MAX_GOLDEN_BYTES, &crcs, &size, &f);
-    struct tape_writer *writer = ok ? tape_writer_new(&f) : NULL;
-    ok = writer != NULL;
-    int count = is_golden ? (int)(sizeof golden / sizeof *golden)
-                          : (int)(sizeof bench / sizeof *bench);
-    for (int i = 0; i < count && ok; i++) {
-        struct spec spec = is_golden ? golden[i] : bench[i];
-        if (is_golden)
+    size_t size, count = golden_path != NULL ? sizeof golden / sizeof *golden
+                                             : sizeof bench / sizeof *bench;
+    *file = golden_path;
+    if (golden_path != NULL && !file_read(golden_path, MAX_GOLDEN_BYTES, &crcs, &size, f))
+        return false;
+    struct visitor visitor = { .take = record, .writer = tape_writer_new(f),
+                               .crcs = (const char *)crcs };
+    bool ok = visitor.writer != NULL;
+    for (size_t i = 0; i < count && ok; i++) {
+        struct spec spec = golden_path != NULL ? golden[i] : bench[i];
+        if (golden_path != NULL)
             spec.desc.crc = 1;
         else
             complete_bench(&spec);
-        file = spec.name;
-        ok = record(writer, &spec, (const char *)crcs, &f);
+        *file = spec.name;
+        ok = visit(&spec, &visitor, f);
     }
     if (ok) {
-        file = argv[2];
-        ok = tape_write(writer, file, is_golden ? "target_tapes golden" : "target_tapes bench", &f);
+        *file = path;
+        ok = tape_write(visitor.writer, path,
+                        golden_path != NULL ? "target_tapes golden" : "target_tapes bench", f);
     }
-    tape_writer_free(writer);
+    tape_writer_free(visitor.writer);
     free(crcs);
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    struct failure f = { "" };
+    const char *file = "";
+    bool ok;
+    if (argc == 2 && strcmp(argv[1], "list") == 0) {
+        ok = list_golden(&f, &file);
+    } else if (argc == 4 && strcmp(argv[1], "golden") == 0) {
+        ok = write_tapes(argv[2], argv[3], &f, &file);
+    } else if (argc == 3 && strcmp(argv[1], "bench") == 0) {
+        ok = write_tapes(argv[2], NULL, &f, &file);
+    } else {
+        fprintf(stderr, "usage: target_tapes list | golden OUT.c GOLDEN.txt | bench OUT.c\n");
+        return 2;
+    }
     if (!ok)
         fprintf(stderr, "target_tapes: %s: %s\n", file, f.text);
     return ok ? 0 : 1;
