@@ -10,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More draws, or more memory for what deforms, than any scene for small machines needs; a short
- * file can ask for either without end by using one mesh in many nodes. */
-enum { MAX_DRAWS = 1 << 20 };
+/* More draws, more to add up per pose (vertices times their morph targets and joints), or more
+ * memory for what deforms, than any scene for small machines needs; a short file can ask for each
+ * without end by using one mesh in many nodes. */
+enum { MAX_DRAWS = 1 << 20, MAX_TERMS = 1 << 30 };
 
 static void free_primitive(struct model_primitive *p)
 {
@@ -89,7 +90,7 @@ void model_free(struct model *model)
 
 static bool check_instances(const struct model *model, struct failure *f)
 {
-    size_t draws = 0, bytes = 0;
+    size_t draws = 0, bytes = 0, terms = 0;
     for (int i = 0; i < model->node_count; i++) {
         const struct model_node *node = &model->node[i];
         if (node->mesh < 0)
@@ -102,10 +103,11 @@ static bool check_instances(const struct model *model, struct failure *f)
             const struct model_primitive *p = &mesh->primitive[k];
             if (p->target_count > 0 || (node->skin >= 0 && p->joint != NULL))
                 bytes += (size_t)p->vertex_count * 6 * sizeof(float);
+            terms += (size_t)p->vertex_count * (size_t)(p->target_count + p->influences);
         }
-        if (draws > MAX_DRAWS || bytes > MODEL_MAX_BYTES)
-            return fail(f, "too many nodes use its meshes: above %d draws or %zu MB", MAX_DRAWS,
-                        MODEL_MAX_BYTES >> 20);
+        if (draws > MAX_DRAWS || bytes > MODEL_MAX_BYTES || terms > MAX_TERMS)
+            return fail(f, "too many nodes use its meshes: above %d draws, %zu MB or %d terms a "
+                        "pose", MAX_DRAWS, MODEL_MAX_BYTES >> 20, MAX_TERMS);
     }
     return true;
 }
