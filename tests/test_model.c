@@ -1520,6 +1520,28 @@ static void test_obj_objects_and_groups_become_nodes(void)
     model_free(&m);
 }
 
+static void test_obj_with_any_number_of_groups_has_each_under_its_object(void)
+{
+    for (int n = 1; n <= 70; n++) {
+        char text[4000] = "v 0 0 0\nv 1 0 0\nv 1 1 0\no all\n";
+        struct model m;
+        for (int i = 0; i < n; i++)
+            append(text, sizeof text, "g part%d\nusemtl m%d\nf 1 2 3\n", i, i);
+        if (!CHECK(parses(text, &m)))
+            continue;
+        CHECK_EQ(m.node_count, n + 1);
+        CHECK_EQ(m.material_count, n);
+        for (int i = 0; i < n; i++) {
+            char name[20];
+            snprintf(name, sizeof name, "part%d", i);
+            int node = model_find_node(&m, name);
+            CHECK(node >= 0 && m.node[node].parent == model_find_node(&m, "all"));
+            CHECK_EQ(m.mesh[m.node[node].mesh].primitive[0].material, i);
+        }
+        model_free(&m);
+    }
+}
+
 static void test_obj_materials_come_from_the_library_beside_it(void)
 {
     struct model m;
@@ -1876,6 +1898,7 @@ void suite_model(void)
     RUN(test_obj_faces_of_every_form_become_triangles);
     RUN(test_obj_vertices_may_have_colors);
     RUN(test_obj_objects_and_groups_become_nodes);
+    RUN(test_obj_with_any_number_of_groups_has_each_under_its_object);
     RUN(test_obj_materials_come_from_the_library_beside_it);
     RUN(test_obj_without_its_library_is_loaded_with_a_warning);
     RUN(test_mtl_options_are_understood_or_skipped);

@@ -58,31 +58,44 @@ static bool new_slots(int **slot, size_t *slot_count, int capacity)
     return true;
 }
 
+/* The slot that holds the text, or the free one where it belongs; there is a free one. */
+static size_t find_text(const struct text_table *t, const char *text)
+{
+    size_t at = hash_text(text) & (t->slot_count - 1);
+    while (t->slot[at] != 0 && strcmp(t->text[t->slot[at] - 1], text) != 0)
+        at = (at + 1) & (t->slot_count - 1);
+    return at;
+}
+
+static bool grow_texts(struct text_table *t)
+{
+    void *entries = t->text;
+    bool ok = grow_entries(&entries, sizeof *t->text, t->count, &t->capacity);
+    t->text = entries;
+    if (!ok || !new_slots(&t->slot, &t->slot_count, t->capacity))
+        return false;
+    for (int i = 0; i < t->count; i++)
+        t->slot[find_text(t, t->text[i])] = i + 1;
+    return true;
+}
+
 int text_intern(struct text_table *t, const char *text)
 {
-    if (t->count == t->capacity) {
-        void *entries = t->text;
-        bool ok = grow_entries(&entries, sizeof *t->text, t->count, &t->capacity);
-        t->text = entries;
-        if (!ok || !new_slots(&t->slot, &t->slot_count, t->capacity))
-            return -1;
-        for (int i = 0; i < t->count; i++) {
-            size_t at = hash_text(t->text[i]) & (t->slot_count - 1);
-            while (t->slot[at] != 0)
-                at = (at + 1) & (t->slot_count - 1);
-            t->slot[at] = i + 1;
-        }
-    }
-    size_t at = hash_text(text) & (t->slot_count - 1);
-    for (; t->slot[at] != 0; at = (at + 1) & (t->slot_count - 1)) {
-        if (strcmp(t->text[t->slot[at] - 1], text) == 0)
-            return t->slot[at] - 1;
-    }
+    size_t at = t->slot_count == 0 ? 0 : find_text(t, text);
+    if (t->slot_count != 0 && t->slot[at] != 0)
+        return t->slot[at] - 1;
     size_t size = strlen(text) + 1;
     char *copy = malloc(size);
     if (copy == NULL)
         return -1;
     memcpy(copy, text, size);
+    if (t->count * 2 >= (int)t->slot_count) {
+        if (!grow_texts(t)) {
+            free(copy);
+            return -1;
+        }
+        at = find_text(t, copy);
+    }
     t->text[t->count] = copy;
     t->slot[at] = ++t->count;
     return t->count - 1;
@@ -97,27 +110,39 @@ void text_table_free(struct text_table *t)
     *t = (struct text_table){ 0 };
 }
 
+/* As find_text. */
+static size_t find_triple(const struct triple_table *t, const int key[3])
+{
+    size_t at = hash_triple(key) & (t->slot_count - 1);
+    while (t->slot[at] != 0 && memcmp(t->key[t->slot[at] - 1], key, sizeof *t->key) != 0)
+        at = (at + 1) & (t->slot_count - 1);
+    return at;
+}
+
+static bool grow_triples(struct triple_table *t)
+{
+    void *entries = t->key;
+    bool ok = grow_entries(&entries, sizeof *t->key, t->count, &t->capacity);
+    t->key = entries;
+    if (!ok || !new_slots(&t->slot, &t->slot_count, t->capacity))
+        return false;
+    for (int i = 0; i < t->count; i++)
+        t->slot[find_triple(t, t->key[i])] = i + 1;
+    return true;
+}
+
 int triple_intern(struct triple_table *t, const int key[3])
 {
-    if (t->count == t->capacity) {
-        void *entries = t->key;
-        bool ok = grow_entries(&entries, sizeof *t->key, t->count, &t->capacity);
-        t->key = entries;
-        if (!ok || !new_slots(&t->slot, &t->slot_count, t->capacity))
+    size_t at = t->slot_count == 0 ? 0 : find_triple(t, key);
+    if (t->slot_count != 0 && t->slot[at] != 0)
+        return t->slot[at] - 1;
+    const int copy[3] = { key[0], key[1], key[2] };     /* key may be an entry of the table */
+    if (t->count * 2 >= (int)t->slot_count) {
+        if (!grow_triples(t))
             return -1;
-        for (int i = 0; i < t->count; i++) {
-            size_t at = hash_triple(t->key[i]) & (t->slot_count - 1);
-            while (t->slot[at] != 0)
-                at = (at + 1) & (t->slot_count - 1);
-            t->slot[at] = i + 1;
-        }
+        at = find_triple(t, copy);
     }
-    size_t at = hash_triple(key) & (t->slot_count - 1);
-    for (; t->slot[at] != 0; at = (at + 1) & (t->slot_count - 1)) {
-        if (memcmp(t->key[t->slot[at] - 1], key, sizeof *t->key) == 0)
-            return t->slot[at] - 1;
-    }
-    memcpy(t->key[t->count], key, sizeof *t->key);
+    memcpy(t->key[t->count], copy, sizeof *t->key);
     t->slot[at] = ++t->count;
     return t->count - 1;
 }

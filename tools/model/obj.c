@@ -447,17 +447,17 @@ static bool copy_name(struct reader *r, const char *name, char **out)
 static bool make_node(struct reader *r, int index)
 {
     struct model_node *node = &r->model->node[index];
-    const int *key = r->nodes.key[index];
-    const int parent[3] = { key[0], 0, 0 };
+    int object = r->nodes.key[index][0], group = r->nodes.key[index][1];
+    const int parent[3] = { object, 0, 0 };
     *node = (struct model_node){ .parent = -1, .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 },
                                  .mesh = index, .skin = -1, .camera = -1 };
     for (int i = 0; i < 16; i += 5)
         node->matrix[i] = 1;
-    if (key[0] != 0 && key[1] != 0)
+    if (object != 0 && group != 0)
         node->parent = triple_intern(&r->nodes, parent);
     r->model->order[index] = index;
     r->model->in_scene[index] = true;
-    const char *name = r->names.text[key[1] != 0 ? key[1] : key[0]];
+    const char *name = r->names.text[group != 0 ? group : object];
     return copy_name(r, name, &node->name) && copy_name(r, name, &r->model->mesh[index].name);
 }
 
