@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+/* arguments.c - see arguments.h. */
+#include "arguments.h"
+
+#include "say.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The option that `text` names, up to an equals sign if there is one; or null. */
+static const struct option *find_option(const struct option *table, const char *text,
+                                        const char **value)
+{
+    const char *equals = strncmp(text, "--", 2) == 0 ? strchr(text, '=') : NULL;
+    size_t length = equals != NULL ? (size_t)(equals - text) : strlen(text);
+    *value = equals != NULL ? equals + 1 : NULL;
+    for (; table->name != NULL; table++)
+        if (strlen(table->name) == length && strncmp(table->name, text, length) == 0)
+            return table;
+    return NULL;
+}
+
+int arguments_read(int count, char **text, const struct option *table, void *options,
+                   const char **operand, int operand_limit, bool *wants_help)
+{
+    bool options_ended = false;
+    int operands = 0;
+    *wants_help = false;
+    for (int i = 0; i < operand_limit; i++)
+        operand[i] = NULL;
+    for (int i = 0; i < count; i++) {
+        const char *value, *wrong;
+        if (!options_ended && strcmp(text[i], "--") == 0) {
+            options_ended = true;
+            continue;
+        }
+        if (options_ended || text[i][0] != '-' || text[i][1] == '\0') {
+            if (operands == operand_limit)
+                return say_bad_usage(text[i], "one argument too many");
+            operand[operands++] = text[i];
+            continue;
+        }
+        if (strcmp(text[i], "--help") == 0 || strcmp(text[i], "-h") == 0) {
+            *wants_help = true;
+            return STATUS_OK;
+        }
+        const struct option *option = find_option(table, text[i], &value);
+        if (option == NULL)
+            return say_bad_usage(text[i], "unknown option");
+        if (!option->has_value && value != NULL)
+            return say_bad_usage(option->name, "takes no value");
+        if (option->has_value && value == NULL && ++i == count)
+            return say_bad_usage(option->name, "needs a value");
+        if (option->has_value && value == NULL)
+            value = text[i];
+        wrong = option->read(options, value);
+        if (wrong != NULL)
+            return value != NULL ? say_bad_usage(option->name, "%s (\"%s\")", wrong, value)
+                                 : say_bad_usage(option->name, "%s", wrong);
+    }
+    return STATUS_OK;
+}
+
+bool read_number(const char *text, double low, double high, double *out)
+{
+    const char *digits = *text == '-' ? text + 1 : text;
+    if (*digits == '\0' || strchr("0123456789.", *digits) == NULL ||
+        strspn(text, "0123456789.eE+-") != strlen(text))
+        return false;
+    char *end;
+    double value = strtod(text, &end);
+    if (*end != '\0' || !isfinite(value) || !(value >= low && value <= high))
+        return false;
+    *out = value;
+    return true;
+}
+
+bool read_integer(const char *text, long low, long high, long *out)
+{
+    size_t length = strlen(text);
+    if (length == 0 || strspn(text, "0123456789") != length)
+        return false;
+    errno = 0;
+    long value = strtol(text, NULL, 10);
+    if (errno != 0 || value < low || value > high)
+        return false;
+    *out = value;
+    return true;
+}
+
+/* Copies the text up to `stop` (or to the end, when stop is NUL) and returns what follows it. */
+static const char *cut_piece(const char *text, char stop, char piece[64])
+{
+    size_t length = stop != '\0' && strchr(text, stop) != NULL
+                        ? (size_t)(strchr(text, stop) - text) : strlen(text);
+    if (length >= 64 || (stop != '\0' && text[length] != stop))
+        return NULL;
+    memcpy(piece, text, length);
+    piece[length] = '\0';
+    return text + length + (stop != '\0' ? 1 : 0);
+}
+
+bool read_vector(const char *text, double out[3])
+{
+    char piece[64];
+    for (int i = 0; i < 3; i++) {
+        text = cut_piece(text, i < 2 ? ',' : '\0', piece);
+        if (text == NULL || !read_number(piece, -1e9, 1e9, &out[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool read_pair(const char *text, char between, long low, long high, long out[2])
+{
+    char piece[64];
+    for (int i = 0; i < 2; i++) {
+        text = cut_piece(text, i < 1 ? between : '\0', piece);
+        if (text == NULL || !read_integer(piece, low, high, &out[i]))
+            return false;
+    }
+    return true;
+}
+
+bool read_size(const char *text, long limit, int *width, int *height)
+{
+    long pair[2];
+    if (!read_pair(text, 'x', 1, limit, pair))
+        return false;
+    *width = (int)pair[0];
+    *height = (int)pair[1];
+    return true;
+}
+
+bool read_range(const char *text, long *first, long *last)
+{
+    long pair[2];
+    if (!read_pair(text, '-', 0, 999999999, pair) || pair[0] > pair[1])
+        return false;
+    *first = pair[0];
+    *last = pair[1];
+    return true;
+}
+
+bool read_color(const char *text, unsigned *rgb)
+{
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
+        return false;
+    *rgb = (unsigned)strtoul(text, NULL, 16);
+    return true;
+}
+
+int read_name(const char *text, const char *const *names)
+{
+    for (int i = 0; names[i] != NULL; i++)
+        if (strcmp(text, names[i]) == 0)
+            return i;
+    return -1;
+}

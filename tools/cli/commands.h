@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* commands.h - the commands of the program. Each gets the arguments behind its name, and returns the
+ * exit status after it has said what went wrong. */
+#ifndef SMEAR_TOOLS_CLI_COMMANDS_H
+#define SMEAR_TOOLS_CLI_COMMANDS_H
+
+int command_render(int count, char **text);
+int command_compare(int count, char **text);
+int command_info(int count, char **text);
+int command_help(int count, char **text);
+
+/* Prints the help of a command (null: of the program) on standard output. */
+int help_print(const char *command);
+
+#endif

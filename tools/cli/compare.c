@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* compare.c - `smear compare`: how far two pictures are from each other. */
+#include "commands.h"
+
+#include "../image/image.h"
+#include "arguments.h"
+#include "picture.h"
+#include "say.h"
+#include "sink.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct compare_options {
+    const char *difference;
+    long gain;
+};
+
+/* Differences are small; this much shows a code as a step one can see. */
+enum { DEFAULT_GAIN = 8 };
+
+static const size_t max_file = (size_t)1 << 30;
+
+static const char *read_diff(void *to, const char *value)
+{
+    ((struct compare_options *)to)->difference = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_gain(void *to, const char *value)
+{
+    return read_integer(value, 1, 255, &((struct compare_options *)to)->gain)
+               ? NULL : "needs a number from 1 to 255";
+}
+
+static const struct option table[] = {
+    { "--diff", true, read_diff },
+    { "--gain", true, read_gain },
+    { NULL, false, NULL },
+};
+
+static bool load_pfm(const uint8_t *bytes, size_t size, struct image *out, struct failure *f)
+{
+    struct float_image floats;
+    if (!pfm_decode(bytes, size, &floats, f))
+        return false;
+    bool ok = picture_from_floats(&floats, out, f);
+    float_image_free(&floats);
+    return ok;
+}
+
+static int load(const char *path, struct image *out)
+{
+    struct failure f = { "" };
+    uint8_t *bytes;
+    size_t size;
+    if (!file_read(path, max_file, &bytes, &size, &f))
+        return say_bad_input(path, &f);
+    bool is_pfm = size > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f');
+    bool is_pnm = size > 2 && bytes[0] == 'P' && bytes[1] >= '0' && bytes[1] <= '9';
+    bool ok = is_pfm   ? load_pfm(bytes, size, out, &f)
+              : is_pnm ? ppm_decode(bytes, size, out, &f)
+                       : png_decode(bytes, size, out, &f);
+    free(bytes);
+    return ok ? STATUS_OK : say_bad_input(path, &f);
+}
+
+static int write_difference(const struct compare_options *o, struct sink *sink, const struct image *a,
+                            const struct image *b)
+{
+    struct failure f = { "" };
+    struct image difference;
+    if (!image_difference(a, b, (int)o->gain, &difference, &f))
+        return say_bad_input(o->difference, &f);
+    bool ok = sink_add(sink, &difference, NULL, 0, &f);
+    image_free(&difference);
+    return ok ? STATUS_OK : say_bad_input(o->difference, &f);
+}
+
+static int compare(const struct compare_options *o, struct sink *sink, const char *second,
+                   const struct image *a, const struct image *b)
+{
+    struct failure f = { "" };
+    struct image_distance d;
+    if (!image_compare(a, b, IMAGE_PIXELS_PER_DEGREE, &d, &f))
+        return say_bad_input(second, &f);
+    if (o->difference != NULL) {
+        int status = write_difference(o, sink, a, b);
+        if (status != STATUS_OK)
+            return status;
+    }
+    printf("rmse=%.6f\n", d.rmse);
+    if (isinf(d.psnr))
+        printf("psnr=inf\n");
+    else
+        printf("psnr=%.6f\n", d.psnr);
+    printf("ssim=%.6f\nflip=%.6f\n", d.ssim, d.flip);
+    return STATUS_OK;
+}
+
+int command_compare(int count, char **text)
+{
+    struct compare_options o = { .gain = DEFAULT_GAIN };
+    struct sink sink = { .path = NULL };
+    struct image image[2] = { { 0, 0, NULL }, { 0, 0, NULL } };
+    const char *path[2];
+    bool wants_help;
+    int status = arguments_read(count, text, table, &o, path, 2, &wants_help);
+    if (status == STATUS_OK && wants_help)
+        return help_print("compare");
+    if (status == STATUS_OK && path[1] == NULL)
+        status = say_bad_usage("compare", "needs two pictures (smear help compare)");
+    if (status == STATUS_OK && o.difference != NULL) {
+        status = sink_open(&sink, "--diff", o.difference, 1, false);
+        if (status == STATUS_OK && (sink.kind == SINK_GIF || sink.kind == SINK_APNG))
+            status = say_bad_usage("--diff", "writes .png, .ppm or .pfm (\"%s\")", o.difference);
+    }
+    for (int i = 0; i < 2 && status == STATUS_OK; i++)
+        status = load(path[i], &image[i]);
+    if (status == STATUS_OK)
+        status = compare(&o, &sink, path[1], &image[0], &image[1]);
+    image_free(&image[0]);
+    image_free(&image[1]);
+    return status;
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+/* device.c - see device.h. */
+#include "device.h"
+
+#include "crew.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* ------------------------------------------------------------------ callbacks */
+
+static uint32_t clock_ticks(void *user)
+{
+    struct timespec now;
+    (void)user;
+    if (clock_gettime(CLOCK_MONOTONIC, &now) != 0)
+        return 0;
+    return (uint32_t)((uint64_t)now.tv_sec * 1000000u * DEVICE_TICKS_PER_US +
+                      (uint64_t)now.tv_nsec * DEVICE_TICKS_PER_US / 1000u);
+}
+
+/* Bands of whole tile rows, so that pages of 8 rows never straddle two. */
+static int take_band(void *user, const smear_band *band)
+{
+    struct device *device = user;
+    size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
+    if (!device->is_timed)
+        memcpy(device->pixels + row * device->stride, band->pixels, band->size);
+    return 0;
+}
+
+static void inspect_row(void *user, int y, const uint32_t *color, const uint16_t *depth,
+                        const int32_t *velocity)
+{
+    const struct device *device = user;
+    device->setup.inspect(device->setup.inspect_user, y, color, depth, velocity);
+}
+
+/* ------------------------------------------------------------------ room */
+
+static size_t bytes_per_row(int width, smear_format format)
+{
+    size_t w = (size_t)width;
+    switch (format) {
+    case SMEAR_XRGB8888: return w * 4;
+    case SMEAR_RGB565:
+    case SMEAR_RGB565_SWAPPED:
+    case SMEAR_RGB555: return w * 2;
+    case SMEAR_L4: return (w + 1) / 2;
+    case SMEAR_L1: return (w + 7) / 8;
+    default: return w;
+    }
+}
+
+bool device_open(struct device *device, const struct device_setup *setup, struct failure *f)
+{
+    *device = (struct device){ .setup = *setup };
+    device->desc.format = (uint8_t)setup->format;
+    device->stride = bytes_per_row(setup->width, setup->format);
+    size_t rows = setup->format == SMEAR_L1_PAGES ? ((size_t)setup->height + 7) / 8
+                                                  : (size_t)setup->height;
+    device->size = device->stride * rows;
+    device->pixels = calloc(device->size, 1);
+    if (device->pixels == NULL)
+        return fail(f, "out of memory");
+    if (setup->threads > 1) {
+        device->crew = crew_start(setup->threads, f);
+        return device->crew != NULL;
+    }
+    return true;
+}
+
+void device_close(struct device *device)
+{
+    crew_stop(device->crew);
+    free(device->pixels);
+    free(device->memory);
+    *device = (struct device){ .ctx = NULL };
+}
+
+static smear_desc full_desc(struct device *device, const struct presented *presented)
+{
+    const struct device_setup *s = &device->setup;
+    smear_desc desc = presented_desc(presented, s->width, s->height);
+    desc.reach = (int16_t)s->reach;
+    desc.tile = (int16_t)s->tile;
+    desc.format = (uint8_t)s->format;
+    desc.dither = (uint8_t)s->dither;
+    desc.workers = (uint8_t)s->threads;
+    desc.sharp = s->sharp;
+    desc.accumulate = s->accumulate;
+    desc.crc = 1;
+    desc.flush = take_band;
+    desc.inspect = s->inspect != NULL ? inspect_row : NULL;
+    desc.clock = clock_ticks;
+    desc.idle = s->threads > 1 ? crew_idle : NULL;
+    desc.user = device;
+    return desc;
+}
+
+/* The longest list of triangles that leaves the context within the arena. */
+static bool fit_arena(smear_desc *desc, size_t arena, struct failure *f)
+{
+    smear_desc probe = *desc;
+    uint32_t low = DEVICE_MIN_TRIANGLES, high = desc->max_triangles;
+    if (high < low)
+        low = high;
+    probe.max_triangles = low;
+    size_t least = smear_memory_size(&probe);
+    if (least > arena)
+        return fail(f, "needs %zu bytes, the arena has %zu (--arena)", least, arena);
+    while (low < high) {
+        probe.max_triangles = low + (high - low + 1) / 2;
+        if (smear_memory_size(&probe) <= arena)
+            low = probe.max_triangles;
+        else
+            high = probe.max_triangles - 1;
+    }
+    desc->max_triangles = low;
+    return true;
+}
+
+static bool start_context(struct device *device, struct failure *f)
+{
+    int result = smear_init(&device->ctx, &device->desc, device->memory, device->memory_bytes);
+    if (result == SMEAR_OK)
+        return true;
+    device->ctx = NULL;
+    return fail(f, "the library did not start (error %d)", result);
+}
+
+bool device_fit(struct device *device, const struct presented *presented, struct failure *f)
+{
+    smear_desc desc = full_desc(device, presented);
+    size_t arena = device->setup.arena;
+    if (presented->draw_count > 65535)
+        return fail(f, "%d draws are too many for the library (at most 65535)",
+                    presented->draw_count);
+    if (smear_memory_size(&desc) == 0)
+        return fail(f, "%u triangles are too many for the library", presented->triangle_count);
+    /* An arena's list of triangles depends on the draws beside it, and on no other frame. */
+    if (arena > 0 && !fit_arena(&desc, arena, f))
+        return false;
+    if (arena == 0 && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
+        desc.max_triangles <= device->desc.max_triangles)
+        return true;
+    size_t bytes = smear_memory_size(&desc);
+    device->desc = desc;
+    device->ctx = NULL;
+    if (bytes > device->memory_bytes) {
+        free(device->memory);
+        device->memory_bytes = 0;
+        device->memory = malloc(bytes);
+        if (device->memory == NULL)
+            return fail(f, "out of memory (%zu bytes)", bytes);
+        device->memory_bytes = bytes;
+    }
+    return start_context(device, f);
+}
+
+/* ------------------------------------------------------------------ frames */
+
+static bool draw(struct device *device, const struct presented *presented, uint32_t *submit_ticks,
+                 struct failure *f)
+{
+    uint32_t start = clock_ticks(NULL);
+    int result = presented_submit(presented, device->ctx);
+    *submit_ticks = clock_ticks(NULL) - start;
+    if (result == SMEAR_OK)
+        result = crew_render(device->crew, device->ctx);
+    return result == SMEAR_OK || fail(f, "the library refused the frame (error %d)", result);
+}
+
+static bool use_crc(struct device *device, bool crc, struct failure *f)
+{
+    if ((device->desc.crc != 0) == crc)
+        return true;
+    device->desc.crc = crc;
+    return start_context(device, f);
+}
+
+bool device_draw(struct device *device, const struct presented *presented, struct failure *f)
+{
+    uint32_t ticks;
+    device->is_timed = false;
+    return use_crc(device, true, f) && draw(device, presented, &ticks, f);
+}
+
+bool device_time(struct device *device, const struct presented *presented,
+                 struct device_times *times, struct failure *f)
+{
+    uint32_t ticks;
+    smear_stats stats;
+    device->is_timed = true;
+    if (!use_crc(device, false, f) || !draw(device, presented, &ticks, f))
+        return false;
+    smear_get_stats(device->ctx, &stats);
+    *times = (struct device_times){ .submit = (double)stats.time_submit + ticks,
+                                    .raster = stats.time_raster, .reduce = stats.time_reduce,
+                                    .blur = stats.time_blur, .convert = stats.time_convert,
+                                    .total = (double)stats.time_total + ticks };
+    return true;
+}
+
+/* A frame without motion goes through the filter unchanged, into the display's format. */
+bool device_show(struct device *device, const uint32_t *picture, struct failure *f)
+{
+    smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536 };
+    smear_frame frame = { .camera = &camera, .method = SMEAR_RECONSTRUCT };
+    size_t width = (size_t)device->setup.width;
+    uint32_t *depth = calloc(width, sizeof *depth);
+    int16_t *velocity = calloc(width * 2, sizeof *velocity);
+    int result = SMEAR_OK;
+    bool ok = depth != NULL && velocity != NULL;
+    device->is_timed = false;
+    if (!ok)
+        fail(f, "out of memory");
+    if (ok)
+        result = smear_filter_begin(device->ctx, &frame);
+    for (int y = 0; y < device->setup.height && ok && result == SMEAR_OK; y++)
+        result = smear_filter_row(device->ctx, picture + (size_t)y * width, depth, velocity);
+    free(depth);
+    free(velocity);
+    return ok && (result == SMEAR_OK ||
+                  fail(f, "the library refused the picture (error %d)", result));
+}

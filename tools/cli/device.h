@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* device.h - the library as a device would hold it: a block of memory, a context in it, a display
+ * that takes bands, and other cores (threads) that help. */
+#ifndef SMEAR_TOOLS_CLI_DEVICE_H
+#define SMEAR_TOOLS_CLI_DEVICE_H
+
+#include "../failure.h"
+#include "../scenes/present.h"
+
+#include <smear.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What stays the same from frame to frame. */
+struct device_setup {
+    int width, height, reach, tile;     /* reach and tile: 0 for the library's defaults */
+    smear_format format;
+    smear_dither dither;
+    bool sharp, accumulate;
+    int threads;                        /* 1..8 */
+    size_t arena;                       /* bytes there are; 0: as many as it takes */
+    smear_inspect_fn *inspect;
+    void *inspect_user;
+};
+
+/* One frame in ticks of DEVICE_TICKS_PER_US. */
+struct device_times {
+    double submit, raster, reduce, blur, convert, total;
+};
+enum { DEVICE_TICKS_PER_US = 10 };
+
+struct crew;
+
+struct device {
+    struct device_setup setup;
+    smear_desc desc;
+    smear_context *ctx;
+    void *memory;
+    size_t memory_bytes;
+    struct crew *crew;                  /* the other threads; null for one thread */
+    bool is_timed;                      /* bands are thrown away */
+    uint8_t *pixels;                    /* the frame in the display's format, row after row */
+    size_t stride, size;                /* bytes; of a page of 8 rows with SMEAR_L1_PAGES */
+};
+
+/* Smallest list of triangles a short arena is tried with. */
+enum { DEVICE_MIN_TRIANGLES = 16 };
+
+/* Allocates the display and starts the threads. `device` is released by device_close in any case. */
+bool device_open(struct device *device, const struct device_setup *setup, struct failure *f);
+void device_close(struct device *device);
+
+/* Makes sure that the context has room for this frame: memory grows, but not beyond the arena, where
+ * the list of triangles is cut short instead. */
+bool device_fit(struct device *device, const struct presented *presented, struct failure *f);
+
+/* Draws a frame into device->pixels. */
+bool device_draw(struct device *device, const struct presented *presented, struct failure *f);
+
+/* Draws the same frame again for its times alone: nothing is copied and no CRC is taken. */
+bool device_time(struct device *device, const struct presented *presented,
+                 struct device_times *times, struct failure *f);
+
+/* Runs a finished picture, 0x00RRGGBB, through the display's conversion into device->pixels. */
+bool device_show(struct device *device, const uint32_t *picture, struct failure *f);
+
+#endif

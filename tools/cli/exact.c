@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* exact.c - see exact.h. */
+#include "exact.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { DEFAULT_INSTANTS = 8 };
+
+bool exact_open(struct exact *exact, int width, int height, smear_format format, smear_dither dither,
+                struct failure *f)
+{
+    const struct device_setup setup = { .width = width, .height = height, .threads = 1,
+                                        .format = format, .dither = dither };
+    const struct presented nothing = { .draw_count = 0 };
+    size_t pixels = (size_t)width * (size_t)height;
+    *exact = (struct exact){ .sum = calloc(pixels * 3, sizeof *exact->sum),
+                             .mean = calloc(pixels, sizeof *exact->mean) };
+    if (exact->sum == NULL || exact->mean == NULL)
+        return fail(f, "out of memory");
+    return device_open(&exact->display, &setup, f) && device_fit(&exact->display, &nothing, f);
+}
+
+void exact_close(struct exact *exact)
+{
+    device_close(&exact->display);
+    free(exact->sum);
+    free(exact->mean);
+    *exact = (struct exact){ .sum = NULL };
+}
+
+/* ------------------------------------------------------------------ instants */
+
+struct exposure {
+    struct present_options options;
+    double open, length;
+    int instants;
+};
+
+static struct exposure exposure_of(double time, const struct present_options *options, int instants)
+{
+    struct exposure e = { .options = *options,
+                          .instants = instants > 0 ? instants : DEFAULT_INSTANTS };
+    double close;
+    present_exposure(time, options, &e.open, &close);
+    e.length = close - e.open;
+    if (options->cut || e.length == 0.0)
+        e = (struct exposure){ .options = *options, .open = time, .instants = 1 };
+    e.options.method = SMEAR_NONE;
+    e.options.instant_only = true;
+    return e;
+}
+
+static const struct presented *pose_instant(struct presenter *presenter, const struct exposure *e,
+                                            int index, struct device *device, struct failure *f)
+{
+    double time = e->open + e->length * (index + 0.5) / e->instants;
+    const struct presented *presented = presenter_frame(presenter, time, &e->options, f);
+    return presented != NULL && device_fit(device, presented, f) ? presented : NULL;
+}
+
+static void add_counts(smear_stats *sum, const smear_stats *counts)
+{
+    sum->triangles_in += counts->triangles_in;
+    sum->triangles_drawn += counts->triangles_drawn;
+    sum->triangles_dropped += counts->triangles_dropped;
+    sum->triangles_split += counts->triangles_split;
+    sum->samples += counts->pixels;
+    sum->pixels = counts->pixels;
+    sum->tiles_complex = sum->tiles_accumulate = counts->tiles_none;
+    if (sum->arena_bytes < counts->arena_bytes)
+        sum->arena_bytes = counts->arena_bytes;
+}
+
+/* ------------------------------------------------------------------ the mean */
+
+static void add_picture(double *sum, const uint32_t *picture, size_t pixels, const double value[256])
+{
+    for (size_t i = 0; i < pixels; i++, sum += 3) {
+        sum[0] += value[picture[i] >> 16 & 255];
+        sum[1] += value[picture[i] >> 8 & 255];
+        sum[2] += value[picture[i] & 255];
+    }
+}
+
+static uint32_t code_of(double mean, bool is_linear)
+{
+    return is_linear ? present_srgb_encode(mean) : (uint32_t)floor(mean * 255.0 + 0.5);
+}
+
+bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device, double time,
+                const struct present_options *options, int instants, smear_stats *counts,
+                struct failure *f)
+{
+    const struct exposure e = exposure_of(time, options, instants);
+    const bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
+    size_t pixels = (size_t)device->setup.width * (size_t)device->setup.height;
+    double value[256];
+    for (int code = 0; code < 256; code++)
+        value[code] = is_linear ? present_srgb_decode((uint8_t)code) : code / 255.0;
+    for (size_t i = 0; i < pixels * 3; i++)
+        exact->sum[i] = 0.0;
+    *counts = (smear_stats){ 0 };
+    for (int i = 0; i < e.instants; i++) {
+        smear_stats instant;
+        const struct presented *presented = pose_instant(presenter, &e, i, device, f);
+        if (presented == NULL || !device_draw(device, presented, f))
+            return false;
+        smear_get_stats(device->ctx, &instant);
+        add_counts(counts, &instant);
+        add_picture(exact->sum, (const uint32_t *)(const void *)device->pixels, pixels, value);
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        const double *sum = exact->sum + 3 * i;
+        exact->mean[i] = code_of(sum[0] / e.instants, is_linear) << 16 |
+                         code_of(sum[1] / e.instants, is_linear) << 8 |
+                         code_of(sum[2] / e.instants, is_linear);
+    }
+    if (!device_show(&exact->display, exact->mean, f))
+        return false;
+    smear_stats shown;
+    smear_get_stats(exact->display.ctx, &shown);
+    counts->crc32 = shown.crc32;
+    return true;
+}
+
+bool exact_time(struct presenter *presenter, struct device *device, double time,
+                const struct present_options *options, int instants, struct device_times *times,
+                struct failure *f)
+{
+    const struct exposure e = exposure_of(time, options, instants);
+    *times = (struct device_times){ 0 };
+    for (int i = 0; i < e.instants; i++) {
+        struct device_times t;
+        const struct presented *presented = pose_instant(presenter, &e, i, device, f);
+        if (presented == NULL || !device_time(device, presented, &t, f))
+            return false;
+        times->submit += t.submit;
+        times->raster += t.raster;
+        times->convert += t.convert;
+        times->total += t.total;
+    }
+    return true;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* exact.h - `--method accumulate --exact`: every instant of the exposure posed and lit by the file
+ * itself, drawn sharp, and averaged in double precision. With many instants it is the truth. */
+#ifndef SMEAR_TOOLS_CLI_EXACT_H
+#define SMEAR_TOOLS_CLI_EXACT_H
+
+#include "device.h"
+
+struct exact {
+    struct device display;      /* turns the mean into the wanted format */
+    double *sum;                /* r g b of each pixel: linear light, or codes */
+    uint32_t *mean;             /* 0x00RRGGBB */
+};
+
+/* `exact` is released by exact_close in any case. */
+bool exact_open(struct exact *exact, int width, int height, smear_format format, smear_dither dither,
+                struct failure *f);
+void exact_close(struct exact *exact);
+
+/* The mean of `instants` (0: 8) frames at the midpoints of the exposure, into exact->display.pixels.
+ * `device` draws them: sharp, XRGB8888. Counts add up over the instants, as the library's own
+ * accumulation counts. A frame that is cut has one instant. */
+bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device, double time,
+                const struct present_options *options, int instants, smear_stats *counts,
+                struct failure *f);
+
+/* What the library takes for the instants' drawing, posing excluded. */
+bool exact_time(struct presenter *presenter, struct device *device, double time,
+                const struct present_options *options, int instants, struct device_times *times,
+                struct failure *f);
+
+#endif

@@ -1,0 +1,504 @@
+/* SPDX-License-Identifier: MIT */
+/* options.c - see options.h. */
+#include "options.h"
+
+#include "arguments.h"
+#include "say.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_EDGE = 2048, MAX_SAMPLES = 1024, MAX_EXACT_SAMPLES = 65536, MAX_REACH = 64 };
+
+/* ------------------------------------------------------------------ one function per option */
+
+static const char *read_size_option(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_size = read_size(value, MAX_EDGE, &o->width, &o->height);
+    return o->has_size ? NULL : "needs WIDTHxHEIGHT, both from 1 to 2048";
+}
+
+static const char *read_fps(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_fps = read_number(value, 0.001, 100000.0, &o->fps);
+    return o->has_fps ? NULL : "needs frames per second from 0.001 to 100000";
+}
+
+static const char *read_frames(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_frames = read_range(value, &o->first, &o->last);
+    return o->has_frames ? NULL : "needs FIRST-LAST, two frame numbers from 0 on";
+}
+
+static const char *read_time(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_time = read_number(value, 0.0, 1e9, &o->time);
+    return o->has_time ? NULL : "needs seconds from 0 on";
+}
+
+static const char *read_clip(void *to, const char *value)
+{
+    ((struct render_options *)to)->view.clip = value;
+    return NULL;
+}
+
+static const char *read_loop(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->view.loop = true;
+    return NULL;
+}
+
+static const char *read_camera(void *to, const char *value)
+{
+    ((struct render_options *)to)->view.camera = value;
+    return NULL;
+}
+
+static const char *read_eye(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->view.has_eye = read_vector(value, o->view.eye);
+    return o->view.has_eye ? NULL : "needs X,Y,Z";
+}
+
+static const char *read_look(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_look = read_vector(value, o->view.look);
+    return o->has_look ? NULL : "needs X,Y,Z";
+}
+
+static const char *read_fov(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_fov = read_number(value, 0.01, 179.0, &o->view.fov_degrees);
+    return o->has_fov ? NULL : "needs degrees from 0.01 to 179";
+}
+
+static const char *read_filter(void *to, const char *value)
+{
+    static const char *const names[] = { "nearest", "bilinear", NULL };
+    struct render_options *o = to;
+    int found = read_name(value, names);
+    o->has_filter = found >= 0;
+    o->view.bilinear = found == 1;
+    return found >= 0 ? NULL : "needs nearest or bilinear";
+}
+
+static const char *read_shutter(void *to, const char *value)
+{
+    double degrees;
+    if (!read_number(value, 0.0, 3600.0, &degrees))
+        return "needs degrees from 0 to 3600";
+    ((struct render_options *)to)->shutter_degrees = (int)lround(degrees);
+    return NULL;
+}
+
+static const char *read_exposure(void *to, const char *value)
+{
+    static const char *const names[] = { "centred", "trailing", "leading", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs centred, trailing or leading";
+    ((struct render_options *)to)->exposure = (smear_exposure)found;
+    return NULL;
+}
+
+static const char *read_poses(void *to, const char *value)
+{
+    static const char *const names[] = { "previous", "shutter", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs previous or shutter";
+    ((struct render_options *)to)->shutter_poses = found == 1;
+    return NULL;
+}
+
+static const char *read_method(void *to, const char *value)
+{
+    static const char *const built[] = { "auto", "none", "accumulate", "reconstruct", NULL };
+    static const char *const planned[] = { "object", "camera", "pingpong", "half", "layered",
+                                           "subframes", "timemask", NULL };
+    static const smear_method methods[] = { SMEAR_DEFAULT_METHOD, SMEAR_NONE, SMEAR_ACCUMULATE,
+                                            SMEAR_RECONSTRUCT };
+    int found = read_name(value, built);
+    if (found < 0)
+        return read_name(value, planned) >= 0 ? "not built yet"
+                                              : "needs auto, none, accumulate or reconstruct";
+    ((struct render_options *)to)->method = methods[found];
+    return NULL;
+}
+
+static const char *read_samples(void *to, const char *value)
+{
+    long samples;
+    if (!read_integer(value, 1, MAX_EXACT_SAMPLES, &samples))
+        return "needs a number from 1 to 1024, with --exact to 65536";
+    ((struct render_options *)to)->samples = (int)samples;
+    return NULL;
+}
+
+static const char *read_exact(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->exact = true;
+    return NULL;
+}
+
+static const char *read_reconstruct(void *to, const char *value)
+{
+    static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
+    struct render_options *o = to;
+    o->reconstruct = 0;
+    for (;;) {
+        char name[16];
+        size_t length = strcspn(value, ",");
+        if (length >= sizeof name)
+            length = 0;
+        memcpy(name, value, length);
+        name[length] = '\0';
+        int found = read_name(name, names);
+        if (found < 0)
+            return "needs a list of fence, corner, box, direction, uniform";
+        o->reconstruct |= 1 << found;           /* SMEAR_FENCE, SMEAR_CORNER, ... in this order */
+        if (value[length] == '\0')
+            return NULL;
+        value += length + 1;
+    }
+}
+
+static const char *read_quality(void *to, const char *value)
+{
+    static const char *const names[] = { "draft", "balanced", "fine", NULL };
+    ((struct render_options *)to)->has_quality = true;
+    return read_name(value, names) >= 0 ? NULL : "needs draft, balanced or fine";
+}
+
+static const char *read_target(void *to, const char *value)
+{
+    double codes;
+    ((struct render_options *)to)->has_target = true;
+    return read_number(value, 1e-6, 255.0, &codes) ? NULL : "needs codes above 0, up to 255";
+}
+
+static const char *read_reach(void *to, const char *value)
+{
+    struct render_options *o = to;
+    char number[32];
+    long pixels;
+    size_t length = strlen(value);
+    o->reach_px = 0;
+    o->reach_percent = 0.0;
+    if (length > 1 && length < sizeof number && value[length - 1] == '%') {
+        memcpy(number, value, length - 1);
+        number[length - 1] = '\0';
+        if (read_number(number, 1e-6, 100.0, &o->reach_percent))
+            return NULL;
+    } else if (read_integer(value, 1, MAX_EDGE, &pixels)) {
+        o->reach_px = (int)pixels;
+        return NULL;
+    }
+    return "needs pixels from 1 on, or a percentage of the height above 0%";
+}
+
+static const char *read_tile(void *to, const char *value)
+{
+    static const char *const names[] = { "8", "16", "32", "64", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs 8, 16, 32 or 64";
+    ((struct render_options *)to)->tile = 8 << found;
+    return NULL;
+}
+
+static const char *read_mask(void *to, const char *value)
+{
+    (void)to;
+    (void)value;
+    return "not built yet";
+}
+
+static const char *read_motion(void *to, const char *value)
+{
+    struct render_options *o = to;
+    if (o->motion_count == OPTIONS_MAX_MOTIONS)
+        return "too many of them";
+    o->motion[o->motion_count++] = value;
+    return NULL;
+}
+
+static const char *read_cut(void *to, const char *value)
+{
+    struct render_options *o = to;
+    if (o->cut_count == OPTIONS_MAX_CUTS)
+        return "too many of them";
+    return read_integer(value, 0, 999999999, &o->cut[o->cut_count++]) ? NULL
+                                                                     : "needs a frame number";
+}
+
+static const char *read_shutter_mode(void *to, const char *value)
+{
+    double hertz;
+    (void)to;
+    if (strcmp(value, "native") == 0)
+        return NULL;
+    if (strcmp(value, "capped") == 0 || strcmp(value, "fixed") == 0 ||
+        (strncmp(value, "fixed:", 6) == 0 && read_number(value + 6, 1e-3, 1e6, &hertz)))
+        return "not built yet";
+    return "needs native, capped or fixed[:HZ]";
+}
+
+static const char *read_light(void *to, const char *value)
+{
+    static const char *const names[] = { "linear", "encoded", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs linear or encoded";
+    ((struct render_options *)to)->light = (smear_light)found;
+    return NULL;
+}
+
+static const char *read_clear(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->has_clear = read_color(value, &o->clear);
+    return o->has_clear ? NULL : "needs RRGGBB, six hexadecimal digits";
+}
+
+/* In the order of smear_format. */
+static const char *const format_names[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
+                                            "l8", "l4", "l1", "l1pages", NULL };
+
+static const char *read_format(void *to, const char *value)
+{
+    int found = read_name(value, format_names);
+    if (found < 0)
+        return "needs rgb888, rgb565, rgb565be, rgb555, rgb332, l8, l4, l1 or l1pages";
+    ((struct render_options *)to)->format = (smear_format)found;
+    return NULL;
+}
+
+static const char *read_dither(void *to, const char *value)
+{
+    static const char *const names[] = { "ordered", "none", "blue", NULL };  /* as smear_dither */
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs none, ordered or blue";
+    ((struct render_options *)to)->dither = (smear_dither)found;
+    return NULL;
+}
+
+static const char *read_arena(void *to, const char *value)
+{
+    long bytes;
+    if (!read_integer(value, 1, 1L << 40, &bytes))
+        return "needs a number of bytes";
+    ((struct render_options *)to)->arena = (size_t)bytes;
+    return NULL;
+}
+
+static const char *read_threads(void *to, const char *value)
+{
+    long threads;
+    if (!read_integer(value, 1, 8, &threads))
+        return "needs a number from 1 to 8";
+    ((struct render_options *)to)->threads = (int)threads;
+    return NULL;
+}
+
+static const char *read_repeat(void *to, const char *value)
+{
+    long repeat;
+    if (!read_integer(value, 1, 100000, &repeat))
+        return "needs a number from 1 to 100000";
+    ((struct render_options *)to)->repeat = (int)repeat;
+    return NULL;
+}
+
+static const char *read_output(void *to, const char *value)
+{
+    ((struct render_options *)to)->output = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_depth(void *to, const char *value)
+{
+    ((struct render_options *)to)->depth = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_velocity(void *to, const char *value)
+{
+    ((struct render_options *)to)->velocity = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_stats(void *to, const char *value)
+{
+    ((struct render_options *)to)->stats = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const struct option table[] = {
+    { "--size", true, read_size_option },
+    { "--fps", true, read_fps },
+    { "--frames", true, read_frames },
+    { "--time", true, read_time },
+    { "--clip", true, read_clip },
+    { "--loop", false, read_loop },
+    { "--camera", true, read_camera },
+    { "--eye", true, read_eye },
+    { "--look", true, read_look },
+    { "--fov", true, read_fov },
+    { "--shutter", true, read_shutter },
+    { "--exposure", true, read_exposure },
+    { "--poses", true, read_poses },
+    { "--method", true, read_method },
+    { "--samples", true, read_samples },
+    { "--exact", false, read_exact },
+    { "--reconstruct", true, read_reconstruct },
+    { "--quality", true, read_quality },
+    { "--target", true, read_target },
+    { "--reach", true, read_reach },
+    { "--tile", true, read_tile },
+    { "--mask", true, read_mask },
+    { "--motion", true, read_motion },
+    { "--cut", true, read_cut },
+    { "--shutter-mode", true, read_shutter_mode },
+    { "--light", true, read_light },
+    { "--filter", true, read_filter },
+    { "--clear", true, read_clear },
+    { "--format", true, read_format },
+    { "--dither", true, read_dither },
+    { "--arena", true, read_arena },
+    { "--threads", true, read_threads },
+    { "--repeat", true, read_repeat },
+    { "-o", true, read_output },
+    { "--depth", true, read_depth },
+    { "--velocity", true, read_velocity },
+    { "--stats", true, read_stats },
+    { NULL, false, NULL },
+};
+
+/* ------------------------------------------------------------------ all of them together */
+
+static int check_camera_options(const struct render_options *o)
+{
+    const double *eye = o->view.eye, *look = o->view.look;
+    if (o->view.has_eye != o->has_look)
+        return say_bad_usage(o->has_look ? "--look" : "--eye", "--eye and --look go together");
+    if (o->has_fov && !o->view.has_eye)
+        return say_bad_usage("--fov", "needs --eye and --look");
+    if (o->view.has_eye && o->view.camera != NULL)
+        return say_bad_usage("--camera", "contradicts --eye");
+    if (o->view.has_eye && eye[0] == look[0] && eye[1] == look[1] && eye[2] == look[2])
+        return say_bad_usage("--look", "is where --eye is");
+    return STATUS_OK;
+}
+
+/* Built-in scenes bring their own cameras, motion and materials. */
+static int check_builtin(const struct render_options *o)
+{
+    const struct {
+        const char *option;
+        bool given;
+    } only_files[] = {
+        { "--clip", o->view.clip != NULL }, { "--loop", o->view.loop },
+        { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
+        { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
+    };
+    for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
+        if (only_files[i].given)
+            return say_bad_usage(only_files[i].option, "is for files, built-in scenes have their own");
+    return STATUS_OK;
+}
+
+static int check_method(const struct render_options *o)
+{
+    if (o->exact && o->method != SMEAR_ACCUMULATE)
+        return say_bad_usage("--exact", "goes with --method accumulate");
+    if (o->exact && o->motion_count > 0)
+        return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
+    if (!o->exact && o->samples > MAX_SAMPLES)
+        return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
+    if (o->reconstruct != 0 && (o->method == SMEAR_NONE || o->method == SMEAR_ACCUMULATE))
+        return say_bad_usage("--reconstruct", "goes with --method reconstruct");
+    if (o->has_quality && o->has_target)
+        return say_bad_usage("--target", "contradicts --quality");
+    if (o->has_time && o->has_frames)
+        return say_bad_usage("--time", "contradicts --frames");
+    return STATUS_OK;
+}
+
+static int check_outputs(struct render_options *o)
+{
+    long frames = o->last - o->first + 1;
+    const char *const path[] = { o->output, o->depth, o->velocity, o->stats };
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < i; j++)
+            if (path[i] != NULL && path[j] != NULL && strcmp(path[i], path[j]) == 0)
+                return say_bad_usage(path[i], "is to be written twice");
+    if (o->output == NULL && o->stats == NULL && o->repeat == 0) {
+        char stem[280];
+        if (!source_stem(o->scene, stem, sizeof stem) || strchr(stem, '%') != NULL)
+            return say_bad_usage("-o", "is needed for a scene of this name");
+        snprintf(o->default_output, sizeof o->default_output, "%s.png", stem);
+        o->output = o->default_output;
+    }
+    int status = STATUS_OK;
+    if (o->output != NULL)
+        status = sink_open(&o->picture_sink, "-o", o->output, frames, false);
+    if (status == STATUS_OK && o->depth != NULL)
+        status = sink_open(&o->depth_sink, "--depth", o->depth, frames, true);
+    if (status == STATUS_OK && o->velocity != NULL)
+        status = sink_open(&o->velocity_sink, "--velocity", o->velocity, frames, true);
+    return status;
+}
+
+int options_read(struct render_options *o, int count, char **text, bool *wants_help)
+{
+    *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1,
+                                  .shutter_degrees = 180, .view = { .fov_degrees = 45.0 } };
+    int status = arguments_read(count, text, table, o, &o->scene, 1, wants_help);
+    if (status != STATUS_OK || *wants_help)
+        return status;
+    if (o->scene == NULL)
+        return say_bad_usage("render", "needs a scene (smear help render)");
+    status = check_camera_options(o);
+    if (status == STATUS_OK)
+        status = check_method(o);
+    if (status == STATUS_OK && source_builtin_name(o->scene) != NULL)
+        status = check_builtin(o);
+    if (status == STATUS_OK)
+        status = check_outputs(o);
+    o->view.aspect = (double)o->width / o->height;
+    return status;
+}
+
+int options_reach(const struct render_options *o, int height, int *reach, int *tile)
+{
+    double percent = o->reach_percent > 0.0 ? o->reach_percent : 5.0;
+    int limit = o->tile > 0 ? o->tile : MAX_REACH;
+    *tile = o->tile;
+    *reach = o->reach_px;
+    if (*reach == 0) {
+        *reach = (int)floor(height * percent / 100.0 + 1e-9);
+        if (*reach < 1)
+            *reach = 1;
+        if (*reach > limit && o->reach_percent == 0.0)
+            *reach = limit;         /* the default is 5 %, but at most one tile */
+    }
+    if (*reach > limit)
+        return say_bad_usage("--reach", "%d pixels are more than a tile of %d", *reach, limit);
+    return STATUS_OK;
+}
+
+const char *options_format_name(smear_format format)
+{
+    return format_names[format];
+}

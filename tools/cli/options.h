@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* options.h - the command line of `smear render`, checked as far as it can be without the scene. */
+#ifndef SMEAR_TOOLS_CLI_OPTIONS_H
+#define SMEAR_TOOLS_CLI_OPTIONS_H
+
+#include "sink.h"
+#include "source.h"
+
+#include <smear.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { OPTIONS_MAX_MOTIONS = 256, OPTIONS_MAX_CUTS = 256 };
+
+struct render_options {
+    const char *scene;
+    struct source_view view;
+
+    bool has_size, has_fps, has_time, has_frames, has_clear, has_look, has_fov, has_filter;
+    int width, height;
+    double fps, time;
+    long first, last;           /* frames; 0 and 0 without --frames */
+
+    int shutter_degrees;        /* 0: the sharp frame */
+    smear_exposure exposure;
+    bool shutter_poses;
+    smear_method method;
+    int samples;                /* 0: the method's default */
+    bool exact, has_quality, has_target;
+    int reconstruct;            /* SMEAR_FENCE | ... */
+    smear_light light;
+    unsigned clear;
+
+    int reach_px, tile;         /* 0: not given */
+    double reach_percent;       /* 0: not given */
+    const char *motion[OPTIONS_MAX_MOTIONS];
+    int motion_count;
+    long cut[OPTIONS_MAX_CUTS];
+    int cut_count;
+
+    smear_format format;
+    smear_dither dither;
+    size_t arena;               /* 0: not given */
+    int threads;
+    int repeat;                 /* 0: not given */
+    const char *output, *depth, *velocity, *stats;
+    struct sink picture_sink, depth_sink, velocity_sink;    /* opened; path null: not wanted */
+    char default_output[300];   /* SCENE.png, when nothing else is asked for */
+};
+
+/* Reads argv (behind the command). Returns a status; *wants_help and STATUS_OK for --help. */
+int options_read(struct render_options *options, int count, char **text, bool *wants_help);
+
+/* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
+int options_reach(const struct render_options *options, int height, int *reach, int *tile);
+
+/* The name of the method and of the format as the command line has them. */
+const char *options_format_name(smear_format format);
+
+#endif

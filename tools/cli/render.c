@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT */
+/* render.c - `smear render`: frames of a scene through the library into files and statistics. */
+#include "commands.h"
+
+#include "device.h"
+#include "exact.h"
+#include "options.h"
+#include "picture.h"
+#include "planes.h"
+#include "say.h"
+#include "stats.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct render {
+    struct render_options options;
+    struct source source;
+    struct presenter *presenter;
+    struct present_options present;     /* of every frame, but for cuts */
+    uint8_t *motion;                    /* per draw */
+    int width, height;
+    struct device device;               /* what is measured */
+    struct exact exact;                 /* with --exact */
+    struct planes planes;               /* with --depth or --velocity */
+    struct image picture;
+    struct device_times *times;         /* one per repetition */
+    double *spare;                      /* as many, for medians */
+    struct stats_file stats;
+};
+
+static bool is_sharp_method(const struct render *r)
+{
+    return r->options.shutter_degrees == 0 || r->options.method == SMEAR_NONE ||
+           r->options.method == SMEAR_ACCUMULATE;
+}
+
+/* ------------------------------------------------------------------ setting up */
+
+static void fill_present_options(struct render *r)
+{
+    const struct render_options *o = &r->options;
+    const struct scene *scene = &r->source.scene;
+    bool is_builtin = !r->source.is_file;
+    r->width = is_builtin && !o->has_size ? scene->width : o->width;
+    r->height = is_builtin && !o->has_size ? scene->height : o->height;
+    r->present = (struct present_options){
+        .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
+        .shutter_degrees = o->shutter_degrees, .exposure = o->exposure,
+        .shutter_poses = o->shutter_poses, .method = o->method,
+        .samples = o->exact ? 0 : o->samples, .light = o->light,
+        .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
+        .reconstruct = o->reconstruct,
+    };
+}
+
+static int set_motion(struct render *r)
+{
+    struct failure f = { "" };
+    struct scene_instant instant = { 0 };
+    int status = STATUS_OK;
+    if (r->options.motion_count == 0)
+        return STATUS_OK;
+    if (!scene_pose(&r->source.scene, 0.0, &instant, &f)) {
+        status = say_bad_input(r->source.name, &f);
+    } else {
+        r->motion = calloc((size_t)instant.draw_count + 1, 1);
+        r->present.motion = r->motion;
+        r->present.motion_count = instant.draw_count;
+        if (r->motion == NULL)
+            status = say_bad_input(r->source.name, &f);
+        else
+            status = source_motion(&r->source, r->options.motion, r->options.motion_count, &instant,
+                                   r->motion);
+    }
+    scene_instant_free(&r->source.scene, &instant);
+    return status;
+}
+
+static bool open_devices(struct render *r, int reach, int tile, struct failure *f)
+{
+    const struct render_options *o = &r->options;
+    const bool accumulates = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0;
+    struct device_setup setup = { .width = r->width, .height = r->height, .reach = reach,
+                                  .tile = tile, .format = o->format, .dither = o->dither,
+                                  .sharp = is_sharp_method(r), .accumulate = accumulates,
+                                  .threads = o->threads, .arena = o->arena };
+    if (o->exact) {
+        if (!exact_open(&r->exact, r->width, r->height, o->format, o->dither, f))
+            return false;
+        setup.format = SMEAR_XRGB8888;
+        setup.accumulate = false;
+    }
+    if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, r->width, r->height, f))
+        return false;
+    if ((o->depth != NULL || o->velocity != NULL) && !planes_open(&r->planes, r->width, r->height, f))
+        return false;
+    size_t repeat = o->repeat > 0 ? (size_t)o->repeat : 1;
+    r->times = calloc(repeat, sizeof *r->times);
+    r->spare = calloc(repeat, sizeof *r->spare);
+    if (r->times == NULL || r->spare == NULL)
+        return fail(f, "out of memory");
+    r->presenter = presenter_new(&r->source.scene, f);
+    return r->presenter != NULL;
+}
+
+/* ------------------------------------------------------------------ a frame */
+
+static struct present_options options_of_frame(const struct render *r, long frame)
+{
+    struct present_options p = r->present;
+    for (int i = 0; i < r->options.cut_count; i++)
+        if (r->options.cut[i] == frame)
+            p.cut = true;
+    return p;
+}
+
+/* The picture in r->picture, counts in `report`. */
+static bool draw_frame(struct render *r, double time, const struct present_options *options,
+                       struct frame_report *report, struct failure *f)
+{
+    struct device *shown = &r->device;
+    if (r->options.exact) {
+        shown = &r->exact.display;
+        if (!exact_draw(&r->exact, r->presenter, &r->device, time, options, r->options.samples,
+                        &report->counts, f))
+            return false;
+    } else {
+        const struct presented *presented = presenter_frame(r->presenter, time, options, f);
+        if (presented == NULL || !device_fit(&r->device, presented, f) ||
+            !device_draw(&r->device, presented, f))
+            return false;
+        smear_get_stats(r->device.ctx, &report->counts);
+    }
+    picture_expand(&r->picture, shown->pixels, shown->stride, shown->setup.format);
+    return true;
+}
+
+/* The frame again, for its times. */
+static bool time_frame(struct render *r, double time, const struct present_options *options,
+                       struct frame_report *report, struct failure *f)
+{
+    int repeat = r->options.repeat > 0 ? r->options.repeat : 1;
+    const struct presented *presented = NULL;
+    if (!r->options.exact) {
+        presented = presenter_frame(r->presenter, time, options, f);
+        if (presented == NULL)
+            return false;
+    }
+    for (int i = 0; i < repeat; i++) {
+        bool ok = r->options.exact ? exact_time(r->presenter, &r->device, time, options,
+                                                r->options.samples, &r->times[i], f)
+                                   : device_time(&r->device, presented, &r->times[i], f);
+        if (!ok)
+            return false;
+    }
+    report->times = stats_median(r->times, r->spare, repeat);
+    return true;
+}
+
+static int write_planes(struct render *r, long frame, double time,
+                        const struct present_options *options)
+{
+    struct failure f = { "" };
+    struct render_options *o = &r->options;
+    if (o->depth == NULL && o->velocity == NULL)
+        return STATUS_OK;
+    const struct presented *presented = presenter_frame(r->presenter, time, options, &f);
+    if (presented == NULL || !planes_draw(&r->planes, presented, &f))
+        return say_bad_input(r->source.name, &f);
+    if (o->depth != NULL && !sink_add(&o->depth_sink, &r->picture, &r->planes.depth, frame, &f))
+        return say_bad_input(o->depth_sink.name, &f);
+    if (o->velocity != NULL &&
+        !sink_add(&o->velocity_sink, &r->picture, &r->planes.velocity, frame, &f))
+        return say_bad_input(o->velocity_sink.name, &f);
+    return STATUS_OK;
+}
+
+static void print_times(const struct frame_report *report)
+{
+    printf("frame=%ld total_us=%.1f crc32=%08lx\n", report->frame,
+           report->times.total / DEVICE_TICKS_PER_US, (unsigned long)report->counts.crc32);
+}
+
+static int render_frame(struct render *r, long frame, double time)
+{
+    struct failure f = { "" };
+    struct render_options *o = &r->options;
+    struct frame_report report = { .frame = frame, .time = time };
+    const struct present_options options = options_of_frame(r, frame);
+    bool is_timed = o->stats != NULL || o->repeat > 0;
+    if (!draw_frame(r, time, &options, &report, &f) ||
+        (is_timed && !time_frame(r, time, &options, &report, &f)))
+        return say_bad_input(r->source.name, &f);
+    if (o->output != NULL && !sink_add(&o->picture_sink, &r->picture, NULL, frame, &f))
+        return say_bad_input(o->picture_sink.name, &f);
+    int status = write_planes(r, frame, time, &options);
+    if (status != STATUS_OK)
+        return status;
+    if (r->stats.stream != NULL)
+        stats_add(&r->stats, &report);
+    else if (o->repeat > 0)
+        print_times(&report);
+    return STATUS_OK;
+}
+
+/* ------------------------------------------------------------------ all frames */
+
+static int render_frames(struct render *r)
+{
+    const struct render_options *o = &r->options;
+    const struct scene *scene = &r->source.scene;
+    int status = STATUS_OK;
+    for (long frame = o->first; frame <= o->last && status == STATUS_OK; frame++) {
+        double time = o->has_frames ? (double)frame / r->present.fps
+                      : o->has_time || r->source.is_file ? o->time
+                                                         : scene->time;
+        status = render_frame(r, frame, time);
+        say_progress(frame - o->first + 1, o->last - o->first + 1, "frame");
+    }
+    say_progress_end();
+    return status;
+}
+
+static int finish(struct render *r)
+{
+    struct failure f = { "" };
+    struct render_options *o = &r->options;
+    if (!sink_end(&o->picture_sink, &f))
+        return say_bad_input(o->picture_sink.name, &f);
+    if (!stats_end(&r->stats, &f))
+        return say_bad_input(o->stats, &f);
+    if (o->output == o->default_output)
+        printf("wrote %s\n", o->output);
+    return STATUS_OK;
+}
+
+static int render_scene(struct render *r)
+{
+    struct failure f = { "" };
+    int reach, tile;
+    fill_present_options(r);
+    int status = options_reach(&r->options, r->height, &reach, &tile);
+    if (status == STATUS_OK)
+        status = set_motion(r);
+    if (status != STATUS_OK)
+        return status;
+    if (!open_devices(r, reach, tile, &f))
+        return say_bad_input(r->source.name, &f);
+    if (r->options.stats != NULL && !stats_open(&r->stats, r->options.stats, &f))
+        return say_bad_input(r->options.stats, &f);
+    status = render_frames(r);
+    return status == STATUS_OK ? finish(r) : status;
+}
+
+static void release(struct render *r)
+{
+    sink_cancel(&r->options.picture_sink);
+    stats_cancel(&r->stats);
+    presenter_free(r->presenter);
+    planes_close(&r->planes);
+    exact_close(&r->exact);
+    device_close(&r->device);
+    image_free(&r->picture);
+    free(r->motion);
+    free(r->times);
+    free(r->spare);
+    source_close(&r->source);
+}
+
+int command_render(int count, char **text)
+{
+    static struct render render;        /* large, and one is enough */
+    bool wants_help;
+    int status = options_read(&render.options, count, text, &wants_help);
+    if (status != STATUS_OK || wants_help)
+        return status == STATUS_OK ? help_print("render") : status;
+    status = source_open(render.options.scene, &render.options.view, &render.source);
+    if (status == STATUS_OK) {
+        status = render_scene(&render);
+        release(&render);
+    }
+    return status;
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* say.c - see say.h. */
+#include "say.h"
+
+#include <time.h>
+#include <unistd.h>
+
+static bool progress_shown;
+
+static void say_line(const char *what, const char *kind, const char *text)
+{
+    char line[4400];
+    int length = snprintf(line, sizeof line, "smear: %s: %s%s", what, kind, text);
+    say_progress_end();
+    for (int i = 0; i < length && line[i] != '\0'; i++)
+        if ((unsigned char)line[i] < 32 || line[i] == 127)
+            line[i] = '?';
+    fprintf(stderr, "%s\n", line);
+}
+
+int say_bad_input(const char *what, const struct failure *f)
+{
+    say_line(what, "", f->text);
+    return STATUS_BAD_INPUT;
+}
+
+int say_bad_usage(const char *what, const char *format, ...)
+{
+    char text[400];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    say_line(what, "", text);
+    return STATUS_BAD_USAGE;
+}
+
+void say_warning(const char *what, const char *text)
+{
+    say_line(what, "warning: ", text);
+}
+
+void say_progress(long done, long all, const char *unit)
+{
+    static struct timespec start, shown;
+    struct timespec now;
+    if (isatty(STDERR_FILENO) == 0 || clock_gettime(CLOCK_MONOTONIC, &now) != 0)
+        return;
+    if (start.tv_sec == 0 && start.tv_nsec == 0)
+        start = now;
+    if (now.tv_sec - start.tv_sec < 1 || now.tv_sec == shown.tv_sec)
+        return;
+    shown = now;
+    progress_shown = true;
+    fprintf(stderr, "\r%s %ld of %ld ", unit, done, all);
+    fflush(stderr);
+}
+
+void say_progress_end(void)
+{
+    if (progress_shown)
+        fprintf(stderr, "\r%40s\r", "");
+    progress_shown = false;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT */
+/* source.c - see source.h. */
+#include "source.h"
+
+#include "arguments.h"
+#include "say.h"
+
+#include <string.h>
+
+static const char builtin_prefix[] = "builtin:";
+
+const char *source_builtin_name(const char *name)
+{
+    size_t length = sizeof builtin_prefix - 1;
+    return strncmp(name, builtin_prefix, length) == 0 ? name + length : NULL;
+}
+
+static bool choose_clip(const struct model *model, const char *name, int *clip)
+{
+    *clip = model->clip_count > 0 ? 0 : MODEL_CLIP_NONE;
+    if (name == NULL)
+        return true;
+    int found = model_find_clip(model, name);
+    if (found >= 0)
+        *clip = found;
+    else if (strcmp(name, "none") == 0)
+        *clip = MODEL_CLIP_NONE;
+    else if (strcmp(name, "all") == 0)
+        *clip = MODEL_CLIP_ALL;
+    else
+        return strcmp(name, "0") == 0;      /* the default, even where there is no clip */
+    return true;
+}
+
+static int open_file(const struct source_view *view, struct source *out)
+{
+    struct failure f = { "" };
+    struct scene_view scene_view = { .loop = view->loop, .camera = -1, .has_eye = view->has_eye,
+                                     .fov_degrees = view->fov_degrees, .bilinear = view->bilinear,
+                                     .aspect = view->aspect };
+    memcpy(scene_view.eye, view->eye, sizeof scene_view.eye);
+    memcpy(scene_view.look, view->look, sizeof scene_view.look);
+    if (!model_load(out->name, &out->model, &f))
+        return say_bad_input(out->name, &f);
+    if (out->model.warning[0] != '\0')
+        say_warning(out->name, out->model.warning);
+
+    int status = STATUS_OK;
+    if (!choose_clip(&out->model, view->clip, &scene_view.clip))
+        status = say_bad_usage("--clip", "the file has no such clip (\"%s\")", view->clip);
+    else if (view->camera != NULL) {
+        scene_view.camera = model_find_camera(&out->model, view->camera);
+        if (scene_view.camera < 0)
+            status = say_bad_usage("--camera", "the file has no such camera (\"%s\")", view->camera);
+    } else if (!view->has_eye && out->model.camera_count > 0) {
+        scene_view.camera = 0;
+    }
+    if (status == STATUS_OK && !scene_from_model(&out->model, &scene_view, &out->scene, &f))
+        status = say_bad_input(out->name, &f);
+    if (status != STATUS_OK)
+        model_free(&out->model);
+    return status;
+}
+
+int source_open(const char *name, const struct source_view *view, struct source *out)
+{
+    struct failure f = { "" };
+    const char *builtin = source_builtin_name(name);
+    *out = (struct source){ .name = name, .is_file = builtin == NULL };
+    if (builtin == NULL)
+        return open_file(view, out);
+    if (!scene_builtin(builtin, &out->scene, &f))
+        return say_bad_input(name, &f);
+    return STATUS_OK;
+}
+
+void source_close(struct source *source)
+{
+    scene_free(&source->scene);
+    if (source->is_file)
+        model_free(&source->model);
+}
+
+/* The node and the enum scene_motion of `NODE=MODE`. */
+static int read_setting(const struct model *model, const char *setting, int *node, int *motion)
+{
+    static const char *const modes[] = { "full", "camera", "none", NULL };
+    char name[256];
+    const char *equals = strrchr(setting, '=');
+    size_t length = equals != NULL ? (size_t)(equals - setting) : 0;
+    *motion = equals != NULL ? read_name(equals + 1, modes) : -1;
+    if (*motion < 0 || length == 0 || length >= sizeof name)
+        return say_bad_usage("--motion", "needs NODE=full, NODE=camera or NODE=none (\"%s\")",
+                             setting);
+    memcpy(name, setting, length);
+    name[length] = '\0';
+    long index;
+    *node = model_find_node(model, name);
+    if (*node < 0 && read_integer(name, 0, model->node_count - 1, &index))
+        *node = (int)index;
+    if (*node < 0)
+        return say_bad_usage("--motion", "the file has no such node (\"%s\")", name);
+    return STATUS_OK;
+}
+
+int source_motion(const struct source *source, const char *const *setting, int setting_count,
+                  const struct scene_instant *instant, uint8_t *motion)
+{
+    for (int i = 0; i < instant->draw_count; i++)
+        motion[i] = SCENE_MOTION_FULL;
+    for (int s = 0; s < setting_count; s++) {
+        int node, mode, status = read_setting(&source->model, setting[s], &node, &mode);
+        if (status != STATUS_OK)
+            return status;
+        for (int i = 0; i < instant->draw_count; i++)
+            if (model_node_is_under(&source->model, instant->draw[i].node, node))
+                motion[i] = (uint8_t)mode;
+    }
+    return STATUS_OK;
+}
+
+bool source_stem(const char *name, char *out, size_t size)
+{
+    const char *builtin = source_builtin_name(name), *slash = strrchr(name, '/');
+    const char *start = builtin != NULL ? builtin : slash != NULL ? slash + 1 : name;
+    const char *dot = builtin != NULL ? NULL : strrchr(start, '.');
+    size_t length = dot != NULL && dot > start ? (size_t)(dot - start) : strlen(start);
+    if (length == 0 || length >= size)
+        return false;
+    for (size_t i = 0; i < length; i++)
+        out[i] = start[i] == '/' ? '-' : start[i];
+    out[length] = '\0';
+    return true;
+}

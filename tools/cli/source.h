@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* source.h - what a SCENE on the command line names: a model file, or `builtin:NAME`. */
+#ifndef SMEAR_TOOLS_CLI_SOURCE_H
+#define SMEAR_TOOLS_CLI_SOURCE_H
+
+#include "../model/model.h"
+#include "../scenes/scene.h"
+
+#include <stdbool.h>
+
+/* How a scene is to be seen; only files have a choice. */
+struct source_view {
+    const char *clip;           /* --clip; null: the first, if there is one */
+    const char *camera;         /* --camera; null: the first, if there is one */
+    bool loop, has_eye, bilinear;
+    double eye[3], look[3], fov_degrees;
+    double aspect;
+};
+
+struct source {
+    const char *name;           /* as on the command line */
+    bool is_file;               /* has a model */
+    struct model model;
+    struct scene scene;
+};
+
+/* The name behind `builtin:`, or null for a file. */
+const char *source_builtin_name(const char *name);
+
+/* Loads the file and makes the scene. A warning of the loader is printed. After success, free with
+ * source_close; returns a status. */
+int source_open(const char *name, const struct source_view *view, struct source *out);
+void source_close(struct source *source);
+
+/* The motion of each draw of an instant, by `NODE=full|camera|none` settings: each holds for the node
+ * (by name, else by index) and all below it, later ones over earlier ones. Returns a status. */
+int source_motion(const struct source *source, const char *const *setting, int setting_count,
+                  const struct scene_instant *instant, uint8_t *motion);
+
+/* "demo-race" of builtin:demo/race, "fox" of models/fox.glb; false when it does not fit. */
+bool source_stem(const char *name, char *out, size_t size);
+
+#endif

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* stats.c - see stats.h. */
+#include "stats.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median_at(const struct device_times *times, double *spare, int count, size_t offset)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(&spare[i], (const char *)&times[i] + offset, sizeof *spare);
+    qsort(spare, (size_t)count, sizeof *spare, compare_doubles);
+    return (spare[(count - 1) / 2] + spare[count / 2]) / 2.0;
+}
+
+struct device_times stats_median(const struct device_times *times, double *spare, int count)
+{
+    struct device_times m;
+    m.submit = median_at(times, spare, count, offsetof(struct device_times, submit));
+    m.raster = median_at(times, spare, count, offsetof(struct device_times, raster));
+    m.reduce = median_at(times, spare, count, offsetof(struct device_times, reduce));
+    m.blur = median_at(times, spare, count, offsetof(struct device_times, blur));
+    m.convert = median_at(times, spare, count, offsetof(struct device_times, convert));
+    m.total = median_at(times, spare, count, offsetof(struct device_times, total));
+    return m;
+}
+
+bool stats_open(struct stats_file *s, const char *path, struct failure *f)
+{
+    struct stat there;
+    *s = (struct stats_file){ .stream = NULL };
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode)) {
+        s->stream = fopen(path, "w");
+        if (s->stream == NULL)
+            return fail(f, "cannot be written (%s)", strerror(errno));
+    } else {
+        if (!output_open(&s->file, path, f))
+            return false;
+        s->stream = s->file.stream;
+    }
+    fputs("{\"frames\":[", s->stream);
+    return true;
+}
+
+static double us(double ticks)
+{
+    return ticks / DEVICE_TICKS_PER_US;
+}
+
+void stats_add(struct stats_file *s, const struct frame_report *r)
+{
+    const smear_stats *c = &r->counts;
+    const struct device_times *t = &r->times;
+    fprintf(s->stream, "%s\n{\"frame\":%ld,\"time_s\":%.9g,\n", s->frames > 0 ? "," : "", r->frame,
+            r->time);
+    /* The library classifies while it reduces, and has no layers to merge. */
+    fprintf(s->stream, " \"us\":{\"submit\":%.1f,\"raster\":%.1f,\"reduce\":%.1f,\"class\":0,"
+            "\"blur\":%.1f,\"merge\":0,\"convert\":%.1f,\"total\":%.1f},\n",
+            us(t->submit), us(t->raster), us(t->reduce), us(t->blur), us(t->convert), us(t->total));
+    fprintf(s->stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32 ",\"dropped\":%" PRIu32
+            ",\"split\":%" PRIu32 "},\n", c->triangles_in, c->triangles_drawn, c->triangles_dropped,
+            c->triangles_split);
+    fprintf(s->stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
+    fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32 ",\"complex\":%" PRIu32
+            "},\n", c->tiles_still, c->tiles_uniform, c->tiles_complex);
+    fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
+            ",\"reconstruct\":%" PRIu32 "},\n", c->tiles_none, c->tiles_accumulate,
+            c->tiles_reconstruct);
+    fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
+            c->crc32);
+    s->frames++;
+}
+
+bool stats_end(struct stats_file *s, struct failure *f)
+{
+    bool ok;
+    if (s->stream == NULL)
+        return true;
+    fputs("\n]}\n", s->stream);
+    if (s->file.stream != NULL) {
+        ok = output_commit(&s->file, f);
+    } else {
+        ok = ferror(s->stream) == 0;
+        ok = fclose(s->stream) == 0 && ok;
+        if (!ok)
+            fail(f, "cannot be written (write error)");
+    }
+    *s = (struct stats_file){ .stream = NULL };
+    return ok;
+}
+
+void stats_cancel(struct stats_file *s)
+{
+    if (s->file.stream != NULL)
+        output_discard(&s->file);
+    else if (s->stream != NULL)
+        fclose(s->stream);
+    *s = (struct stats_file){ .stream = NULL };
+}
