@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # programs.mk - the programs that run on every target. The Makefile includes it after target.mk.
 #
-# Uses BUILD (build/$(TARGET)), LIB (the library's archive for the target), the pattern rule
-# $(BUILD)/%.o: %.c, what target.mk sets, and
+# Uses BUILD (build/$(TARGET)), LIB_SRC and LIB (the library's sources, and its archive for the
+# target), the pattern rule $(BUILD)/%.o: %.c, what target.mk sets, and
 #   UNIT_SUITES   test suites that need neither libc nor floating point: NAME stands for
 #                 suite_NAME() in tests/test_NAME.c
 #   HOST_CC       the host's compiler, for the program that records the tapes
@@ -23,6 +23,8 @@ BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target_bench.o $(BUILD)/tests/play.
                $(BUILD)/$(TAPES)/bench.o
 UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target_unit.o $(BUILD)/tests/test.o \
                $(UNIT_SUITES:%=$(BUILD)/tests/test_%.o)
+
+$(BUILD)/$(TAPES)/golden.o $(BUILD)/$(TAPES)/bench.o: CFLAGS += -Itests
 
 $(TAPES)/target_tapes: $(TAPES_SRC)
 	@mkdir -p $(@D)
