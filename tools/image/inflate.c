@@ -261,11 +261,12 @@ static bool copy_match(struct inflater *s, size_t length, size_t distance, struc
     if (length > s->capacity - s->used)
         return too_large(s, f);
     uint8_t *to = s->out + s->used;
+    const uint8_t *from = to - distance;
     if (distance >= length) {
-        memcpy(to, to - distance, length);
+        memcpy(to, from, length);
     } else {
         for (size_t i = 0; i < length; i++)     /* overlapping: repeats the last `distance` bytes */
-            to[i] = to[i - distance];
+            to[i] = from[i];
     }
     s->used += length;
     return true;

@@ -13,7 +13,8 @@
 
 enum {
     EXACT_SLOTS = 1024,         /* hash table for up to 257 colours */
-    MAX_POINTS = 32768,         /* of the histogram that the palette is chosen from */
+    MAX_POINTS = 16384,         /* of the histogram that the palette is chosen from */
+    CELLS = 32768,              /* hash table of the histogram */
     REFINEMENTS = 8,            /* rounds of k-means at most */
     CACHE_SLOTS = 1 << 16       /* pairs of entries found for recent colours */
 };
@@ -25,6 +26,12 @@ static const float NOISE_WEIGHT = 0.15f;        /* of dots against error of thei
 struct point {
     float v[3];                 /* luma, weighted blue and red differences */
     float weight;
+};
+
+/* A colour of the palette in the making; in arrays ordered by luma, to be found fast. */
+struct center {
+    float v[3];
+    int entry;                  /* of the palette */
 };
 
 static struct point to_point(float r, float g, float b)
@@ -76,36 +83,41 @@ bool palette_exact(const struct marked_image *from, int limit, struct palette *o
 
 /* --- choosing --- */
 
+/* Pixels whose colours agree in the upper bits. */
 struct cell {
-    uint64_t sum[3];
+    uint32_t key;               /* those bits + 1; 0: free */
     uint32_t count;
+    uint64_t sum[3];
 };
 
-/* The histogram with 2^bits steps per channel as points of mean colour; returns how many, or 0 when
- * there are more than MAX_POINTS or no pixels. */
-static int histogram(const struct marked_image *from, unsigned bits, struct cell *cells,
+/* The pixels as points of mean colour, after dropping the low `shift` bits of each channel; returns
+ * how many, or 0 when there are more than MAX_POINTS or no pixels. */
+static int histogram(const struct marked_image *from, unsigned shift, struct cell *cells,
                      struct point *points)
 {
-    size_t size = (size_t)1 << 3 * bits;
-    unsigned shift = 8 - bits;
-    int count = 0;
+    int used = 0, count = 0;
     const uint8_t *p = from->image->rgba;
-    memset(cells, 0, size * sizeof *cells);
+    memset(cells, 0, CELLS * sizeof *cells);
     for (size_t i = 0, n = pixel_count(from); i < n; i++, p += 4) {
         if (!from->mark[i])
             continue;
-        struct cell *c = cells + ((size_t)(p[0] >> shift) << 2 * bits |
-                                  (size_t)(p[1] >> shift) << bits | (size_t)(p[2] >> shift));
+        uint32_t key = (uint32_t)(p[0] >> shift) << 16 | (uint32_t)(p[1] >> shift) << 8 |
+                       (uint32_t)(p[2] >> shift);
+        uint32_t at = key * 2654435761u >> 17;
+        while (cells[at].key != 0 && cells[at].key != key + 1)
+            at = (at + 1) % CELLS;
+        struct cell *c = cells + at;
+        if (c->key == 0 && ++used > MAX_POINTS)
+            return 0;
+        c->key = key + 1;
         c->count++;
         for (int k = 0; k < 3; k++)
             c->sum[k] += p[k];
     }
-    for (size_t i = 0; i < size; i++) {
+    for (size_t i = 0; i < CELLS; i++) {
         const struct cell *c = cells + i;
-        if (c->count == 0)
+        if (c->key == 0)
             continue;
-        if (count == MAX_POINTS)
-            return 0;
         float n = (float)c->count;
         points[count] = to_point((float)c->sum[0] / n, (float)c->sum[1] / n, (float)c->sum[2] / n);
         points[count++].weight = powf(n, POPULATION_POWER);
@@ -165,7 +177,7 @@ static int split_box(const struct box *b, struct point *points)
 
 /* Splits the box of the largest spread until there are `limit` of them; returns how many there are.
  * */
-static int median_cut(struct point *points, int count, int limit, float center[256][3])
+static int median_cut(struct point *points, int count, int limit, struct center *center)
 {
     struct box box[256];
     int boxes = 1;
@@ -190,7 +202,7 @@ static int median_cut(struct point *points, int count, int limit, float center[2
         measure_box(&box[boxes++], points);
     }
     for (int i = 0; i < boxes; i++)
-        memcpy(center[i], box[i].mean, sizeof box[i].mean);
+        memcpy(center[i].v, box[i].mean, sizeof box[i].mean);
     return boxes;
 }
 
@@ -200,12 +212,40 @@ static float square_distance(const float a[3], const float b[3])
     return x * x + y * y + z * z;
 }
 
-static int nearest_center(const float v[3], float center[256][3], int count, float *distance)
+static int compare_luma(const void *a, const void *b)
 {
+    const struct center *x = a, *y = b;
+    return x->v[0] < y->v[0] ? -1 : x->v[0] > y->v[0] ? 1 : x->entry - y->entry;
+}
+
+static void sort_centers(struct center *center, int count)
+{
+    qsort(center, (size_t)count, sizeof *center, compare_luma);
+}
+
+/* Among centers ordered by luma. The search goes outwards from the luma of v and ends when luma
+ * alone is further than the best distance so far. */
+static int nearest_center(const float v[3], const struct center *center, int count, float *distance)
+{
+    int below = 0, above = count;
+    while (below < above) {
+        int middle = (below + above) / 2;
+        if (center[middle].v[0] < v[0])
+            below = middle + 1;
+        else
+            above = middle;
+    }
     int best = 0;
     *distance = FLT_MAX;
-    for (int i = 0; i < count; i++) {
-        float d = square_distance(v, center[i]);
+    below = above - 1;
+    while (below >= 0 || above < count) {
+        float down = below >= 0 ? v[0] - center[below].v[0] : FLT_MAX;
+        float up = above < count ? center[above].v[0] - v[0] : FLT_MAX;
+        float step = down < up ? down : up;
+        if (step * step >= *distance)
+            break;
+        int i = down < up ? below-- : above++;
+        float d = square_distance(v, center[i].v);
         if (d < *distance) {
             *distance = d;
             best = i;
@@ -216,7 +256,7 @@ static int nearest_center(const float v[3], float center[256][3], int count, flo
 
 /* One round of k-means; returns the weighted error before it. A center that serves no point moves
  * to the point that is served worst. */
-static double refine(const struct point *points, int count, float center[256][3], int centers)
+static double refine(const struct point *points, int count, struct center *center, int centers)
 {
     double sum[256][4] = {{0}}, error = 0;
     float worst = -1;
@@ -237,14 +277,15 @@ static double refine(const struct point *points, int count, float center[256][3]
     for (int c = 0; c < centers; c++) {
         bool used = sum[c][3] > 0;
         for (int k = 0; k < 3; k++)
-            center[c][k] = used ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
+            center[c].v[k] = used ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
     }
+    sort_centers(center, centers);
     return error;
 }
 
 bool palette_choose(const struct marked_image *from, int limit, struct palette *out)
 {
-    struct cell *cells = malloc(((size_t)1 << 18) * sizeof *cells);
+    struct cell *cells = malloc(CELLS * sizeof *cells);
     struct point *points = malloc(MAX_POINTS * sizeof *points);
     memset(out, 0, sizeof *out);
     if (cells == NULL || points == NULL) {
@@ -252,12 +293,13 @@ bool palette_choose(const struct marked_image *from, int limit, struct palette *
         free(points);
         return false;
     }
-    int count = histogram(from, 6, cells, points);
-    if (count == 0)
-        count = histogram(from, 5, cells, points);
+    int count = 0;
+    for (unsigned shift = 0; shift <= 4 && count == 0; shift++)     /* 4: never above MAX_POINTS */
+        count = histogram(from, shift, cells, points);
     if (count > 0) {
-        float center[256][3];
+        struct center center[256] = {{{0}, 0}};
         int centers = median_cut(points, count, limit, center);
+        sort_centers(center, centers);
         double last = DBL_MAX;
         for (int round = 0; round < REFINEMENTS; round++) {
             double error = refine(points, count, center, centers);
@@ -267,7 +309,7 @@ bool palette_choose(const struct marked_image *from, int limit, struct palette *
         }
         out->count = centers;
         for (int i = 0; i < centers; i++)
-            to_rgb(center[i], out->rgb[i]);
+            to_rgb(center[i].v, out->rgb[i]);
     }
     free(cells);
     free(points);
@@ -294,15 +336,22 @@ static const uint8_t pattern[8][8] = {
  *     |c - ((1 - t) n + t p)|^2 + q t (1 - t) |p - n|^2,
  * error of the mean plus q times the variance of the dots. With e = c - n and d = p - n the best
  * share is t = (e.d / d.d - q/2) / (1 - q), and it gains (2 e.d - q d.d)^2 / (4 (1 - q) d.d). */
-static struct mixture find_mixture(const float v[3], float center[256][3], int count)
+static struct mixture find_mixture(const float v[3], const struct center *center, int count)
 {
     float distance;
     int nearest = nearest_center(v, center, count, &distance), partner = nearest;
     float best_gain = 0, share = 0;
-    float e[3] = {v[0] - center[nearest][0], v[1] - center[nearest][1], v[2] - center[nearest][2]};
-    for (int i = 0; i < count && distance > 0; i++) {
-        float d[3] = {center[i][0] - center[nearest][0], center[i][1] - center[nearest][1],
-                      center[i][2] - center[nearest][2]};
+    const float *n = center[nearest].v;
+    float e[3] = {v[0] - n[0], v[1] - n[1], v[2] - n[2]};
+    /* Only partners with 2 e.d > q d.d gain anything, so |d| < 2 |e| / q, and so is its luma. */
+    float reach = 2 / NOISE_WEIGHT * sqrtf(distance);
+    int first = nearest, end = nearest;
+    while (first > 0 && n[0] - center[first - 1].v[0] < reach)
+        first--;
+    while (end < count && center[end].v[0] - n[0] < reach)
+        end++;
+    for (int i = first; i < end; i++) {
+        float d[3] = {center[i].v[0] - n[0], center[i].v[1] - n[1], center[i].v[2] - n[2]};
         float dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         float ed = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
         float excess = 2 * ed - NOISE_WEIGHT * dd;
@@ -314,23 +363,26 @@ static struct mixture find_mixture(const float v[3], float center[256][3], int c
     }
     unsigned dots = (unsigned)(share * 64 + 0.5f);
     dots = dots > 64 ? 64 : dots;
+    uint8_t entry = (uint8_t)center[nearest].entry, other = (uint8_t)center[partner].entry;
     /* Always counting the brighter entry keeps the pattern when nearest and partner change places.
      * */
-    if (center[partner][0] > center[nearest][0])
-        return (struct mixture){0, (uint8_t)nearest, (uint8_t)partner, (uint8_t)dots};
-    return (struct mixture){0, (uint8_t)partner, (uint8_t)nearest, (uint8_t)(64 - dots)};
+    if (partner > nearest)
+        return (struct mixture){0, entry, other, (uint8_t)dots};
+    return (struct mixture){0, other, entry, (uint8_t)(64 - dots)};
 }
 
 bool palette_map(const struct marked_image *from, const struct palette *palette, uint8_t *index)
 {
     struct mixture *cache = calloc(CACHE_SLOTS, sizeof *cache);
-    float center[256][3];
+    struct center center[256] = {{{0}, 0}};
     if (cache == NULL)
         return false;
     for (int i = 0; i < palette->count; i++) {
         const uint8_t *rgb = palette->rgb[i];
-        memcpy(center[i], to_point(rgb[0], rgb[1], rgb[2]).v, sizeof center[i]);
+        memcpy(center[i].v, to_point(rgb[0], rgb[1], rgb[2]).v, sizeof center[i].v);
+        center[i].entry = i;
     }
+    sort_centers(center, palette->count);
     const uint8_t *p = from->image->rgba;
     size_t i = 0;
     for (int y = 0; y < from->image->height; y++) {
