@@ -23,8 +23,8 @@ endif
 include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers above its own line. `make layers` checks it.
-LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry assemble texture raster \
-          window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
+LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry assemble texture \
+          target setup velocity span raster window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
 LIB_SRC := $(filter $(LAYERS:%=src/%.c),$(wildcard src/*.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)

@@ -38,41 +38,29 @@ static void fill_cached(struct smear_cached_vertex *v, const struct smear_assemb
         v->outcode |= OUT_FAR;
 }
 
-/* Where the point `h` of the surface is in another pose: the words of MOTION_*.
- *
- * A point that was behind the near plane has no place on the screen. It is moved along its path to where it
- * crosses the plane: the direction stays right, the length ends at the crossing. */
+static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
+{
+    const int64_t far_out = 1 << 27;
+    int64_t d = there - ((int64_t)ratio * now >> 20);
+    return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
+}
+
+/* The words of MOTION_*: the point of the surface that is at `now` on the screen, seen at `h` in another pose. */
 static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
                          const struct smear_homogeneous *h, const struct smear_homogeneous *now,
                          const struct smear_screen *screen, const struct smear_viewport *viewport)
 {
-    const struct smear_projection *p = &d->pose[pose];
-    struct smear_homogeneous at = *h;
-    int shift = clamp_i32(p->scale - d->now.scale, -31, 31);
-    if (!p->orthographic && at.w < p->near_distance) {
-        int32_t w = scale_sat(now->w, shift);
-        if (w <= p->near_distance) {
-            at.x = scale_sat(now->x, shift);
-            at.y = scale_sat(now->y, shift);
-        } else {
-            int32_t t = ratio_q30((int64_t)w - p->near_distance, (int64_t)w - at.w);
-            int32_t x = scale_sat(now->x, shift), y = scale_sat(now->y, shift);
-            at.x = (int32_t)(x + (((int64_t)at.x - x) * t >> 30));
-            at.y = (int32_t)(y + (((int64_t)at.y - y) * t >> 30));
-        }
-        at.w = p->near_distance;
-    }
-    struct smear_screen there;
-    smear_project(&there, p, &at, viewport);
-    const int32_t far_out = 1 << 20;
-    out[MOTION_DX] = (uint32_t)clamp_i32(there.x - screen->x, -far_out, far_out);
-    out[MOTION_DY] = (uint32_t)clamp_i32(there.y - screen->y, -far_out, far_out);
-
-    /* w_there / w_now in q16, both brought to 1 by powers of two first. */
+    /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
+    int scale = d->now.scale - d->pose[pose].scale;
     int zeros = count_leading_zeros((uint32_t)now->w);
-    uint32_t r = recip_norm((uint32_t)now->w << zeros);             /* 2^(61 - zeros) / w */
-    int32_t ratio = scale_sat(mulh_i32(at.w, (int32_t)r), clamp_i32(zeros - 13 - shift, -31, 31));
-    out[MOTION_RATIO] = (uint32_t)clamp_i32(ratio, 1 << 6, 1 << 26);
+    int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
+    int shift = zeros - 29 + scale;
+    int32_t x = scale_sat(mulh_i32(h->x, r), clamp_i32(shift + 8, -31, 31));
+    int32_t y = scale_sat(mulh_i32(h->y, r), clamp_i32(shift + 8, -31, 31));
+    int32_t ratio = scale_sat(mulh_i32(h->w, r), clamp_i32(shift + 20, -31, 31));
+    out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
+    out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
+    out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
 static uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
@@ -194,8 +182,6 @@ static struct smear_segment *open_segment(struct smear_assembler *a, const struc
     const smear_mesh *mesh = d->mesh;
     bool textured = d->material->texture != NULL && mesh->uv != NULL;
     bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
-    bool white = d->shading.base[0] == 65535 && d->shading.base[1] == 65535
-              && d->shading.base[2] == 65535 && d->shading.base[3] == 65535;
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
     s->uv = s->color = s->motion = 0;
@@ -211,7 +197,7 @@ static struct smear_segment *open_segment(struct smear_assembler *a, const struc
         at += s->moves * MOTION_WORDS;
     }
     s->shade = per_vertex ? SHADE_GOURAUD
-             : textured && !d->shading.lit && white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
+             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
     s->flat_depth = d->now.orthographic;
     s->stride = (uint8_t)at;
     return s;

@@ -72,18 +72,22 @@ static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, ui
 
 }
 
-static void row_rgb565(uint8_t *out, const uint32_t *in, int32_t n, bool swapped)
+static void row_rgb565(uint8_t *row, const uint32_t *in, int32_t n, bool swapped)
 {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    swapped = !swapped;
+#endif
+    uint16_t *out = (uint16_t *)(void *)row;        /* rows of 16-bit pixels are aligned */
     uint32_t last = ~*in, packed = 0;
-    int low = swapped ? 1 : 0;
-    for (; n > 0; n--, out += 2) {
-        uint32_t p = *in++;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t p = in[i];
         if (p != last) {            /* flat areas are long: convert only what changes */
             packed = rgb565_nearest(p);
+            if (swapped)
+                packed = packed >> 8 | packed << 8;
             last = p;
         }
-        out[low] = (uint8_t)packed;
-        out[1 - low] = (uint8_t)(packed >> 8);
+        out[i] = (uint16_t)packed;
     }
 }
 

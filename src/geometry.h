@@ -46,8 +46,10 @@ struct smear_segment {
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
 
-/* Of one pose in `motion`: where the point was (or will be) against where it is, and how the two depths compare. */
-enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };  /* q8 pixels, q8 pixels, w_pose / w in q16 */
+/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths compare, r = w'/w,
+ * and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie behind the eye; a pixel's
+ * place in the pose is the quotient of the interpolated words (velocity.c). */
+enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
 
 struct smear_geometry {
     uint32_t *pool;

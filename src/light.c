@@ -61,6 +61,8 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     for (int i = 0; i < 3; i++)
         s->base[i] = m->color[3] == 0 ? 65535u : smear_srgb_decode[m->color[i]];
     s->base[3] = m->color[3] == 0 ? 65535u : (u16lin)(m->color[3] * 257u);
+    s->white = s->base[0] == 65535u && s->base[1] == 65535u && s->base[2] == 65535u
+            && s->base[3] == 65535u;
     s->even = true;
     if (!s->lit)
         return;
@@ -159,6 +161,14 @@ static uint32_t times_lin(uint32_t a, uint32_t b)
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine)
 {
+    if (!s->lit && !s->linear && s->white && (color == NULL || face_color == NULL)) {
+        /* Codes in, codes out. */
+        const uint8_t *c = color != NULL ? color : face_color;
+        for (int i = 0; i < 3; i++)
+            out->channel[i] = c != NULL ? (uint16_t)(c[i] * 256u) : (uint16_t)0xff00u;
+        out->channel[3] = c != NULL ? (uint16_t)(c[3] * 257u) : 65535u;
+        return;
+    }
     /* 0.30 and 0.70 in q16 */
     uint32_t light = s->lit ? 19661u + (45875u * cosine >> 16) : 65536u;
     for (int i = 0; i < 3; i++) {

@@ -14,6 +14,7 @@ struct smear_shading {
     bool even;                      /* rotation and uniform scale only: normals keep their length */
     bool lit;
     bool linear;                    /* working values: linear light, else sRGB codes */
+    bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
 };
 

@@ -144,6 +144,8 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     c->assembler.geometry = &c->geometry;
     c->raster.geometry = &c->geometry;
     c->raster.draw = c->raster_draw;
+    c->raster.width = d.width;
+    c->raster.height = d.height;
     c->jobs.workers = d.workers;
     c->jobs.idle = d.idle;
     c->jobs.user = d.user;

@@ -36,6 +36,8 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
         s->log2_width = (uint8_t)log2_width;
         s->mask_u = texture->width - 1u;
         s->mask_v = (texture->height - 1u) << log2_width;
+        s->up_u = (int8_t)(log2_width + 4 - uv_shift);
+        s->up_v = (int8_t)(log2_height + 4 - uv_shift);
     }
     s->scale_u = scale_for(texture->width, uv_shift, &s->shift_u);
     s->scale_v = scale_for(texture->height, uv_shift, &s->shift_v);

@@ -19,6 +19,7 @@ struct smear_sampler {
     uint32_t mask_u, mask_v;    /* when masked; mask_v is shifted up by log2_width */
     int32_t scale_u, scale_v;   /* ratio (q29, of 2^15 mesh units) to texels (i32q16): mulh, then shift */
     int8_t shift_u, shift_v;
+    int8_t up_u, up_v;          /* when masked: texels = ratio q27 x 2^up */
 };
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,

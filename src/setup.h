@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* setup.h - a triangle made ready for its rows: planes of depth, colour, texture and velocity.
+ *
+ * Attributes are planes over the screen, a + x dx + y dy in 32-bit wrapping arithmetic: exact modulo 2^32 wherever
+ * one starts, so the picture does not depend on how the frame is cut into columns and bands. */
+#ifndef SMEAR_SETUP_H
+#define SMEAR_SETUP_H
+
+#include "target.h"
+
+#include "fixmath.h"
+
+struct plane {
+    int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
+    int32_t dx, dy;
+};
+
+static inline int32_t plane_at(const struct plane *p, int32_t x, int32_t y)
+{
+    return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
+}
+
+enum depth_slope {          /* smear.h, smear_depth_units */
+    SLOPE_FAR,              /* code = units */
+    SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
+    SLOPE_BOTH
+};
+
+#define SLOPE_BREAK (32768 << 11)       /* q11 units */
+
+struct setup {
+    const struct smear_raster_frame *frame;
+    const struct smear_raster_target *target;
+    const struct smear_segment *segment;
+    const struct smear_raster_draw *draw;
+    const int32_t *v[3];            /* records, in the triangle's order */
+
+    /* Edge vectors from v[0], q8, and 1 / (twice the area). */
+    int32_t x1, y1, x2, y2;
+    uint32_t area_recip;            /* normalised area; after smear_setup_recip 2^61 / that */
+    int area_zeros;                 /* area << zeros is normalised to 64 bits */
+    bool area_negative;
+    bool sliver;                    /* some gradient is out of range: attributes are constant */
+
+    enum depth_slope slope;
+    struct plane depth;             /* units q11 */
+
+    uint32_t color;                 /* 0xAARRGGBB: flat */
+    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or linear >> 8) in q16, see channel_value */
+    bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
+
+    bool perspective;               /* texture: planes are u/w, v/w; else texels */
+    uint8_t block_shift;            /* log2 of pixels between divisions */
+    struct plane u, v_;
+
+    uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
+    bool writes_velocity;
+    bool velocity_affine;
+    bool clamp_velocity;
+    struct plane vx, vy;            /* affine: displacement q18 px */
+    struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
+};
+
+/* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
+static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
+{
+    return slope == SLOPE_FAR ? ((uint32_t)units << 5) + 0x8000u
+                              : ((uint32_t)units << 1) + (0x80000000u - 0x08000000u + 0x8000u);
+}
+
+static inline int32_t step_from_units(int32_t units, enum depth_slope slope)
+{
+    return shl_wrap(units, slope == SLOPE_FAR ? 5 : 1);
+}
+
+/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. Codes are rounded by 1/2; linear light
+ * is looked up by its floor. Both keep a margin from 0 and 256 that rounding errors of a plane do not cross. */
+static inline int32_t channel_value(const struct setup *s, int vertex, int c)
+{
+    uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
+    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
+    return s->frame->linear && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+}
+
+static inline int32_t setup_mesh_u(const struct setup *s, int i)
+{
+    return (int16_t)(s->v[i][s->segment->uv] & 0xffff);
+}
+
+static inline int32_t setup_mesh_v(const struct setup *s, int i)
+{
+    return s->v[i][s->segment->uv] >> 16;
+}
+
+static inline uint32_t magnitude_i32(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+/* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
+uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
+
+/* The parts of a setup, in the order in which they are needed. */
+void smear_setup_edges(struct setup *s);
+void smear_setup_recip(struct setup *s);
+void smear_plane_make(struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
+void smear_setup_depth(struct setup *s);
+void smear_setup_color(struct setup *s);
+void smear_setup_texture(struct setup *s);
+
+/* velocity.c */
+void smear_setup_velocity(struct setup *s);
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* span.h - the pixels of one triangle in one row. */
+#ifndef SMEAR_SPAN_H
+#define SMEAR_SPAN_H
+
+#include "setup.h"
+
+/* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
+struct span {
+    int32_t a, b, left, right, y;
+    uint32_t *color;            /* of pixel a */
+    uint16_t *depth;
+    int32_t at;                 /* index of pixel a in the window's planes */
+    uint32_t z;                 /* code 16.16 of pixel a */
+    int32_t dz;
+    uint32_t *mask;             /* cutout: a bit per pixel from a on, set where it was drawn; else null */
+};
+
+/* Writes colour and depth where the span passes the depth test (and cutout, blend). */
+typedef void smear_span_fn(const struct setup *s, const struct span *p);
+
+/* The loop for a triangle: the plainest that does it. */
+smear_span_fn *smear_span_choose(const struct setup *s);
+
+/* Writes velocities where the span will pass the depth test; comes before the colours, which write depth. With a mask it
+ * comes after them and goes by the mask. */
+void smear_span_velocity(const struct setup *s, const struct span *p);
+
+/* One pixel without motion. */
+void smear_velocity_zero(const struct smear_raster_target *t, int32_t at);
+
+#endif
