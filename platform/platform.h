@@ -15,6 +15,9 @@ void platform_print(const char *text);
  * is on a small machine. Null on a host without memory. */
 void *platform_arena(size_t *bytes);
 
+/* The most stack used so far, in bytes; 0 where it is not known, UINT32_MAX when it overflowed. */
+uint32_t platform_stack_used(void);
+
 /* A clock that runs from platform_clock_start on. Ticks wrap; a difference of two readings becomes
  * a number of platform_clock_unit: instructions where the emulator counts them, else microseconds.
  *  */

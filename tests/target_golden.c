@@ -78,6 +78,16 @@ int main(void)
     print_decimal(tally.wrong);
     platform_print(" wrong, ");
     print_decimal(tally.skipped);
-    platform_print(" tapes skipped\n");
-    return tally.wrong != 0 || tally.right == 0;
+    platform_print(" tapes skipped");
+    uint32_t stack = platform_stack_used();
+    bool is_overflow = stack == UINT32_MAX;
+    if (is_overflow) {
+        platform_print("; STACK OVERFLOW");
+    } else if (stack > 0) {
+        platform_print("; stack ");
+        print_decimal(stack);
+        platform_print(" bytes");
+    }
+    platform_print("\n");
+    return tally.wrong != 0 || tally.right == 0 || is_overflow;
 }

@@ -74,7 +74,7 @@ static const struct spec golden[] = {
       { .samples = 4 } },
     { "tiny", "peer/E", 5, 2, 1,
       { .width = 64, .height = 48, .format = SMEAR_L1_PAGES, .sharp = 1, .band_rows = 8,
-        .max_triangles = 96 },
+        .vertex_cache = 16, .max_triangles = 64 },
       { .method = SMEAR_NONE } },
     { "cut", "peer/E", 4, 1, 1,
       { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 600 },

@@ -7,6 +7,7 @@
  * boards have no such timer: programs that read the clock are for mps2 only. */
 #include "../platform.h"
 #include "semihost.h"
+#include "stack.h"
 
 struct cmsdk_timer {
     uint32_t control, value, reload;
@@ -27,6 +28,16 @@ void *platform_arena(size_t *bytes)
 {
     *bytes = (size_t)((uintptr_t)link_arena_end - (uintptr_t)link_arena_start);
     return link_arena_start;
+}
+
+uint32_t platform_stack_used(void)
+{
+    const uint32_t *lowest = link_stack_limit;
+    while (lowest < link_stack_top && *lowest == STACK_PAINT)
+        lowest++;
+    if (lowest == link_stack_limit)
+        return UINT32_MAX;
+    return (uint32_t)((uintptr_t)link_stack_top - (uintptr_t)lowest);
 }
 
 void platform_clock_start(void)

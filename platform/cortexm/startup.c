@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* startup.c - from reset to main on any Cortex-M, without a C library. */
 #include "semihost.h"
+#include "stack.h"
 
 #include <stdint.h>
 
 /* From sections.ld. */
 extern uint32_t link_data_load[], link_data_start[], link_data_end[];
-extern uint32_t link_bss_start[], link_bss_end[], link_stack_top[];
+extern uint32_t link_bss_start[], link_bss_end[];
 
 enum { FAULT_STATUS = 99, MAX_ARGUMENTS = 8, COMMAND_LINE_BYTES = 128 };
 
@@ -32,6 +33,15 @@ static int split_arguments(char *line, char **argument)
     return count;
 }
 
+/* All of it that is not in use here. */
+static void paint_stack(void)
+{
+    uint32_t *pointer;
+    __asm volatile("mov %0, sp" : "=r"(pointer));
+    for (uint32_t *to = link_stack_limit; to < pointer; to++)
+        *to = STACK_PAINT;
+}
+
 void reset_handler(void)
 {
     static char line[COMMAND_LINE_BYTES];
@@ -41,6 +51,7 @@ void reset_handler(void)
         *to = *from++;
     for (uint32_t *to = link_bss_start; to < link_bss_end; to++)
         *to = 0;
+    paint_stack();
     int count = semihost_command_line(line, sizeof line) ? split_arguments(line, argument) : 0;
     semihost_exit(main(count, argument));
 }

@@ -24,6 +24,11 @@ void *platform_arena(size_t *bytes)
     return arena;
 }
 
+uint32_t platform_stack_used(void)
+{
+    return 0;
+}
+
 void platform_clock_start(void)
 {
 }
