@@ -236,10 +236,70 @@ static void test_rasterizer_is_the_reference_on_models(void)
     }
 }
 
+/* ------------------------------------------------------------------ accumulation */
+
+/* Motion that is linear in clip space, so that the poses of a frame say all about it: movers and
+ * cameras that neither turn nor bend, nor change their light. `teleport` is cut between its poses
+ * when they are a frame apart. */
+static bool is_linear(const char *name, bool shutter_poses)
+{
+    static const char *const linear[] = {
+        "suite/translate", "suite/cross", "suite/fence_obj", "suite/enter", "suite/near",
+        "suite/long", "suite/dolly", "suite/still",
+    };
+    for (size_t i = 0; i < sizeof linear / sizeof *linear; i++)
+        if (strcmp(name, linear[i]) == 0)
+            return true;
+    return shutter_poses && strcmp(name, "suite/teleport") == 0;
+}
+
+static const double accumulate_bar = 1.0;       /* codes */
+enum { TRUTH_INSTANTS = 256 };
+
+static double accumulate_error(struct subject *s, bool shutter_poses, smear_light light)
+{
+    struct shot shot;
+    struct present_options present = subject_options(s);
+    present.method = SMEAR_ACCUMULATE;
+    present.samples = 64;
+    present.shutter_poses = shutter_poses;
+    present.light = light;
+    const struct ref_truth *truth = truth_of(s, &present, TRUTH_INSTANTS);
+    if (truth == NULL || !shot_take(s, &present, &(struct shot_options){0}, &shot))
+        return INFINITY;
+    double error = rmse_to_truth(shot.rgb, truth);
+    shot_free(&shot);
+    return error;
+}
+
+static void test_accumulation_of_linear_motion_is_the_truth(void)
+{
+    say("    %-18s %8s %8s %8s %8s\n", "accumulate, 64", "previous", "shutter", "linear:p", "linear:s");
+    for (int i = 0; i < SUITE_KINDS; i++) {
+        struct subject s;
+        double error[4] = {0};
+        if (!subject_open(&s, suite_kind[i]))
+            continue;
+        /* Linear light has another truth, which takes its time: a few kinds say it. */
+        int cases = is_linear(s.name, false) && (i % 3 == 0 || is_thorough()) ? 4 : 2;
+        say("    %-18s", s.name);
+        for (int k = 0; k < cases; k++) {
+            error[k] = accumulate_error(&s, k & 1, k < 2 ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR);
+            say(" %8.2f", error[k]);
+        }
+        say("%s\n", is_linear(s.name, true) ? "" : "   (curved or lit anew)");
+        for (int k = 0; k < cases; k++)
+            if (is_linear(s.name, k & 1))
+                CHECK_BAR(error[k], accumulate_bar, s.name);
+        subject_close(&s);
+    }
+}
+
 void suite_accuracy(void)
 {
     RUN(test_rasterizer_is_the_reference_on_trials);
     RUN(test_rasterizer_is_the_reference_at_odd_sizes);
     RUN(test_rasterizer_is_the_reference_on_models);
+    RUN(test_accumulation_of_linear_motion_is_the_truth);
     truth_forget();
 }
