@@ -105,7 +105,6 @@ static void shade_vertex(struct smear_color *color, const struct smear_assembly 
 struct corner {
     uint32_t index;
     struct smear_cached_vertex *cached;
-    bool shared;                /* the cached record may be used and kept */
 };
 
 /* What a triangle has in common. */
@@ -324,14 +323,15 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
     for (int i = 2; i < count; i++) {
         const int fan[3] = { 0, i - 1, i };
         const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
-        int row = first_row(a, place);
+        /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
+        int64_t part = area_of(place[0], place[1], place[2]);
+        int row = part == 0 || (part > 0) != (area > 0) ? -1 : first_row(a, place);
         if (row < 0)
             continue;
         struct smear_segment *s = make_room(a, d, *segment, 3);
         if (s == NULL)
             return false;
         *segment = s;
-        struct smear_triangle *t = NULL;
         uint16_t offset[3];
         for (int k = 0; k < 3; k++) {
             const struct smear_clip_vertex *v = &polygon[fan[k]];
@@ -350,33 +350,29 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
                 store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
                              &v->now, place[k], &a->viewport);
         }
-        t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
-        for (int k = 0; k < 3; k++)
-            t->vertex[k] = offset[k];
+        struct smear_triangle *t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
+        t->vertex[0] = offset[0];
+        t->vertex[1] = offset[area > 0 ? 1 : 2];
+        t->vertex[2] = offset[area > 0 ? 2 : 1];
     }
     return true;
 }
 
-/* A triangle that lies within the guard band. */
+/* A triangle that lies within the guard band; `clockwise` on the screen. */
 static bool add_whole(struct smear_assembler *a, const struct smear_assembly *d,
                       struct smear_segment **segment, bool shares, uint32_t triangle,
-                      struct corner corner[3])
+                      const struct corner corner[3], bool clockwise)
 {
-    const struct smear_screen *place[3];
-    for (int i = 0; i < 3; i++)
-        place[i] = &corner[i].cached->screen;
-    int64_t area = area_of(place[0], place[1], place[2]);
-    bool back = (area > 0) != d->mirrored;
-    if (area == 0 || (back && !d->material->double_sided))
-        return true;
+    const struct smear_screen *place[3] = { &corner[0].cached->screen, &corner[1].cached->screen,
+                                            &corner[2].cached->screen };
     int row = first_row(a, place);
     if (row < 0)
         return true;
-
     struct smear_segment *s = make_room(a, d, *segment, 3);
     if (s == NULL)
         return false;
     *segment = s;
+    bool back = clockwise != d->mirrored;
     struct face face = face_of(d, triangle, corner, back);
     struct smear_triangle *t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
     struct smear_geometry *g = a->geometry;
@@ -384,18 +380,43 @@ static bool add_whole(struct smear_assembler *a, const struct smear_assembly *d,
     shares = shares && (!back || s->color == 0);
     for (int i = 0; i < 3; i++) {
         struct smear_cached_vertex *v = corner[i].cached;
-        if (!shares || !corner[i].shared || v->stored <= s->base) {
-            uint32_t word = g->vertex_words;
+        uint32_t word = v->stored - 1;
+        if (!shares || v->stored <= s->base) {
+            word = g->vertex_words;
             g->vertex_words += s->stride;
             store_vertex(g->pool + word, a, d, s, &corner[i], &face);
-            t->vertex[i] = (uint16_t)(word - s->base);
-            if (shares && corner[i].shared)
+            if (shares)
                 v->stored = word + 1;
-        } else {
-            t->vertex[i] = (uint16_t)(v->stored - 1 - s->base);
         }
+        t->vertex[clockwise || i == 0 ? i : 3 - i] = (uint16_t)(word - s->base);
     }
     return true;
+}
+
+static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
+                                                      const struct smear_assembly *d, uint32_t tag,
+                                                      struct smear_cached_vertex *v,
+                                                      const struct smear_cached_vertex *in_use1,
+                                                      const struct smear_cached_vertex *in_use2,
+                                                      struct smear_cached_vertex *spare)
+{
+    /* A slot that this triangle already uses for another vertex must not be overwritten. */
+    if (v == in_use1 || v == in_use2)
+        v = spare;
+    v->tag = tag;
+    fill_cached(v, a, d, tag & 0xffffu);
+    return v;
+}
+
+/* The transformed vertex: remembered, or made now. */
+static inline struct smear_cached_vertex *look_up(const struct smear_assembler *a,
+                                                  const struct smear_assembly *d, uint32_t tag,
+                                                  const struct smear_cached_vertex *in_use1,
+                                                  const struct smear_cached_vertex *in_use2,
+                                                  struct smear_cached_vertex *spare)
+{
+    struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
+    return v->tag == tag ? v : miss(a, d, tag, v, in_use1, in_use2, spare);
 }
 
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
@@ -413,41 +434,32 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     struct smear_cached_vertex spare[3];
 
     for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
-        struct corner corner[3];
-        int all = OUT_REJECT, any = 0;
-        if (index[0] >= mesh->vertex_count || index[1] >= mesh->vertex_count
-            || index[2] >= mesh->vertex_count) {
+        uint32_t i0 = index[0], i1 = index[1], i2 = index[2];
+        if (max_u32(i0, max_u32(i1, i2)) >= mesh->vertex_count) {
             a->triangles_dropped++;
             continue;
         }
-        for (int k = 0; k < 3; k++) {
-            struct corner *c = &corner[k];
-            c->index = index[k];
-            c->shared = true;
-            c->cached = &a->cache[c->index & a->cache_mask];
-            if (c->cached->tag != (tag | c->index)) {
-                /* A slot that this triangle already uses for another vertex must not be overwritten. */
-                for (int other = 0; other < k; other++)
-                    if (corner[other].cached == c->cached)
-                        c->shared = false;
-                if (!c->shared)
-                    c->cached = &spare[k];
-                c->cached->tag = tag | c->index;
-                fill_cached(c->cached, a, d, c->index);
-            }
-            all &= c->cached->outcode;
-            any |= c->cached->outcode;
-        }
-        if (all != 0)
+        struct smear_cached_vertex *v0 = look_up(a, d, tag | i0, NULL, NULL, &spare[0]);
+        struct smear_cached_vertex *v1 = look_up(a, d, tag | i1, v0, NULL, &spare[1]);
+        struct smear_cached_vertex *v2 = look_up(a, d, tag | i2, v0, v1, &spare[2]);
+        if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
             continue;
-        bool added = any & OUT_CLIP ? add_clipped(a, d, &segment, i, corner)
-                                    : add_whole(a, d, &segment, shares, i, corner);
+        struct corner corner[3] = { { i0, v0 }, { i1, v1 }, { i2, v2 } };
+        bool added;
+        if (((v0->outcode | v1->outcode | v2->outcode) & OUT_CLIP) != 0) {
+            added = add_clipped(a, d, &segment, i, corner);
+        } else {
+            int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
+            bool back = (area > 0) != d->mirrored;
+            if (area == 0 || (back && !d->material->double_sided))
+                continue;
+            added = add_whole(a, d, &segment, shares, i, corner, area > 0);
+        }
         if (!added) {
             if (!drop)
                 return false;
             a->triangles_dropped++;
         }
     }
-    a->triangles_in += mesh->triangle_count;
     return true;
 }

@@ -23,7 +23,7 @@ struct smear_assembler {
     uint32_t cache_mask;
     uint32_t serial;                /* of the draw within the context's life; tags of older draws never match */
     bool keep_motion;               /* the method reads velocities */
-    uint32_t triangles_in, triangles_drawn, triangles_dropped;
+    uint32_t triangles_drawn, triangles_dropped;
 };
 
 /* One draw with everything that does not change from triangle to triangle. */

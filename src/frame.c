@@ -691,7 +691,7 @@ static void prepare(struct smear_context *c)
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
-    c->assembler.triangles_in = c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
+    c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,

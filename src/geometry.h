@@ -19,7 +19,7 @@
 #define SMEAR_NO_TRIANGLE UINT32_MAX
 
 struct smear_triangle {
-    uint16_t vertex[3];     /* words from the segment's base */
+    uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen */
     uint16_t segment;
     uint32_t next;          /* in its row's ring, later in the row's list */
     uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */

@@ -169,76 +169,144 @@ static inline void edge_step(struct edge_walk *e)
     }
 }
 
-static void cover_large(const struct setup *s, smear_span_fn *write)
+/* A triangle's two sides on their way down. */
+struct sides {
+    const int32_t *top, *middle, *bottom;
+    int32_t y, knee, end;               /* rows still to come; the middle vertex; past the last */
+    struct edge_walk whole, part;
+    bool whole_is_left;
+};
+
+/* False when no row lies in the target. */
+static bool sides_start(struct sides *d, const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
     const int32_t *top = s->v[0], *middle = s->v[1], *bottom = s->v[2], *swap;
     if (middle[VERTEX_Y] < top[VERTEX_Y]) { swap = top; top = middle; middle = swap; }
     if (bottom[VERTEX_Y] < middle[VERTEX_Y]) { swap = middle; middle = bottom; bottom = swap; }
     if (middle[VERTEX_Y] < top[VERTEX_Y]) { swap = top; top = middle; middle = swap; }
+    d->top = top;
+    d->middle = middle;
+    d->bottom = bottom;
+    d->y = max_i32((top[VERTEX_Y] + 127) >> 8, t->y0);
+    d->end = min_i32((bottom[VERTEX_Y] + 127) >> 8, t->y1);
+    d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
+    if (d->y >= d->end)
+        return false;
+    edge_start(&d->whole, top, bottom, d->y);
+    /* Clockwise from the top: the next vertex lies right of the long edge, so this is the left one. */
+    d->whole_is_left = (top == s->v[0] && middle == s->v[1]) || (top == s->v[1] && middle == s->v[2])
+                    || (top == s->v[2] && middle == s->v[0]);
+    return true;
+}
 
-    int32_t y = max_i32((top[VERTEX_Y] + 127) >> 8, t->y0);
-    int32_t end = min_i32((bottom[VERTEX_Y] + 127) >> 8, t->y1);
-    int32_t knee = (middle[VERTEX_Y] + 127) >> 8;
-    if (y >= end)
-        return;
+/* The short side of the rows that come now; returns the row in which it ends. */
+static int32_t sides_part(struct sides *d, int32_t y)
+{
+    bool upper = y < d->knee;
+    edge_start(&d->part, upper ? d->top : d->middle, upper ? d->middle : d->bottom, y);
+    return upper ? d->knee : d->end;
+}
+
+static void cover_large(const struct setup *s, smear_span_fn *write)
+{
+    struct sides d;
     struct row r;
-    row_start(&r, s, y);
-    struct edge_walk whole, part;
-    edge_start(&whole, top, bottom, y);
-    /* Where the middle vertex lies, seen from the long edge, decides which side is left. */
-    int64_t side = (int64_t)(middle[VERTEX_X] - top[VERTEX_X]) * (bottom[VERTEX_Y] - top[VERTEX_Y])
-                 - (int64_t)(bottom[VERTEX_X] - top[VERTEX_X]) * (middle[VERTEX_Y] - top[VERTEX_Y]);
-    const struct edge_walk *left = side > 0 ? &whole : &part, *right = side > 0 ? &part : &whole;
-    for (int half = 0; half < 2; half++) {
-        int32_t stop = half == 0 ? min_i32(knee, end) : end;
-        if (r.y >= stop)
-            continue;
-        edge_start(&part, half == 0 ? top : middle, half == 0 ? middle : bottom, r.y);
+    if (!sides_start(&d, s))
+        return;
+    row_start(&r, s, d.y);
+    const struct edge_walk *left = d.whole_is_left ? &d.whole : &d.part;
+    const struct edge_walk *right = d.whole_is_left ? &d.part : &d.whole;
+    while (r.y < d.end) {
+        int32_t stop = sides_part(&d, r.y);
         do {
             draw_span(s, &r, edge_pixel(left), edge_pixel(right), write);
-            edge_step(&whole);
-            edge_step(&part);
+            edge_step(&d.whole);
+            edge_step(&d.part);
             row_next(&r, s);
         } while (r.y < stop);
     }
 }
 
+/* One colour, no motion, one slope of depth: the plainest rows, without a call for each. */
+static void cover_flat(const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    struct sides d;
+    struct row r;
+    if (!sides_start(&d, s))
+        return;
+    row_start(&r, s, d.y);
+    const uint32_t color = s->color & 0xffffffu, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    const int32_t x0 = t->x0, x1 = t->x1;
+    int32_t y = d.y;
+    while (y < d.end) {
+        int32_t stop = sides_part(&d, y);
+        struct edge_walk left = d.whole_is_left ? d.whole : d.part;
+        struct edge_walk right = d.whole_is_left ? d.part : d.whole;
+        for (; y < stop; y++) {
+            int32_t a = max_i32(edge_pixel(&left), x0), b = min_i32(edge_pixel(&right), x1);
+            if (a < b) {
+                uint32_t z = code_from_units(add_wrap(r.units, mul_wrap(s->depth.dx, a)), s->slope);
+                uint32_t *pixel = t->color + (r.color + a);
+                uint16_t *depth = t->depth + (r.window + a);
+                int32_t n = b - a, i = 0;
+                do {
+                    uint32_t code = z >> 16;
+                    if (code > depth[i]) {
+                        depth[i] = (uint16_t)code;
+                        pixel[i] = color;
+                    }
+                    z += dz;
+                } while (++i < n);
+            }
+            edge_step(&left);
+            edge_step(&right);
+            row_next(&r, s);
+        }
+        d.whole = d.whole_is_left ? left : right;
+    }
+}
+
 /* ------------------------------------------------------------------ small triangles */
 
-/* Edge functions at the centre of a pixel, q16, and their steps; inside is >= 0. Exact in 32 bits: boxes are at most
- * SMALL_PX wide and high, no edge is longer than 9 px. */
+/* Edge functions at the centre of a pixel, q16, and their steps; inside is >= 0. value[i] belongs to the edge opposite
+ * to v[i]. Exact in 32 bits: boxes are at most SMALL_PX wide and high, no edge is longer than 9 px. */
 enum { SMALL_PX = 8 };
 
 struct edges {
     int32_t value[3], step_x[3], step_y[3];
 };
 
-static inline void edges_start(struct edges *e, const struct setup *s, int32_t x, int32_t y)
+/* A centre on an edge counts for left edges (going up) and top edges (going right). */
+static inline int32_t edge_bias(int32_t dx, int32_t dy)
 {
-    int32_t cx = x * 256 + 128, cy = y * 256 + 128;
-    /* The interior must lie on one side: walked clockwise on the screen (y down). */
-    const int32_t *v[4] = { s->v[0], s->v[1], s->v[2], s->v[0] };
-    if (s->area_negative) {
-        v[1] = s->v[2];
-        v[2] = s->v[1];
-    }
-    for (int i = 0; i < 3; i++) {
-        int32_t dx = v[i + 1][VERTEX_X] - v[i][VERTEX_X], dy = v[i + 1][VERTEX_Y] - v[i][VERTEX_Y];
-        e->value[i] = dx * (cy - v[i][VERTEX_Y]) - dy * (cx - v[i][VERTEX_X]);
-        /* A centre on an edge counts for left edges (going up) and top edges (going right). */
-        e->value[i] -= !(dy < 0 || (dy == 0 && dx > 0));
-        e->step_x[i] = -dy * 256;
-        e->step_y[i] = dx * 256;
-    }
+    return !(dy < 0 || (dy == 0 && dx > 0));
 }
 
-static void cover_small(const struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom,
-                        smear_span_fn *write)
+static inline void edges_start(struct edges *e, const struct setup *s, int32_t area, int32_t x, int32_t y)
+{
+    int32_t cx = x * 256 + 128 - s->v[0][VERTEX_X], cy = y * 256 + 128 - s->v[0][VERTEX_Y];
+    int32_t x1 = s->x1, y1 = s->y1, x2 = s->x2, y2 = s->y2;
+    e->value[2] = x1 * cy - y1 * cx;
+    e->value[1] = y2 * cx - x2 * cy;
+    e->value[0] = area - e->value[1] - e->value[2] - edge_bias(x2 - x1, y2 - y1);
+    e->value[1] -= edge_bias(-x2, -y2);
+    e->value[2] -= edge_bias(x1, y1);
+    e->step_x[2] = -y1 * 256;
+    e->step_y[2] = x1 * 256;
+    e->step_x[1] = y2 * 256;
+    e->step_y[1] = -x2 * 256;
+    e->step_x[0] = -e->step_x[1] - e->step_x[2];
+    e->step_y[0] = -e->step_y[1] - e->step_y[2];
+}
+
+static void cover_small(const struct setup *s, int32_t area, int32_t left, int32_t right, int32_t top,
+                        int32_t bottom, smear_span_fn *write)
 {
     struct edges e;
     struct row r;
-    edges_start(&e, s, left, top);
+    edges_start(&e, s, area, left, top);
     row_start(&r, s, top);
     for (;;) {
         int32_t e0 = e.value[0], e1 = e.value[1], e2 = e.value[2], x = left;
@@ -271,68 +339,81 @@ static void cover_small(const struct setup *s, int32_t left, int32_t right, int3
  * their gradients. Untextured, opaque, no motion. */
 enum { TINY_PIXELS = 12 };
 
-static bool is_tiny(const struct setup *s, int32_t width, int32_t height)
+static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
 {
-    return width * height <= TINY_PIXELS && s->segment->uv == 0 && s->segment->moves == 0
-        && s->draw->alpha == SMEAR_OPAQUE && width <= SMALL_PX && height <= SMALL_PX;
+    return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
+        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE;
+}
+
+/* What the covered pixels of a tiny triangle need; made when the first is met. */
+struct tiny {
+    int32_t depth, depth1, depth2;          /* at v[0], and how v[1] and v[2] differ */
+    int32_t color[3], color1[3], color2[3]; /* r g b: q16; differences q8 */
+    bool gouraud;
+};
+
+static void tiny_start(struct tiny *t, struct setup *s, int32_t area)
+{
+    smear_setup_area(s, (uint64_t)area);
+    t->depth = s->v[0][VERTEX_DEPTH];
+    t->depth1 = s->v[1][VERTEX_DEPTH] - t->depth;
+    t->depth2 = s->v[2][VERTEX_DEPTH] - t->depth;
+    t->gouraud = s->segment->shade == SHADE_GOURAUD;
+    for (int c = 0; c < 3 && t->gouraud; c++) {
+        t->color[c] = channel_value(s, 0, c);
+        t->color1[c] = (channel_value(s, 1, c) - t->color[c]) >> 8;
+        t->color2[c] = (channel_value(s, 2, c) - t->color[c]) >> 8;
+    }
 }
 
 /* Colour at weights of v[1] and v[2] in q14. */
-static inline uint32_t tiny_color(const struct setup *s, int32_t w1, int32_t w2)
+static inline uint32_t tiny_color(const struct tiny *t, int32_t w1, int32_t w2, bool linear)
 {
-    if (s->segment->shade != SHADE_GOURAUD)
-        return s->color & 0xffffffu;
     uint32_t out = 0;
-    for (int c = 0; c < 3; c++) {
-        int32_t a0 = channel_value(s, 0, c);
-        int32_t d1 = (channel_value(s, 1, c) - a0) >> 8, d2 = (channel_value(s, 2, c) - a0) >> 8;
-        int32_t value = a0 + ((d1 * w1 + d2 * w2) >> 6);            /* 17 bits x q14: 31 bits */
-        uint32_t code = s->frame->linear ? smear_srgb_encode[value >> 12 & 4095]
-                                         : (uint32_t)value >> 16 & 255u;
-        out = out << 8 | code;
+    for (int c = 0; c < 3; c++) {       /* 17 bits x q14: 31 bits */
+        int32_t value = t->color[c] + ((t->color1[c] * w1 + t->color2[c] * w2) >> 6);
+        out = out << 8 | (linear ? smear_srgb_encode[value >> 12 & 4095] : (uint32_t)value >> 16 & 255u);
     }
     return out;
 }
 
-static void draw_tiny(struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom)
+static void draw_tiny(struct setup *s, int32_t area, int32_t left, int32_t right, int32_t top,
+                      int32_t bottom)
 {
     const struct smear_raster_target *t = s->target;
     int32_t x0 = max_i32(left, t->x0), x1 = min_i32(right, t->x1);
     struct edges e;
-    edges_start(&e, s, x0, top);
-    int32_t q0 = s->v[0][VERTEX_DEPTH];
-    int32_t d1 = s->v[1][VERTEX_DEPTH] - q0, d2 = s->v[2][VERTEX_DEPTH] - q0;
-    /* Weights of v[1] and v[2]: the functions of the edges opposite to them. */
-    int edge1 = s->area_negative ? 0 : 2, edge2 = s->area_negative ? 2 : 0;
-    int up = s->area_zeros - 32;            /* the area has at most 23 bits */
+    struct tiny tiny;
+    edges_start(&e, s, area, x0, top);
     bool ready = false;
     for (int32_t y = top; y < bottom; y++) {
         int32_t e0 = e.value[0], e1 = e.value[1], e2 = e.value[2];
-        for (int32_t x = x0; x < x1; x++) {
-            if ((e0 | e1 | e2) >= 0) {
-                if (!ready) {
-                    smear_setup_recip(s);
-                    ready = true;
-                }
-                /* e 2^up 2^61 / (area 2^up) / 2^32: e / area in q29. */
-                uint32_t w1 = mulh_u32((uint32_t)(edge1 == 0 ? e0 : e2) << up, s->area_recip);
-                uint32_t w2 = mulh_u32((uint32_t)(edge2 == 0 ? e0 : e2) << up, s->area_recip);
-                int32_t units = q0 + (mulh_i32(d1, (int32_t)w1) + mulh_i32(d2, (int32_t)w2)) * 8;
-                uint32_t code = code_from_units(units, units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR) >> 16;
-                int32_t slot = t->window_rows.slot0 + (y - t->y0);
-                if (slot >= t->window_rows.ring)
-                    slot -= t->window_rows.ring;
-                int32_t at = slot * t->window_rows.stride - t->window_rows.x0 + x;
-                if (code > t->depth[at]) {
-                    t->depth[at] = (uint16_t)code;
-                    t->color[at] = tiny_color(s, (int32_t)(w1 >> 15), (int32_t)(w2 >> 15));
-                    if (s->writes_velocity)
-                        smear_velocity_zero(t, at);
-                }
+        for (int32_t x = x0; x < x1; x++, e0 += e.step_x[0], e1 += e.step_x[1], e2 += e.step_x[2]) {
+            if ((e0 | e1 | e2) < 0)
+                continue;
+            if (!ready) {
+                tiny_start(&tiny, s, area);
+                ready = true;
             }
-            e0 += e.step_x[0];
-            e1 += e.step_x[1];
-            e2 += e.step_x[2];
+            /* e 2^up 2^61 / (area 2^up) / 2^32: e / area in q29. */
+            int up = s->area_zeros - 32;
+            uint32_t w1 = mulh_u32((uint32_t)e1 << up, s->area_recip);
+            uint32_t w2 = mulh_u32((uint32_t)e2 << up, s->area_recip);
+            int32_t units = tiny.depth + (mulh_i32(tiny.depth1, (int32_t)w1)
+                                          + mulh_i32(tiny.depth2, (int32_t)w2)) * 8;
+            uint32_t code = code_from_units(units, units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR) >> 16;
+            int32_t slot = t->window_rows.slot0 + (y - t->y0);
+            if (slot >= t->window_rows.ring)
+                slot -= t->window_rows.ring;
+            int32_t at = slot * t->window_rows.stride + x;
+            if (code <= t->depth[at])
+                continue;
+            t->depth[at] = (uint16_t)code;
+            t->color[at] = tiny.gouraud ? tiny_color(&tiny, (int32_t)(w1 >> 15), (int32_t)(w2 >> 15),
+                                                     s->frame->linear)
+                                        : s->color & 0xffffffu;
+            if (s->writes_velocity)
+                smear_velocity_zero(t, at);
         }
         for (int i = 0; i < 3; i++)
             e.value[i] += e.step_y[i];
@@ -370,18 +451,24 @@ static void draw_triangle(const struct smear_raster_frame *frame,
     if (top >= bottom)
         return;
 
-    smear_setup_edges(&s);
+    uint64_t area = setup_edges(&s);
     /* The planes start with zero velocity: still triangles need to write it only over moving ones. */
     s.writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
                      && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || *moved);
     if (s.segment->moves != 0)
         *moved = true;
     if (is_tiny(&s, width, height)) {
-        draw_tiny(&s, left, right, top, bottom);
+        draw_tiny(&s, (int32_t)area, left, right, top, bottom);
         return;
     }
-    smear_setup_recip(&s);
+    smear_setup_area(&s, area);
     smear_setup_depth(&s);
+    if (s.segment->uv == 0 && s.segment->shade == SHADE_FLAT && !s.writes_velocity
+        && s.draw->alpha == SMEAR_OPAQUE && s.slope != SLOPE_BOTH
+        && (width > SMALL_PX || height > SMALL_PX)) {
+        cover_flat(&s);
+        return;
+    }
     smear_setup_color(&s);
     if (s.segment->uv != 0)
         smear_setup_texture(&s);
@@ -389,7 +476,7 @@ static void draw_triangle(const struct smear_raster_frame *frame,
         smear_setup_velocity(&s);
     smear_span_fn *write = smear_span_choose(&s);
     if (width <= SMALL_PX && height <= SMALL_PX)
-        cover_small(&s, left, right, top, bottom, write);
+        cover_small(&s, (int32_t)area, left, right, top, bottom, write);
     else
         cover_large(&s, write);
 }

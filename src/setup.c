@@ -18,7 +18,7 @@ static int32_t gradient(const struct setup *s, int64_t n)
     int32_t top = (int32_t)(size << zeros >> 33);           /* n = top 2^(33 - zeros) */
     int32_t g = mulh_i32(top, (int32_t)s->area_recip);
     g = scale_sat(g, clamp_i32(s->area_zeros - zeros - 20, -31, 31));
-    return (n < 0) != s->area_negative ? -g : g;
+    return n < 0 ? -g : g;
 }
 
 /* (frac q8) x slope / 256, exact floor without a wide product. */
@@ -48,22 +48,10 @@ void smear_plane_make(struct setup *s, struct plane *p, int32_t a0, int32_t a1, 
     p->at = sub_wrap(here, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
-void smear_setup_edges(struct setup *s)
+void smear_setup_area(struct setup *s, uint64_t area)
 {
-    s->x1 = s->v[1][VERTEX_X] - s->v[0][VERTEX_X];
-    s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
-    s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
-    s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
-    int64_t area = (int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1;
-    s->area_negative = area < 0;
-    uint64_t size = area < 0 ? 0u - (uint64_t)area : (uint64_t)area;
-    s->area_zeros = count_leading_zeros_64(size);
-    s->area_recip = (uint32_t)(size << s->area_zeros >> 32);
-}
-
-void smear_setup_recip(struct setup *s)
-{
-    s->area_recip = recip_norm_precise(s->area_recip);
+    s->area_zeros = count_leading_zeros_64(area);
+    s->area_recip = recip_norm_precise((uint32_t)(area << s->area_zeros >> 32));
     s->sliver = false;
 }
 

@@ -33,13 +33,12 @@ struct setup {
     const struct smear_raster_target *target;
     const struct smear_segment *segment;
     const struct smear_raster_draw *draw;
-    const int32_t *v[3];            /* records, in the triangle's order */
+    const int32_t *v[3];            /* records, clockwise on the screen */
 
-    /* Edge vectors from v[0], q8, and 1 / (twice the area). */
+    /* Edge vectors from v[0], q8, and 1 / (twice the area), which is positive. */
     int32_t x1, y1, x2, y2;
-    uint32_t area_recip;            /* normalised area; after smear_setup_recip 2^61 / that */
+    uint32_t area_recip;            /* 2^61 / normalised area */
     int area_zeros;                 /* area << zeros is normalised to 64 bits */
-    bool area_negative;
     bool sliver;                    /* some gradient is out of range: attributes are constant */
 
     enum depth_slope slope;
@@ -97,12 +96,21 @@ static inline uint32_t magnitude_i32(int32_t a)
     return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
 }
 
+/* Twice the area, q16. */
+static inline uint64_t setup_edges(struct setup *s)
+{
+    s->x1 = s->v[1][VERTEX_X] - s->v[0][VERTEX_X];
+    s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
+    s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
+    s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
+    return (uint64_t)((int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1);
+}
+
 /* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
 
 /* The parts of a setup, in the order in which they are needed. */
-void smear_setup_edges(struct setup *s);
-void smear_setup_recip(struct setup *s);
+void smear_setup_area(struct setup *s, uint64_t area);
 void smear_plane_make(struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
 void smear_setup_depth(struct setup *s);
 void smear_setup_color(struct setup *s);

@@ -5,9 +5,12 @@
 #include "fixmath.h"
 
 /* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product first, so nothing is lost but the last bits. */
-static int32_t times_recip(int32_t a, uint32_t r, int shift)
+static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
 {
-    return scale_sat(mulh_i32(a, (int32_t)r), clamp_i32(shift, -31, 31));
+    int32_t high = mulh_i32(a, (int32_t)r);
+    if (shift < 0 && shift > -32)
+        return (high + (1 << (-shift - 1))) >> -shift;      /* |high| < 2^30: no overflow */
+    return scale_sat(high, clamp_i32(shift, -31, 31));
 }
 
 void smear_project(struct smear_screen *out, const struct smear_projection *p,
