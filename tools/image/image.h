@@ -81,7 +81,8 @@ bool pfm_encode(const struct float_image *image, uint8_t **bytes, size_t *size, 
 bool pfm_save(const char *path, const struct float_image *image, struct failure *f);
 
 /* Animations: begin (null on failure), add each frame (all of one size), end; or cancel, which
- * leaves no file. delay_ms is per frame, 0..600000. Both loop for ever and hold only what changes.
+ * leaves no file. After a frame could not be written, end fails and leaves no file too. delay_ms is
+ * per frame, 0..600000. Both loop for ever and hold only what changes.
  *
  * GIF: one palette of up to 256 colours per frame, chosen for that frame; exact when the pixels
  * that change have at most 256 colours (255 when some inside their rectangle do not change), else
@@ -104,7 +105,8 @@ uint32_t crc32_update(uint32_t crc, const void *bytes, size_t size);
 struct image_distance {
     double rmse;        /* root mean square error over R, G, B in codes (1/255) */
     double psnr;        /* dB of 255; infinity when equal */
-    double ssim;        /* mean SSIM of luma, 11x11 Gaussian sigma 1.5, C1 = 0.01^2, C2 = 0.03^2 */
+    double ssim;        /* mean SSIM of luma, 11x11 Gaussian sigma 1.5, C1 = 0.01^2, C2 = 0.03^2,
+                         * over the windows inside the picture */
     double flip;        /* mean LDR-FLIP at pixels_per_degree, 0..1 */
 };
 
