@@ -17,6 +17,8 @@ struct filter {
     double step;                /* pixels per velocity step */
     int columns, rows;          /* tiles */
     double *neighbor;           /* 2 per tile */
+    double *upper;              /* likewise, without the tiles below (window) */
+    bool *still;                /* per tile: nothing moves in its 3x3 (window) */
     double value[256];          /* code to what is averaged */
 };
 
@@ -85,14 +87,15 @@ static bool counts(const struct filter_ref_input *in, int dx, int dy,
     return abs(sign(dx * v[0]) + sign(dy * v[1])) == 2;
 }
 
-void filter_ref_neighbor_max(const struct filter_ref_input *in, const int16_t *tile_max,
-                             double *neighbor_max)
+/* From the tiles of rows -1 .. last of the 3x3. */
+static void neighbor_max_of(const struct filter_ref_input *in, const int16_t *tile_max, int last,
+                            double *neighbor_max)
 {
     int columns = tiles(in->width, in->tile), rows = tiles(in->height, in->tile);
     double step = in->velocity_step != 0.0 ? in->velocity_step : 0.125;
     for (int i = 0; i < columns * rows; i++) {
         int64_t longest = -1;
-        for (int dy = -1; dy <= 1; dy++)
+        for (int dy = -1; dy <= last; dy++)
             for (int dx = -1; dx <= 1; dx++) {
                 int x = i % columns + dx, y = i / columns + dy;
                 if (x < 0 || y < 0 || x >= columns || y >= rows)
@@ -108,6 +111,27 @@ void filter_ref_neighbor_max(const struct filter_ref_input *in, const int16_t *t
                     neighbor_max[2 * i + 1] = v[1] * scale;
                 }
             }
+    }
+}
+
+void filter_ref_neighbor_max(const struct filter_ref_input *in, const int16_t *tile_max,
+                             double *neighbor_max)
+{
+    neighbor_max_of(in, tile_max, 1, neighbor_max);
+}
+
+/* Tiles in whose 3x3 nothing moves, whatever SMEAR_CORNER leaves out. */
+static void mark_still(const struct filter *filter, const int16_t *tile_max)
+{
+    for (int i = 0; i < filter->columns * filter->rows; i++) {
+        filter->still[i] = true;
+        for (int k = 0; k < 9; k++) {
+            int x = i % filter->columns + k % 3 - 1, y = i / filter->columns + k / 3 - 1;
+            if (x < 0 || y < 0 || x >= filter->columns || y >= filter->rows)
+                continue;
+            const int16_t *v = tile_max + 2 * (y * filter->columns + x);
+            filter->still[i] = filter->still[i] && v[0] == 0 && v[1] == 0;
+        }
     }
 }
 
@@ -164,7 +188,8 @@ static const double *neighbor_at(const struct filter *filter, int x, int y)
     double u = x + 0.5 + 0.25 * in->tile * cos(angle), v = y + 0.5 + 0.25 * in->tile * sin(angle);
     int column = (int)clamp(floor(u / in->tile), 0.0, filter->columns - 1);
     int row = (int)clamp(floor(v / in->tile), 0.0, filter->rows - 1);
-    return filter->neighbor + 2 * (row * filter->columns + column);
+    bool below = in->window && row > y / in->tile;
+    return (below ? filter->upper : filter->neighbor) + 2 * (row * filter->columns + column);
 }
 
 static void add(const struct filter *filter, size_t at, double weight, double sum[4])
@@ -217,7 +242,8 @@ static void filter_pixel(const struct filter *filter, int x, int y, double code[
     const struct filter_ref_input *in = filter->in;
     const double *top = neighbor_at(filter, x, y);
     double length = hypot(top[0], top[1]), sum[4] = { 0.0, 0.0, 0.0, 0.0 };
-    if (length < 2.0) {
+    int tile = y / in->tile * filter->columns + x / in->tile;
+    if (length < 2.0 || (in->window && filter->still[tile])) {
         for (int i = 0; i < 3; i++)
             code[i] = in->rgb[3 * ((ptrdiff_t)y * in->width + x) + i];
         return;
@@ -245,10 +271,15 @@ bool filter_ref(const struct filter_ref_input *in, double *code, struct failure 
     size_t count = (size_t)filter.columns * (size_t)filter.rows;
     int16_t *tile_max = malloc(2 * count * sizeof *tile_max);
     filter.neighbor = malloc(2 * count * sizeof *filter.neighbor);
-    bool ok = tile_max != NULL && filter.neighbor != NULL;
+    filter.upper = malloc(2 * count * sizeof *filter.upper);
+    filter.still = malloc(count * sizeof *filter.still);
+    bool ok = tile_max != NULL && filter.neighbor != NULL && filter.upper != NULL
+           && filter.still != NULL;
     if (ok) {
         filter_ref_tile_max(in, tile_max);
         filter_ref_neighbor_max(in, tile_max, filter.neighbor);
+        neighbor_max_of(in, tile_max, 0, filter.upper);
+        mark_still(&filter, tile_max);
         for (int y = 0; y < in->height; y++)
             for (int x = 0; x < in->width; x++)
                 filter_pixel(&filter, x, y, code + 3 * ((ptrdiff_t)y * in->width + x));
@@ -257,5 +288,7 @@ bool filter_ref(const struct filter_ref_input *in, double *code, struct failure 
     }
     free(tile_max);
     free(filter.neighbor);
+    free(filter.upper);
+    free(filter.still);
     return ok;
 }

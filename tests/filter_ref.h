@@ -38,7 +38,12 @@
  *   SMEAR_BOX        1 in place of 1.2 - t and of 1.2
  *   SMEAR_DIRECTION  second direction L normalise(lerp(n, v_p/|v_p|, clamp((|v_p| - 0.5)/1.5, 0,
  *                    1))); n is the unit perpendicular of v_max on v_p's side: (-y, x)/L, negated
- *                    if its product with v_p is negative */
+ *                    if its product with v_p is negative
+ *
+ * What a rolling window costs (`window`): while a tile row is finished, the one below it is drawn but
+ * not the one below that. Where v_max is looked up in the tile row below the pixel's own, its
+ * neighbour maximum lacks the three tiles below it. And tiles in whose 3x3 nothing moves are
+ * copied, whatever a look-up a quarter tile away would have found. */
 #ifndef SMEAR_TESTS_FILTER_REF_H
 #define SMEAR_TESTS_FILTER_REF_H
 
@@ -59,6 +64,7 @@ struct filter_ref_input {
     int samples;                /* as in smear_frame; 0 means 8 */
     bool encoded;               /* average codes instead of linear light */
     bool whole_neighbor;        /* do not shorten a winning neighbour by 1.01, only the centre */
+    bool window;                /* as a window of two tile rows sees it: below */
     unsigned flags;             /* SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_DIRECTION */
 };
 
