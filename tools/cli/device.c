@@ -83,6 +83,8 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
 {
     const struct device_setup *s = &device->setup;
     smear_desc desc = presented_desc(presented, s->width, s->height);
+    if (s->max_triangles > 0)
+        desc.max_triangles = s->max_triangles;
     desc.reach = (int16_t)s->reach;
     desc.tile = (int16_t)s->tile;
     desc.format = (uint8_t)s->format;
@@ -134,6 +136,7 @@ bool device_fit(struct device *device, const struct presented *presented, struct
 {
     smear_desc desc = full_desc(device, presented);
     size_t arena = device->setup.arena;
+    bool is_free = arena == 0 && device->setup.max_triangles == 0;
     if (presented->draw_count > 65535)
         return fail(f, "%d draws are too many for the library (at most 65535)",
                     presented->draw_count);
@@ -142,7 +145,7 @@ bool device_fit(struct device *device, const struct presented *presented, struct
     /* An arena's list of triangles depends on the draws beside it, and on no other frame. */
     if (arena > 0 && !fit_arena(&desc, arena, f))
         return false;
-    if (arena == 0 && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
+    if (is_free && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
         desc.max_triangles <= device->desc.max_triangles)
         return true;
     size_t bytes = smear_memory_size(&desc);

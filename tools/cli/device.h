@@ -20,6 +20,7 @@ struct device_setup {
     bool sharp, accumulate;
     int threads;                        /* 1..8 */
     size_t arena;                       /* bytes there are; 0: as many as it takes */
+    uint32_t max_triangles;             /* 0: enough for every frame */
     smear_inspect_fn *inspect;
     void *inspect_user;
 };

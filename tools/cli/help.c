@@ -1,5 +1,157 @@
 /* SPDX-License-Identifier: MIT */
+/* help.c - `smear help`: what the program can do, on standard output. */
 #include "commands.h"
-#include <stdio.h>
-int help_print(const char *command) { printf("help %s\n", command ? command : ""); return 0; }
-int command_help(int count, char **text) { return help_print(count > 0 ? text[0] : 0); }
+
+#include "arguments.h"
+#include "say.h"
+
+#include <string.h>
+
+static const char program_help[] =
+    "smear - motion blur for machines without a GPU, drawn on this one\n"
+    "\n"
+    "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear compare A B                how far two pictures are from each other\n"
+    "    smear info SCENE                 what is in a scene, and the memory it needs\n"
+    "    smear help [COMMAND]             this, or the options of a command\n"
+    "\n"
+    "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
+    "Not built yet: view, convert, bench, chart.\n"
+    "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
+
+/* Printed one after the other; C promises strings of 4095 characters at most. */
+static const char *const render_help[] = {
+    "smear render SCENE [options]\n"
+    "\n"
+    "Renders frames of SCENE: a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin:\n"
+    "lists the names). Built-in scenes bring their own camera, and their own size, frame rate,\n"
+    "time and clear colour as defaults.\n"
+    "\n"
+    "What and when\n"
+    "  --size WxH            pixels, 1 to 2048 [320x240]\n"
+    "  --fps F               frames per second [30]\n"
+    "  --time SECONDS        one frame, number 0, at this time [0]\n"
+    "  --frames A-B          frames A to B; frame i shows the time i / fps\n"
+    "  --clip NAME|INDEX|all|none\n"
+    "                        what moves the model [0]; all: together, the later in the file wins\n"
+    "  --loop                clips start again at the end of their longest channel [they stop]\n"
+    "  --camera NAME|INDEX   of the file [the first; without any, one that sees everything]\n"
+    "  --eye X,Y,Z --look X,Y,Z [--fov DEG]\n"
+    "                        another camera, its vertical field of view [45]\n"
+    "  --filter nearest|bilinear\n"
+    "                        texels [nearest]\n"
+    "  --clear RRGGBB        background [000000]\n"
+    "\n",
+    "Blur\n"
+    "  --shutter DEG         360 is the whole frame time; rounded to whole degrees, up to 3600;\n"
+    "                        0 is the sharp frame [180]\n"
+    "  --exposure centred|trailing|leading\n"
+    "                        where the frame's instant lies in it [centred]\n"
+    "  --poses previous|shutter\n"
+    "                        what the library is told: the pose a frame ago, or those at shutter\n"
+    "                        open, centre and close [previous]\n"
+    "  --method NAME         none         the sharp instant\n"
+    "                        accumulate   the mean of sharp instants\n"
+    "                        reconstruct  tile-maximum reconstruction filter\n"
+    "                        auto         reconstruct, until auto is built [auto]\n"
+    "                        not built yet: object, camera, pingpong, half, layered, subframes,\n"
+    "                        timemask\n"
+    "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]\n"
+    "  --exact               accumulate: every instant is posed and lit by the file itself; the\n"
+    "                        truth, when there are many; up to 65536 of them\n"
+    "  --reconstruct LIST    departures of reconstruct from the published filter, with commas:\n"
+    "                        fence      still foreground keeps its edges\n"
+    "                        corner     a diagonal tile counts if its motion points here\n"
+    "                        box        box shutter instead of the tent\n"
+    "                        direction  second direction along the pixel's own motion\n"
+    "                        uniform    a plain mean where all motion is alike\n"
+    "  --quality draft|balanced|fine, --target CODES\n"
+    "                        error that auto aims at [balanced]; no effect on other methods\n"
+    "  --reach PX|PERCENT%   longest blur radius of reconstruct, in pixels or of the height; not\n"
+    "                        above the tile [5%, at most a tile]\n"
+    "  --tile 8|16|32|64     [the smallest not below the reach]\n"
+    "  --motion NODE=full|camera|none\n"
+    "                        what moves the node (name or index) and all below it: all there is,\n"
+    "                        the camera alone, nothing; may be repeated\n"
+    "  --cut FRAME           no motion in this frame; may be repeated\n"
+    "  --light linear|encoded\n"
+    "                        what is lit and averaged: linear light, or codes [linear]\n"
+    "  --shutter-mode native the only one that is built; --mask is not built yet\n"
+    "\n",
+    "Device\n"
+    "  --format NAME         rgb888, rgb565, rgb565be (high byte first), rgb555 (blue on top),\n"
+    "                        rgb332, l8, l4, l1, l1pages (8 rows per byte) [rgb888]\n"
+    "  --dither none|ordered|blue\n"
+    "                        [ordered; rgb888 and l8 never]\n"
+    "  --arena BYTES         memory there is for the context. Where the frame's triangles do not\n"
+    "                        fit it is drawn in parts (counted as split); exit status 1 when\n"
+    "                        nothing does\n"
+    "  --threads N           1 to 8 cores [1]; the picture does not depend on it\n"
+    "  --repeat N            draws every frame N times after one untimed time; times are medians,\n"
+    "                        printed where there is no --stats\n"
+    "\n"
+    "Files\n"
+    "  -o FILE               .png, .ppm, .pfm (code / 255), .gif or .apng. One %d or %04d in the\n"
+    "                        name is the frame's number. [SCENE.png in the current folder, unless\n"
+    "                        --stats or --repeat is given]\n"
+    "  --depth FILE.pfm      distance along the view, 1 channel; background is infinite\n"
+    "  --velocity FILE.pfm   x, y, 0: pixels per frame, right and down; from the pose a frame ago\n"
+    "                        to now, or with --poses shutter from open to close, scaled\n"
+    "                        Both belong to the sharp frame at its time, whatever the exposure.\n"
+    "  --stats FILE.json     times, counts and the CRC-32 of the pixels as the display gets them\n",
+    NULL
+};
+
+static const char *const compare_help[] = {
+    "smear compare A B [options]\n"
+    "\n"
+    "Prints how far two pictures of one size (.png, .ppm, .pfm) are from each other:\n"
+    "  rmse   root mean square error over red, green and blue, in codes\n"
+    "  psnr   dB of 255; inf when equal\n"
+    "  ssim   mean structural similarity of luma, 1 when equal\n"
+    "  flip   mean FLIP at 67 pixels per degree, 0 when equal\n"
+    "\n"
+    "  --diff FILE           writes |A - B| x gain: .png, .ppm or .pfm\n"
+    "  --gain N              1 to 255 [8]\n",
+    NULL
+};
+
+static const char *const info_help[] = {
+    "smear info SCENE\n"
+    "\n"
+    "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
+    "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
+    "start (t = 0; of built-in scenes, at the time that stands for them): with the smallest list\n"
+    "of triangles that draws it in one part.\n"
+    "\n"
+    "smear info builtin: lists the built-in scenes.\n",
+    NULL
+};
+
+static const char *const help_help[] = {
+    "smear help [render|compare|info]\n",
+    NULL
+};
+
+int help_print(const char *command)
+{
+    static const char *const names[] = { "render", "compare", "info", "help", NULL };
+    static const char *const *const texts[] = { render_help, compare_help, info_help, help_help };
+    int found = command != NULL ? read_name(command, names) : -1;
+    if (command == NULL) {
+        fputs(program_help, stdout);
+        return STATUS_OK;
+    }
+    if (found < 0)
+        return say_bad_usage(command, "unknown command (smear help)");
+    for (const char *const *text = texts[found]; *text != NULL; text++)
+        fputs(*text, stdout);
+    return STATUS_OK;
+}
+
+int command_help(int count, char **text)
+{
+    if (count > 1)
+        return say_bad_usage(text[1], "one argument too many");
+    return help_print(count == 1 && strcmp(text[0], "--help") != 0 ? text[0] : NULL);
+}

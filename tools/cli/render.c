@@ -52,6 +52,7 @@ static void fill_present_options(struct render *r)
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
         .reconstruct = o->reconstruct,
     };
+    r->options.picture_sink.fps = r->present.fps;
 }
 
 static int set_motion(struct render *r)

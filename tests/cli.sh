@@ -1,0 +1,719 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# cli.sh - the program smear as its users meet it: every option, every file it writes, every error line.
+#
+#     sh tests/cli.sh build/smear
+#
+# Works in a folder of its own. Prints each claim that does not hold and, last, `N passed, N failed`.
+
+case ${1:-} in
+'') echo "usage: sh tests/cli.sh PROGRAM" >&2; exit 2 ;;
+/*) smear=$1 ;;
+*) smear=$PWD/$1 ;;
+esac
+LC_ALL=C
+export LC_ALL
+base=$(mktemp -d "${TMPDIR:-/tmp}/smear-cli.XXXXXX") || exit 1
+trap 'rm -rf "$base"' EXIT
+trap 'exit 1' HUP INT TERM
+mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
+
+passed=0
+failed=0
+
+# claim NAME COMMAND...: the command succeeds
+claim() {
+    claim_name=$1
+    shift
+    if "$@" >"$base/claim" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL: $claim_name"
+        sed 's/^/    /' "$base/claim" | head -5
+    fi
+}
+
+# run ARGUMENTS...: the program; afterwards $rc, $base/out, $base/err
+run() {
+    "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null
+    rc=$?
+}
+
+# Quietly succeeds, or says why not.
+works() {
+    run "$@"
+    [ "$rc" -eq 0 ] && [ ! -s "$base/err" ] && return 0
+    echo "exit $rc: $(cat "$base/err")"
+    return 1
+}
+
+render() { works render "$@"; }
+
+one_error_line() {
+    [ "$(wc -l <"$base/err")" -eq 1 ] || { echo "not one line: $(cat "$base/err")"; return 1; }
+    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
+    case $(cat "$base/err") in "smear: "$1": "*) ;; *) echo "$(cat "$base/err")"; return 1 ;; esac
+}
+
+fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject, and no file
+    status=$1
+    subject=$2
+    shift 2
+    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
+    run "$@"
+    left=$(ls -A "$base/empty")
+    cd "$base/work" || return 1
+    [ "$rc" -eq "$status" ] || { echo "exit $rc: $(cat "$base/err")"; return 1; }
+    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
+    one_error_line "$subject"
+}
+
+usage() { # SUBJECT ARGUMENTS...
+    claim "bad usage: smear $(shift; echo "$*")" fails 2 "$@"
+}
+
+input() { # SUBJECT ARGUMENTS...
+    claim "bad input: smear $(shift; echo "$*")" fails 1 "$@"
+}
+
+same() { cmp "$1" "$2"; }
+differ() { ! cmp -s "$1" "$2" || { echo "$1 and $2 are equal"; return 1; }; }
+exists() { [ -f "$1" ] || { echo "no $1"; return 1; }; }
+out_has() { grep -e "$1" "$base/out" || { head -5 "$base/out"; return 1; }; }
+err_has() { grep -e "$1" "$base/err" || { head -5 "$base/err"; return 1; }; }
+starts_with() { # FILE OCTAL-BYTES
+    [ "$(od -An -to1 -N"$(echo $2 | wc -w)" "$1" | tr -s ' \n' ' ' | sed 's/^ //;s/ $//')" = "$2" ] ||
+        { echo "starts with $(od -An -c -N8 "$1")"; return 1; }
+}
+stat_of() { # FILE KEY: its first value
+    sed -n "s/.*\"$2\":\"\{0,1\}\([^,}\"]*\).*/\1/p" "$1" | head -1
+}
+equals() { [ "$1" = "$2" ] || { echo "$1, not $2"; return 1; }; }
+is_true() { awk "BEGIN { exit !($1) }" || { echo "not true: $1"; return 1; }; }
+value_of() { sed -n "s/^$1=//p" "$base/out"; }
+
+# bytes FILE [SKIP]: of a PPM, in decimal, one to a line, behind its three header lines
+ppm_bytes() { tail -n +4 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | grep .; }
+ppm_pixel() { # FILE WIDTH X Y
+    ppm_bytes "$1" | sed -n "$((($4 * $2 + $3) * 3 + 1)),$((($4 * $2 + $3) * 3 + 3))p" | tr '\n' ' ' |
+        sed 's/ $//'
+}
+# pfm_value FILE WIDTH HEIGHT CHANNELS X Y CHANNEL: PFM has the bottom row first
+pfm_value() {
+    tail -n +4 "$1" | od -An -v -tf4 | tr -s ' ' '\n' | grep . |
+        sed -n "$(((($3 - 1 - $6) * $2 + $5) * $4 + $7 + 1))p"
+}
+# The CRC-32 that gzip puts in its trailer
+crc_of() {
+    gzip -c | tail -c 8 | od -An -tx1 -N4 | awk '{ print $4 $3 $2 $1 }'
+}
+
+# ------------------------------------------------------------------ scenes of our own
+
+# A plate of 2x2 at z = 0 that slides along x at 8 units per second, or spins; a wall behind it; two
+# cameras at (0, 0, 4): 1 unit at z = 0 is an eighth of the height for the first one.
+cat >"$base/in/plate.gltf" <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"name":"root","children":[1,2,3,4]},{"name":"plate","mesh":0},
+ {"name":"wall","mesh":1,"translation":[0,1.5,-2],"scale":[3,0.5,1]},
+ {"name":"front","camera":0,"translation":[0,0,4]},{"name":"flat","camera":1,"translation":[0,0,4]}],
+"cameras":[{"type":"perspective","perspective":{"yfov":1.5707963267948966,"znear":0.5,"zfar":20}},
+ {"type":"orthographic","orthographic":{"xmag":4,"ymag":4,"znear":0.5,"zfar":20}}],
+"materials":[{"name":"red","doubleSided":true,"extensions":{"KHR_materials_unlit":{}},
+  "pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},
+ {"name":"green","extensions":{"KHR_materials_unlit":{}},
+  "pbrMetallicRoughness":{"baseColorFactor":[0,0.5,0,1]}}],
+"extensionsUsed":["KHR_materials_unlit"],
+"meshes":[{"name":"quad","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},
+ {"name":"back","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1}]}],
+"animations":[{"name":"slide","samplers":[{"input":2,"output":3}],
+  "channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]},
+ {"name":"spin","samplers":[{"input":2,"output":4}],
+  "channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},
+ {"buffer":0,"byteOffset":60,"byteLength":8},{"buffer":0,"byteOffset":68,"byteLength":24},
+ {"buffer":0,"byteOffset":92,"byteLength":32}],
+"accessors":[
+ {"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]},
+ {"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},
+ {"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+ {"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"},
+ {"bufferView":4,"componentType":5126,"count":2,"type":"VEC4"}],
+"buffers":[{"byteLength":124,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAAAAABAAIAAAACAAMAAAAAAAAAgD8AAIDAAAAAAAAAAAAAAIBAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAADXs10/AAAAPw=="}]}
+END
+plate=$base/in/plate.gltf
+sed 's/"mode":4,//;s/"material":1}/"material":1},{"attributes":{"POSITION":0},"mode":0}/' "$plate" \
+    >"$base/in/points.gltf"
+
+# A textured quad; the texture is drawn below.
+cat >"$base/in/card.obj" <<'END'
+mtllib card.mtl
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl card
+f 1/1 2/2 3/3 4/4
+END
+printf 'newmtl card\nKd 1 1 1\nmap_Kd card.png\n' >"$base/in/card.mtl"
+
+small="--size 48x32 --fps 4 --reach 8"
+moving="$plate $small --time 0.5"
+
+# ------------------------------------------------------------------ files
+
+claim "the scene's name names the default output" render "$plate" --size 32x24
+claim "it lies in the current folder" exists plate.png
+claim "the program says so" out_has '^wrote plate.png$'
+claim "a built-in scene's slash becomes a dash" render builtin:demo/race --size 32x24
+claim "the file is there" exists demo-race.png
+rm -f plate.png demo-race.png
+claim "statistics alone write no picture" render $moving --stats s.json
+claim "no picture" [ ! -e plate.png ]
+claim "repetitions alone write no picture" render $moving --repeat 2
+claim "times are printed instead" out_has '^frame=0 total_us=[0-9.]* crc32=[0-9a-f]\{8\}$'
+claim "no picture either" [ ! -e plate.png ]
+
+for kind in png ppm pfm gif apng; do
+    claim "writes .$kind" render $moving -o "out.$kind"
+done
+claim "PNG" starts_with out.png "211 120 116 107"
+claim "PPM is P6" starts_with out.ppm "120 066 012"
+claim "PFM in colour is PF" starts_with out.pfm "120 106 012"
+claim "GIF" starts_with out.gif "107 111 106 070 071 141"
+claim "APNG has PNG's signature" starts_with out.apng "211 120 116 107"
+claim "APNG has an animation chunk" grep -c acTL out.apng
+claim "endings may be capitals" render $moving -o OUT.PPM
+claim "which changes nothing" same out.ppm OUT.PPM
+claim "PPM header" equals "$(sed -n 2p out.ppm)" "48 32"
+claim "PFM header" equals "$(sed -n 2,3p out.pfm | tr '\n' ' ')" "48 32 -1.0 "
+claim "PFM has the bottom row first and codes / 255" equals \
+    "$(pfm_value out.pfm 48 32 3 24 16 0 | awk '{ printf "%d", $1 * 255 + 0.5 }')" \
+    "$(ppm_pixel out.ppm 48 24 16 | cut -d' ' -f1)"
+
+claim "numbered files" render "$plate" $small --frames 1-3 -o 'f-%03d.ppm'
+claim "first" exists f-001.ppm
+claim "last" exists f-003.ppm
+claim "no other" [ ! -e f-004.ppm ]
+claim "frame i shows i / fps" same f-002.ppm out.ppm
+claim "a pattern without width" render "$plate" $small --frames 2-3 -o 'g%d.ppm' --depth 'd%02d.pfm'
+claim "has no zeros" exists g2.ppm
+claim "patterns of other files" exists d02.pfm
+claim "animations hold many frames" render "$plate" $small --frames 2-5 -o four.gif
+claim "a true-colour one" render "$plate" $small --frames 2-5 -o four.apng
+claim "and are larger than a single frame" is_true "$(wc -c <four.apng) > $(wc -c <out.apng)"
+claim "A-A is one frame and fits a still file" render "$plate" $small --frames 2-2 -o one.ppm
+claim "the same one" same one.ppm out.ppm
+claim "--option=value" render "$plate" --size=48x32 --fps=4 --time=0.5 --reach=8 -o equals.ppm
+claim "is --option value" same equals.ppm out.ppm
+cp "$plate" ./--odd.gltf
+claim "-- ends the options" render $small --time 0.5 -o dashes.ppm -- --odd.gltf
+claim "what follows is a file" same dashes.ppm out.ppm
+
+# ------------------------------------------------------------------ defaults and the shutter
+
+claim "written-out defaults" render "$plate" --size 320x240 --fps 30 --time 0 --clip 0 --camera 0 \
+    --shutter 180 --exposure centred --poses previous --method auto --samples 8 --quality balanced \
+    --reach 5% --tile 16 --shutter-mode native --light linear --filter nearest --clear 000000 \
+    --format rgb888 --dither ordered --threads 1 -o written.ppm
+claim "no options" render "$plate" -o nothing.ppm
+claim "are the same" same written.ppm nothing.ppm
+claim "--target" render $moving --target 2.5 -o target.ppm
+claim "does not change reconstruct" same target.ppm out.ppm
+
+claim "--method none" render $moving --method none -o none.ppm
+claim "--shutter 0" render $moving --shutter 0 -o shut.ppm
+claim "is none" same none.ppm shut.ppm
+claim "--method reconstruct" render $moving --method reconstruct -o reconstruct.ppm
+claim "is what auto does" same reconstruct.ppm out.ppm
+claim "it blurs" differ none.ppm reconstruct.ppm
+claim "--method accumulate" render $moving --method accumulate -o accumulate.ppm
+claim "it blurs, too" differ none.ppm accumulate.ppm
+claim "8 instants" render $moving --method accumulate --samples 8 -o eight.ppm
+claim "are the default" same accumulate.ppm eight.ppm
+claim "one instant" render $moving --method accumulate --samples 1 -o first.ppm
+claim "is the sharp frame" same first.ppm none.ppm
+claim "64 instants" render $moving --method accumulate --samples 64 -o many.ppm
+claim "exact instants" render $moving --method accumulate --samples 64 --exact -o exact.ppm
+run compare many.ppm exact.ppm
+claim "of linear motion are as the library moves it" is_true "$(value_of rmse) < 1.5"
+claim "exact instants of a turn" render "$plate" $small --clip spin --time 0.5 --method accumulate \
+    --samples 32 --exact -o turn.ppm
+claim "differ from the sharp frame" differ turn.ppm none.ppm
+claim "an exact frame that is cut" render "$plate" $small --clip slide --frames 2-2 --cut 2 \
+    --method accumulate --exact -o exactcut.ppm
+claim "is sharp" same exactcut.ppm none.ppm
+claim "an exact shutter of 0" render $moving --method accumulate --exact --shutter 0 -o exactshut.ppm
+claim "is sharp" same exactshut.ppm none.ppm
+claim "fractions of a degree are rounded" render $moving --shutter 180.3 -o rounded.ppm
+claim "to whole ones" same rounded.ppm out.ppm
+claim "a longer shutter" render $moving --shutter 360 -o longer.ppm
+claim "blurs more" differ longer.ppm out.ppm
+
+exact="--method accumulate --exact --samples 16 --clip slide"
+claim "an exposure around t" render $moving $exact -o centred.ppm
+claim "one that ends at t" render "$plate" $small $exact --exposure trailing --time 0.5625 \
+    -o trailing.ppm
+claim "are the same instants" same centred.ppm trailing.ppm
+claim "one that starts at t" render "$plate" $small $exact --exposure leading --time 0.4375 \
+    -o leading.ppm
+claim "as well" same centred.ppm leading.ppm
+for exposure in trailing leading; do
+    claim "the filter's exposure" render $moving --exposure $exposure -o filter-$exposure.ppm
+    claim "may be $exposure" differ filter-$exposure.ppm out.ppm
+done
+turning="$plate $small --time 0.5 --clip spin --method accumulate"
+claim "the pose a frame ago" render $turning --poses previous -o previous.ppm
+claim "the poses of the shutter" render $turning --poses shutter -o poses.ppm
+claim "are different things for what turns" differ previous.ppm poses.ppm
+
+for flag in fence corner box direction uniform fence,corner,box,direction,uniform; do
+    claim "--reconstruct $flag" render $moving --reconstruct $flag -o "flag-$flag.ppm"
+done
+claim "a box is no tent" differ flag-box.ppm out.ppm
+
+# ------------------------------------------------------------------ what moves, what is seen
+
+claim "clips by name" render "$plate" $small --time 0.25 --clip spin -o spin.ppm
+claim "clips by index" render "$plate" $small --time 0.25 --clip 1 -o one.ppm
+claim "are the same" same spin.ppm one.ppm
+claim "no clip" render "$plate" $small --time 0.25 --clip none -o still.ppm --stats still.json
+claim "holds still" equals "$(stat_of still.json still)" "$(stat_of still.json none)"
+claim "all clips" render "$plate" $small --time 0.25 --clip all -o all.ppm
+claim "do both" differ all.ppm spin.ppm
+claim "clips stop at their end" render "$plate" $small --time 1.5 -o end.ppm
+claim "and stay there" render "$plate" $small --time 7 -o later.ppm
+claim "without moving" same end.ppm later.ppm
+claim "or loop" render "$plate" $small --time 1.5 --loop -o loop.ppm
+claim "from their start" same loop.ppm out.ppm
+
+claim "cameras by name" render $moving --camera flat --method none -o flat.ppm
+claim "cameras by index" render $moving --camera 1 --method none -o camera1.ppm
+claim "are the same" same flat.ppm camera1.ppm
+claim "and others are not" differ flat.ppm none.ppm
+claim "an eye of one's own" render $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none -o eye.ppm
+claim "may be the file's" same eye.ppm none.ppm
+claim "--fov has a default" render $moving --eye 0,0,4 --look 0,0,0 -o fov.ppm
+claim "of 45 degrees" render $moving --eye 0,0,4 --look 0,0,0 --fov 45 -o fov45.ppm
+claim "indeed" same fov.ppm fov45.ppm
+
+claim "a node without motion" render $moving --motion plate=none --stats none.json -o calm.ppm
+claim "is not blurred" same calm.ppm none.ppm
+claim "nor with the camera's, which stands" render $moving --motion plate=camera -o calm.ppm
+claim "either" same calm.ppm none.ppm
+claim "by index, and all below" render $moving --motion 0=none -o calm.ppm
+claim "the same" same calm.ppm none.ppm
+claim "the last setting" render $moving --motion root=none --motion plate=full -o full.ppm
+claim "counts" same full.ppm out.ppm
+claim "a cut" render "$plate" $small --frames 1-3 --cut 2 -o 'cut%d.ppm'
+claim "has no motion" same cut2.ppm none.ppm
+claim "the frame before" same cut1.ppm f-001.ppm
+claim "and the one after have" same cut3.ppm f-003.ppm
+
+claim "clear colour" render $moving --clear 204060 --method none -o clear.ppm
+claim "in the corner" equals "$(ppm_pixel clear.ppm 48 0 31)" "32 64 96"
+claim "the plate is red" equals "$(ppm_pixel clear.ppm 48 24 16)" "255 0 0"
+claim "light may be encoded" render $moving --light encoded -o encoded.ppm
+claim "which mixes darker" differ encoded.ppm out.ppm
+claim "a texture" render builtin:demo/race --size 16x16 -o "$base/in/card.png"
+claim "nearest texels" render "$base/in/card.obj" --size 64x64 -o nearest.ppm
+claim "bilinear texels" render "$base/in/card.obj" --size 64x64 --filter bilinear -o bilinear.ppm
+claim "are not the same" differ nearest.ppm bilinear.ppm
+
+claim "a built-in scene has its size" render builtin:suite/translate -o builtin.ppm
+works info builtin:suite/translate
+claim "as told" equals "$(sed -n 2p builtin.ppm)" "$(sed -n 's/^size: //;1s/x/ /p' "$base/out")"
+claim "which can be changed" render builtin:suite/translate --size 64x48 --time 0.1 --fps 24 -o small.ppm
+claim "to another" equals "$(sed -n 2p small.ppm)" "64 48"
+run render "$base/in/points.gltf" $small -o points.ppm
+claim "points are skipped" equals "$rc" 0
+claim "with one warning" equals "$(wc -l <"$base/err" | tr -d ' ')" 1
+claim "that names the file" err_has "^smear: .*points.gltf: warning: "
+
+# ------------------------------------------------------------------ depth and velocity
+
+planes="$plate $small --time 0.5"
+claim "depth and velocity" render $planes --depth d.pfm --velocity v.pfm -o planes.ppm
+claim "leave the picture alone" same planes.ppm out.ppm
+claim "depth has one channel" starts_with d.pfm "120 146 012"
+claim "velocity has three" starts_with v.pfm "120 106 012"
+claim "depth in scene units" is_true "$(pfm_value d.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
+    4 - $(pfm_value d.pfm 48 32 1 24 16 0) < 0.004"
+claim "a background of infinity" equals "$(pfm_value d.pfm 48 32 1 0 31 0)" inf
+vx=$(pfm_value v.pfm 48 32 3 24 16 0)
+vy=$(pfm_value v.pfm 48 32 3 24 16 1)
+claim "velocity in pixels per frame" is_true "$vx > 7.96 && $vx < 8.04 && $vy < 0.02 && $vy > -0.02"
+claim "a background of zero" equals "$(pfm_value v.pfm 48 32 3 0 31 0)" 0
+claim "the third channel is zero" equals "$(pfm_value v.pfm 48 32 3 24 16 2)" 0
+claim "the same by another method and exposure" render $planes --depth d2.pfm --velocity v2.pfm \
+    --method none --exposure trailing --shutter 90 -o planes.ppm
+claim "depth" same d.pfm d2.pfm
+claim "velocity" same v.pfm v2.pfm
+claim "velocity from open to close" render $planes --poses shutter --velocity v3.pfm -o planes.ppm
+vx=$(pfm_value v3.pfm 48 32 3 24 16 0)
+claim "is per frame, too" is_true "$vx > 7.96 && $vx < 8.04"
+claim "of an exact frame, too" render $planes --method accumulate --exact --velocity v4.pfm -o planes.ppm
+claim "the same" same v.pfm v4.pfm
+claim "orthographic depth" render $planes --camera flat --depth d4.pfm -o planes.ppm
+claim "is in scene units" is_true "$(pfm_value d4.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
+    4 - $(pfm_value d4.pfm 48 32 1 24 16 0) < 0.004"
+
+# ------------------------------------------------------------------ the device
+
+claim "grey of 50 % is dithered" render $moving --clear 7f7f7f --format l1 -o l1.ppm
+claim "to black and white" equals "$(ppm_bytes l1.ppm | sort -nu | tr '\n' ' ')" "0 255 "
+claim "pages of 8 rows" render "$plate" --size 45x30 --fps 4 --time 0.5 --format l1pages -o pages.ppm
+claim "hold the same" render "$plate" --size 45x30 --fps 4 --time 0.5 --format l1 -o l1.ppm
+claim "picture" same pages.ppm l1.ppm
+claim "16 greys" render builtin:demo/race --size 47x32 --format l4 -o l4.ppm
+claim "are 17 apart" is_true "$(ppm_bytes l4.ppm | awk '{ s += $1 % 17 } END { print s + 0 }') == 0"
+claim "256 greys" render builtin:demo/race --size 48x32 --format l8 -o l8.ppm
+claim "rgb332" render builtin:demo/race --size 48x32 --format rgb332 -o rgb332.ppm
+claim "has 4 blues" is_true "$(ppm_bytes rgb332.ppm | awk 'NR % 3 == 0' | sort -nu | wc -l) <= 4"
+claim "rgb555" render $moving --clear 808080 --format rgb555 --dither none -o rgb555.ppm
+claim "rounds both ways to nearest" equals "$(ppm_pixel rgb555.ppm 48 0 31)" "132 132 132"
+claim "red stays red" equals "$(ppm_pixel rgb555.ppm 48 24 16)" "255 0 0"
+claim "rgb565" render $moving --clear 808080 --format rgb565 --dither none -o rgb565.ppm --stats le.json
+claim "has a finer green" equals "$(ppm_pixel rgb565.ppm 48 0 31)" "132 130 132"
+claim "high byte first" render $moving --clear 808080 --format rgb565be --dither none -o be.ppm \
+    --stats be.json
+claim "shows the same" same rgb565.ppm be.ppm
+claim "and has other bytes" is_true "\"$(stat_of le.json crc32)\" != \"$(stat_of be.json crc32)\""
+for dither in ordered blue none; do
+    claim "--dither $dither" render builtin:demo/race --size 48x32 --format rgb332 --dither $dither \
+        -o "dither-$dither.ppm"
+    claim "rgb888 and --dither $dither" render $moving --dither $dither -o "full-$dither.ppm"
+    claim "rgb888 is never dithered" same full-$dither.ppm out.ppm
+done
+claim "ordered is the default" same dither-ordered.ppm rgb332.ppm
+claim "blue is another" differ dither-blue.ppm dither-ordered.ppm
+claim "none a third" differ dither-none.ppm dither-ordered.ppm
+
+claim "statistics" render $moving --stats s.json -o out2.ppm
+claim "leave the picture alone" same out2.ppm out.ppm
+for key in frames frame time_s us submit raster reduce class blur merge convert total triangles in \
+    drawn dropped split pixels samples tiles still uniform complex methods none accumulate \
+    reconstruct arena_bytes crc32; do
+    claim "statistics have $key" grep -c "\"$key\":" s.json
+done
+claim "pixels" equals "$(stat_of s.json pixels)" 1536
+claim "triangles" equals "$(stat_of s.json in)" 4
+claim "time" equals "$(stat_of s.json time_s)" 0.5
+if command -v gzip >/dev/null; then
+    claim "CRC-32 of red, green and blue" equals "$(stat_of s.json crc32)" \
+        "$(tail -n +4 out.ppm | crc_of)"
+    to565='{ v[NR % 3] = int($1 * (NR % 3 == 2 ? 63 : 31) / 255 + 0.5) }
+           NR % 3 == 0 { w = v[1] * 2048 + v[2] * 32 + v[0]
+                         printf "\\0%o\\0%o", w % 256, int(w / 256) }'
+    claim "CRC-32 of RGB565, low byte first" equals "$(stat_of le.json crc32)" \
+        "$(printf '%b' "$(ppm_bytes rgb565.ppm | awk "$to565")" | crc_of)"
+fi
+claim "statistics of several frames" render "$plate" $small --frames 3-5 --stats three.json
+claim "are one object each" equals "$(grep -c '"frame":' three.json)" 3
+if command -v python3 >/dev/null; then
+    claim "they are JSON" python3 -c 'import json, sys; json.load(open(sys.argv[1]))' three.json
+fi
+claim "statistics of accumulate" render $moving --method accumulate --samples 4 --stats acc.json
+claim "count its instants" equals "$(stat_of acc.json samples)" 6144
+claim "statistics of an exact frame" render $moving --method accumulate --exact --samples 4 \
+    --format l8 --stats acc.json -o acc.ppm
+claim "as well" equals "$(stat_of acc.json samples)" 6144
+claim "and its triangles" equals "$(stat_of acc.json in)" 16
+claim "medians" render $moving --repeat 5 --stats five.json -o five.ppm
+claim "of the same picture" same five.ppm out.ppm
+claim "with the same CRC" equals "$(stat_of five.json crc32)" "$(stat_of s.json crc32)"
+claim "medians of an exact frame" render $moving --method accumulate --exact --repeat 3 --stats five.json
+
+race="builtin:demo/race --size 96x64"
+claim "one core" render $race -o core1.ppm --stats core1.json
+for threads in 2 3 8; do
+    claim "$threads cores" render $race --threads $threads -o core.ppm --stats core.json
+    claim "draw the same" same core.ppm core1.ppm
+    claim "to the last bit" equals "$(stat_of core.json crc32)" "$(stat_of core1.json crc32)"
+done
+claim "several cores and sharp frames" render $race --threads 2 --method accumulate -o a2.ppm
+claim "draw" render $race --method accumulate -o a1.ppm
+claim "the same" same a1.ppm a2.ppm
+
+claim "an ample arena" render $race --arena 10000000 -o ample.ppm --stats ample.json
+claim "changes nothing" same ample.ppm core1.ppm
+claim "and is not filled" equals "$(stat_of ample.json arena_bytes)" "$(stat_of core1.json arena_bytes)"
+run render $race --arena 1000 -o no.ppm
+claim "no room" equals "$rc" 1
+claim "tells what is needed" err_has "^smear: builtin:demo/race: needs [0-9]* bytes"
+claim "and draws nothing" [ ! -e no.ppm ]
+need=$(sed -n 's/.* needs \([0-9]*\) bytes.*/\1/p' "$base/err")
+claim "the least arena" render $race --arena "${need:-0}" -o least.ppm --stats least.json
+claim "is all that is used" is_true "$(stat_of least.json arena_bytes) <= ${need:-0}"
+run render $race --arena "$((${need:-1} - 1))" -o no.ppm
+claim "one byte less is too little" equals "$rc" 1
+parts=0
+for more in 40000 80000 120000 160000 200000 240000; do
+    render $race --arena "$((${need:-0} + more))" -o tight.ppm --stats tight.json
+    [ "$(stat_of tight.json split)" -gt 0 ] && [ "$(stat_of tight.json dropped)" -eq 0 ] || continue
+    parts=$((parts + 1))
+    claim "a tight arena draws the same picture" same tight.ppm core1.ppm
+done
+claim "in parts" is_true "$parts > 0"
+
+for tile in 8 16 32 64; do
+    claim "--tile $tile" render $moving --tile $tile --stats tile.json
+done
+claim "one tile of 64" equals "$(stat_of tile.json reconstruct)" 1
+claim "a reach in pixels" render $moving --reach 4 -o reach4.ppm
+claim "a reach of a share" render $moving --reach 12.5% -o reach12.ppm
+claim "of the height" same reach4.ppm reach12.ppm
+claim "the default reach is at most a tile" render "$plate" --size 64x240 --tile 8 -o tile8.ppm
+claim "as large as it" render "$plate" --size 64x240 --tile 8 --reach 8 -o tile88.ppm
+claim "so" same tile8.ppm tile88.ppm
+claim "1x1" render "$plate" --size 1x1 -o tiny.ppm
+claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
+claim "2048 high" render "$plate" --size 1x2048 -o high.ppm
+
+claim "statistics into a device" render $moving --stats /dev/null
+claim "leave it one" [ -c /dev/null ]
+mkfifo pipe
+cat pipe >piped.json &
+claim "statistics into a pipe" render $moving --stats pipe
+wait
+claim "arrive there" grep crc32 piped.json
+ln -s linked.json link.json
+claim "statistics through a link" render $moving --stats link.json
+claim "arrive behind it" grep crc32 linked.json
+
+# ------------------------------------------------------------------ compare
+
+claim "equal pictures" works compare out.ppm out.png
+claim "are equal" equals "$(tr '\n' ' ' <"$base/out")" "rmse=0.000000 psnr=inf ssim=1.000000 flip=0.000000 "
+claim "as floats, too" works compare out.pfm out.png
+claim "exactly" out_has '^rmse=0.000000$'
+claim "different pictures" works compare none.ppm out.png --diff diff.png
+claim "have a difference" is_true "$(value_of rmse) > 1 && $(value_of psnr) < 50 &&
+    $(value_of ssim) < 1 && $(value_of flip) > 0"
+claim "to be looked at" exists diff.png
+claim "of two equal ones" works compare out.ppm out.png --diff diff.ppm
+claim "it is black" equals "$(ppm_bytes diff.ppm | sort -nu | tr '\n' ' ')" "0 "
+claim "--gain" works compare none.ppm out.ppm --diff gain1.ppm --gain 1
+claim "scales it" works compare none.ppm out.ppm --diff gain2.pfm --gain 2
+for bad in "compare out.png" "compare" "compare a b c" "compare a b --diff d.jpg" "compare a b --diff" \
+    "compare a b --gain 0" "compare a b --frob" "compare a b --diff d.gif" "compare a b --diff %x.png"; do
+    claim "bad usage: smear $bad" fails 2 '*' $bad
+done
+input missing.png compare missing.png missing.png
+printf 'not a picture' >"$base/in/text.png"
+input "$base/in/text.png" compare "$base/in/text.png" "$base/work/out.png"
+input "$base/work/d.pfm" compare "$base/work/d.pfm" "$base/work/d.pfm"
+input "$base/work/small.ppm" compare "$base/work/out.ppm" "$base/work/small.ppm"
+input nowhere/d.png compare "$base/work/out.ppm" "$base/work/out.png" --diff nowhere/d.png
+
+# ------------------------------------------------------------------ info and help
+
+claim "info of a file" works info "$plate"
+for line in '^nodes: 5$' '1 "plate" under 0, mesh 0' '^clips: 2$' '0 "slide" 1 s, 1 channels' \
+    '^cameras: 2$' '0 "front" perspective, yfov 90, near 0.5, far 20' '1 "flat" orthographic' \
+    '^materials: ' '"green" opaque' '^textures: 0$' '^meshes: 2$' '2 triangles, 4 vertices' \
+    '^skipped primitives: 0$' '^bounds at 0 s: -5 -1 -2 to 3 2 0$' '^triangles: 4$' \
+    '^memory at 320x240: [0-9]* bytes' '^memory at 240x240: [0-9]* bytes' '  window 112640, '; do
+    claim "has $line" out_has "$line"
+done
+need=$(sed -n 's/^memory at 240x240: \([0-9]*\) bytes.*/\1/p' "$base/out")
+claim "memory as told" render "$plate" --size 240x240 --format rgb565 --arena "${need:-1}" --stats need.json
+claim "draws in one part" equals "$(stat_of need.json split)" 0
+run info "$base/in/points.gltf"
+claim "info counts what is skipped" out_has '^skipped primitives: 1$'
+claim "info of a textured file" works info "$base/in/card.obj"
+claim "has its size" out_has '0 16x16$'
+claim "info of a built-in scene" works info builtin:suite/pan
+claim "has its frame rate" out_has '^fps: '
+claim "the built-in scenes" works info builtin:
+claim "are listed" out_has '^builtin:demo/race '
+usage info info
+usage --frob info --frob "$plate"
+usage b info a b
+input missing.glb info missing.glb
+input builtin:nosuch info builtin:nosuch
+
+for command in render compare info help; do
+    claim "help $command" works help $command
+    claim "names it" out_has "smear $command"
+    claim "$command --help" works $command --help
+done
+claim "help" works help
+claim "lists commands" out_has 'smear compare A B'
+claim "--help" works --help
+claim "-h" works -h
+works help render >/dev/null
+for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure poses \
+    method samples exact reconstruct quality target reach tile motion cut light format dither arena \
+    threads repeat depth velocity stats; do
+    claim "help knows --$option" out_has "--$option"
+done
+usage nosuch help nosuch
+usage compare help render compare
+
+# ------------------------------------------------------------------ bad usage
+
+usage "no command"
+usage frobnicate frobnicate
+for command in view convert bench chart; do
+    usage $command $command
+    claim "says that it is not built" err_has "not built yet"
+done
+usage render render
+usage two render one two
+usage --frob render "$plate" --frob
+usage -x render "$plate" -x
+usage -oout.png render "$plate" -oout.png
+usage --size render "$plate" --size
+usage --loop render "$plate" --loop=yes
+for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' 99999999999999999999x1
+do
+    usage --size render "$plate" --size "$size"
+done
+for fps in 0 -1 nan inf -inf 30x '' 1e99 0x10 ' 30' + .; do
+    usage --fps render "$plate" --fps "$fps"
+done
+for time in -1 nan inf 1s '' 1e99; do
+    usage --time render "$plate" --time "$time"
+done
+for frames in 1 1- -3 3-1 a-b 1-2-3 -1-2 1.5-2 '' 1-99999999999; do
+    usage --frames render "$plate" --frames "$frames" -o '%d.png'
+done
+for shutter in -1 nan inf 3601 180deg ''; do
+    usage --shutter render "$plate" --shutter "$shutter"
+done
+for samples in 0 -1 nan 1.5 65537 8x ''; do
+    usage --samples render "$plate" --samples "$samples"
+done
+usage --samples render "$plate" --samples 1025
+for reach in 0 -1 nan 0% -5% 'nan%' '%' 12px 1.5 101% ''; do
+    usage --reach render "$plate" --reach "$reach"
+done
+usage --reach render "$plate" --reach 65
+usage --reach render "$plate" --reach 17 --tile 16
+usage --reach render "$plate" --reach 50%
+for tile in 0 4 12 128 16.0 -8 ''; do
+    usage --tile render "$plate" --tile "$tile"
+done
+for target in 0 -1 nan inf 256 ''; do
+    usage --target render "$plate" --target "$target"
+done
+for clear in fff 0000000 '#00000' 00000g -00000 ''; do
+    usage --clear render "$plate" --clear "$clear"
+done
+for arena in 0 -1 1.5 64k nan ''; do
+    usage --arena render "$plate" --arena "$arena"
+done
+for threads in 0 9 -1 two ''; do
+    usage --threads render "$plate" --threads "$threads"
+done
+for repeat in 0 -1 1.5 ''; do
+    usage --repeat render "$plate" --repeat "$repeat"
+done
+for cut in -1 x 1.5 ''; do
+    usage --cut render "$plate" --cut "$cut"
+done
+for vector in 1,2 1,2,3,4 a,b,c 1,,3 nan,0,0 0,0,inf '' '1, 2,3'; do
+    usage --eye render "$plate" --eye "$vector" --look 0,0,0
+    usage --look render "$plate" --eye 9,9,9 --look "$vector"
+done
+for fov in 0 -1 180 nan ''; do
+    usage --fov render "$plate" --eye 0,0,4 --look 0,0,0 --fov "$fov"
+done
+for option in --exposure --poses --method --quality --light --filter --format --dither --shutter-mode \
+    --reconstruct; do
+    usage $option render "$plate" $option frob
+    usage $option render "$plate" $option ''
+done
+usage --reconstruct render "$plate" --reconstruct fence,
+usage --reconstruct render "$plate" --reconstruct fence,frob
+for method in object camera pingpong half layered subframes timemask; do
+    usage --method render "$plate" --method $method
+    claim "says that it is not built" err_has "not built yet"
+done
+usage --mask render "$plate" --mask plate
+claim "says that it is not built" err_has "not built yet"
+for mode in capped fixed fixed:50; do
+    usage --shutter-mode render "$plate" --shutter-mode $mode
+    claim "says that it is not built" err_has "not built yet"
+done
+usage --shutter-mode render "$plate" --shutter-mode fixed:0
+
+usage --time render "$plate" --time 1 --frames 0-0
+usage --exact render "$plate" --exact
+usage --exact render "$plate" --exact --method none
+usage --motion render "$plate" --exact --method accumulate --motion plate=none
+usage --reconstruct render "$plate" --method none --reconstruct box
+usage --target render "$plate" --quality fine --target 1
+usage --eye render "$plate" --eye 1,2,3
+usage --look render "$plate" --look 1,2,3
+usage --fov render "$plate" --fov 45
+usage --camera render "$plate" --camera 0 --eye 1,2,3 --look 0,0,0
+usage --look render "$plate" --eye 1,2,3 --look 1,2,3
+usage --clip render "$plate" --clip nosuch
+usage --clip render "$plate" --clip 2
+usage --camera render "$plate" --camera nosuch
+usage --camera render "$plate" --camera 2
+for motion in plate plate=frob =none nosuch=none 5=none ''; do
+    usage --motion render "$plate" --motion "$motion"
+done
+for option in '--clip 0' --loop '--camera 0' '--eye 1,2,3 --look 0,0,0' '--filter nearest' '--motion a=none'
+do
+    usage "${option%% *}" render builtin:suite/still $option
+done
+for name in out.jpg out out. .png png 'out.png.' '%d%d.png' '%x.png' '%4d.png' '%00d.png' '%0d.png' '%' \
+    '%%.png' '%s.png' '%0.png' '%-3d.png' '%.gif' '%d.gif' '%04d.apng' ''; do
+    usage -o render "$plate" -o "$name"
+done
+usage -o render "$plate" --frames 0-1 -o out.png
+usage -o render "$plate" --frames 0-1
+usage --depth render "$plate" --frames 0-1 -o out.gif --depth d.pfm
+usage --velocity render "$plate" --frames 0-1 -o out.gif --velocity v.pfm
+usage --depth render "$plate" --depth d.png
+usage --velocity render "$plate" --velocity v.gif
+usage same.pfm render "$plate" -o same.pfm --depth same.pfm
+usage --stats render "$plate" --stats ''
+
+# ------------------------------------------------------------------ bad input
+
+input missing.glb render missing.glb
+input builtin:nosuch render builtin:nosuch
+input builtin: render builtin: -o x.png
+mkdir "$base/in/folder.glb"
+input "$base/in/folder.glb" render "$base/in/folder.glb"
+: >"$base/in/empty.gltf"
+input "$base/in/empty.gltf" render "$base/in/empty.gltf"
+head -c 700 "$plate" >"$base/in/half.gltf"
+input "$base/in/half.gltf" render "$base/in/half.gltf"
+printf 'v 0 0 0\nf 1 2 3\n' >"$base/in/bad.obj"
+input "$base/in/bad.obj" render "$base/in/bad.obj"
+printf 'glTF\002\000\000\000\377\377\377\377' >"$base/in/short.glb"
+input "$base/in/short.glb" render "$base/in/short.glb"
+odd=$(printf 'two\nlines.glb')
+claim "a file name of two lines is one in the error" fails 1 'two?lines.glb' render "$odd"
+input nowhere/out.png render "$plate" -o nowhere/out.png
+input nowhere/out.gif render "$plate" -o nowhere/out.gif
+input nowhere/s.json render "$plate" --stats nowhere/s.json
+input nowhere/d.pfm render "$plate" --stats /dev/null --depth nowhere/d.pfm
+input nowhere/v.pfm render "$plate" --stats /dev/null --velocity nowhere/v.pfm
+mkdir "$base/in/there.png"
+input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
+if [ -c /dev/full ]; then
+    input /dev/full render "$plate" --stats /dev/full
+fi
+claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"
+run render "$base/in/vertices.obj" --size 16x16 -o empty.ppm
+claim "nothing to draw is a picture of the background, or one line" [ "$rc" -le 1 ]
+cp out.ppm kept.ppm
+run render "$plate" --arena 10 -o kept.ppm
+claim "a failed run leaves the old picture" same kept.ppm out.ppm
+claim "and no unfinished files" equals "$(ls | grep -c '\.tmp$')" 0
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* memory.c - see memory.h. */
+#include "memory.h"
+
+#include "device.h"
+
+static bool draws_in_one(struct device *device, const struct presented *presented,
+                         uint32_t triangles, smear_stats *stats, struct failure *f)
+{
+    device->setup.max_triangles = triangles;
+    if (!device_fit(device, presented, f) || !device_draw(device, presented, f))
+        return false;
+    smear_get_stats(device->ctx, stats);
+    return true;
+}
+
+/* Halves the interval in which the smallest sufficient list lies. */
+static bool find_smallest(struct device *device, const struct presented *presented, uint32_t *list,
+                          uint32_t *drawn, struct failure *f)
+{
+    smear_stats stats;
+    uint32_t low = DEVICE_MIN_TRIANGLES, high = DEVICE_MIN_TRIANGLES;
+    for (;; high *= 2) {
+        if (!draws_in_one(device, presented, high, &stats, f))
+            return false;
+        if (stats.triangles_split == 0 && stats.triangles_dropped == 0)
+            break;
+        low = high + 1;
+        if (high > 4 * presented->triangle_count + 64)
+            break;                      /* cannot be: clipping makes a few of one, not more */
+    }
+    *drawn = stats.triangles_drawn;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (!draws_in_one(device, presented, middle, &stats, f))
+            return false;
+        if (stats.triangles_split == 0 && stats.triangles_dropped == 0)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    *list = high;
+    return true;
+}
+
+/* Bytes that `units` of something cost, from what twice and once as many cost. */
+static void split_up(struct memory_need *need, const smear_desc *desc)
+{
+    smear_desc twice = *desc;
+    need->total = smear_memory_size(desc);
+    twice.max_triangles *= 2;
+    need->triangle_bytes = smear_memory_size(&twice) - need->total;
+    twice = *desc;
+    twice.max_draws = (uint16_t)(desc->max_draws * 2);
+    need->draw_bytes = smear_memory_size(&twice) - need->total;
+    twice = *desc;
+    twice.bands = 2;
+    need->band = smear_memory_size(&twice) - need->total;
+    size_t bytes_per_pixel = need->reach <= 15 ? 8 : 10;
+    need->window = (size_t)desc->width * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel;
+    need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->band - need->window;
+}
+
+bool memory_measure(const struct presented *presented, int width, int height,
+                    struct memory_need *need, struct failure *f)
+{
+    struct device device;
+    struct device_setup setup = { .width = width, .height = height, .threads = 1,
+                                  .format = SMEAR_RGB565 };
+    struct presented drawn = *presented;
+    drawn.frame.method = SMEAR_RECONSTRUCT;
+    setup.reach = height / 20 > 0 ? height / 20 : 1;
+    setup.tile = setup.reach <= 8 ? 8 : setup.reach <= 16 ? 16 : setup.reach <= 32 ? 32 : 64;
+    *need = (struct memory_need){ .reach = setup.reach, .tile = setup.tile };
+    bool ok = device_open(&device, &setup, f) &&
+              find_smallest(&device, &drawn, &need->triangles, &need->triangles_drawn, f);
+    if (ok) {
+        smear_desc desc = device.desc;
+        desc.max_triangles = need->triangles;
+        desc.crc = 0;
+        need->draws = desc.max_draws;
+        split_up(need, &desc);
+    }
+    device_close(&device);
+    return ok;
+}
