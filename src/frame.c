@@ -46,11 +46,11 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
     struct instant i;
     if (c->frame.shutter_poses) {
         int64_t square = (int64_t)u * u >> 16;
-        i.weight[1] = (int32_t)((square - u) << 7);
-        i.weight[2] = (int32_t)((square + u) << 7);
+        i.weight[1] = (int32_t)((square - u) * 128);
+        i.weight[2] = (int32_t)((square + u) * 128);
     } else {
         /* Frames from now: the exposure's centre plus u half exposures. */
-        int64_t half = ((int64_t)c->frame.shutter_degrees << 24) / 720;
+        int64_t half = ((uint32_t)c->frame.shutter_degrees << 20) / 45u;       /* degrees / 720, q24 */
         int64_t centre = c->frame.exposure == SMEAR_TRAILING ? -half
                        : c->frame.exposure == SMEAR_LEADING ? half : 0;
         i.weight[1] = (int32_t)-(centre + (half * u >> 16));
@@ -250,14 +250,10 @@ static int assemble_part(struct smear_context *c, int first, int before, const s
 
 static void fill_words(uint32_t *p, uint32_t value, int32_t n)
 {
-    /* Two at a time: rows are 8-byte aligned when the width is even, and a pair store needs no more elsewhere. */
     int32_t i = 0;
-    for (; i + 4 <= n; i += 4) {
-        p[i] = value;
-        p[i + 1] = value;
-        p[i + 2] = value;
-        p[i + 3] = value;
-    }
+    for (; i + 8 <= n; i += 8)
+        for (int32_t k = 0; k < 8; k++)
+            p[i + k] = value;
     for (; i < n; i++)
         p[i] = value;
 }
@@ -699,7 +695,10 @@ static void prepare(struct smear_context *c)
     };
     if (c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
-        c->blur.far_over_range = (uint32_t)(((uint64_t)c->camera.far_plane << 16) / range);
+        int zeros = count_leading_zeros(range);
+        uint64_t over = (uint64_t)recip_norm_precise(range << zeros) * (uint32_t)c->camera.far_plane;
+        over >>= 45 - zeros;
+        c->blur.far_over_range = over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
     }
 
     c->blends = false;
