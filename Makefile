@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-# One Makefile, no recursion. `make help` lists what it can do.
+# One Makefile, no recursion into folders. `make help` lists what it can do.
 
 TARGET ?= host
 BUILD  := build/$(TARGET)
 
 .DEFAULT_GOAL := all
 
-CFLAGS_COMMON := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -MMD -MP
 OPT    ?= -O2
-CFLAGS := $(CFLAGS_COMMON) $(OPT)
+CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -MMD -MP $(OPT)
 
+# SAN=1: address and undefined behaviour sanitizers. CHECK=1: every fixed-point promise is checked.
 ifeq ($(SAN),1)
-BUILD  := $(BUILD)-san
-CFLAGS += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+BUILD   := $(BUILD)-san
+CFLAGS  += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 LDFLAGS += -fsanitize=address,undefined
 endif
 ifeq ($(CHECK),1)
@@ -22,23 +22,24 @@ endif
 
 include platform/$(TARGET)/target.mk
 
-# The library, bottom layer first: a file includes only headers above its own line. `make layers` checks it.
-LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry assemble texture \
-          target setup velocity span raster window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
-LIB_SRC := $(filter $(LAYERS:%=src/%.c),$(wildcard src/*.c))
+# The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
+LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry assemble texture target \
+          setup span velocity raster window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
+LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
+BENCH_SRC := $(wildcard tools/bench/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
 
 LIB := $(BUILD)/libsmear.a
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all
-## the program build/smear and the library
+.PHONY: all help demo test bench layers tables clean
+## the program build/smear and the library (build/host/libsmear.a)
 all: build/smear
 
 $(BUILD)/%.o: %.c
@@ -51,5 +52,113 @@ $(LIB): $(call objects,$(LIB_SRC))
 
 build/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+## motion-blurred pictures of real models, in build/demo
+demo: build/smear build/smear-demo
+	build/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
+
+## every suite; names what it needs
+test:
+	MAKE="$(MAKE)" sh tests/all.sh
+
+## instructions per frame against other rasterizers (needs valgrind)
+bench: build/smear-bench
+	sh tools/bench.sh build/smear-bench
+
+build/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+## files of src/ include only what lies above them
+layers:
+	sh tests/layers.sh $(LAYERS)
+
+## writes src/tables.c again
+tables: build/gentables
+	build/gentables > build/tables.c && mv build/tables.c src/tables.c
+
+build/gentables: tools/gentables.c
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -O2 -o $@ $< -lm
+
+clean:
+	rm -rf build
+
+## this list
+help:
+	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-10s %s\n",$$0,text;text=""}}' \
+	    $(firstword $(MAKEFILE_LIST))
+	@echo "  SAN=1 CHECK=1 TARGET=cortex-m0plus|cortex-m3|cortex-m4|s390x"
+
+# ---------------------------------------------------------------------- tests
+
+REF_SRC    := $(wildcard tests/ref_*.c) tests/filter_ref.c
+EXR_SUITES := exr
+ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
+# Suites that need neither libc nor floating point: they run on every target, too.
+UNIT_SUITES := $(filter fixed fixmath raster_int geometry tilemax convert_int clip_int,$(ALL_SUITES))
+# Suites that feed the library wild input: also under sanitizers, with every promise checked.
+SAN_SUITES := $(filter api raster fixmath fixed matrix transform clip geometry texture convert tilemax present,$(ALL_SUITES))
+
+ifeq ($(EXR),1)
+SUITES   += $(EXR_SUITES)
+EXR_SRC  := tests/exr.c
+BUILD    := $(BUILD)-exr
+CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
+EXR_LIBS := -lOpenEXRCore
+endif
+
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+TESTS    := $(BUILD)/run
+
+$(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
+$(BUILD)/tests/run.o: $(wildcard tests/test_*.c)
+
+$(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
+
+.PHONY: print-suites print-san-suites run-suite test-headers test-tables test-readme fuzz-corpus
+print-suites:
+	@echo $(SUITES)
+
+print-san-suites:
+	@echo $(SAN_SUITES)
+
+# Real models lie beside the repository where they are at hand.
+run-suite: $(TESTS)
+	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(SUITE)
+
+test-headers:
+	@mkdir -p $(BUILD)
+	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/header.c
+	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/header.c
+
+test-tables: build/gentables
+	build/gentables | cmp - src/tables.c
+
+# The program of the README, between its markers.
+test-readme: $(LIB)
+	@mkdir -p $(BUILD)
+	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
+	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
+	$(BUILD)/readme > $(BUILD)/readme.ppm
+
+FUZZ_CC := clang-14
+FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude -Isrc
+FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
+
+build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(IMAGE_SRC) $(MODEL_SRC) -lm
+
+# Each fuzzer over its corpus once, and for a few seconds beyond it.
+fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
+	for name in $(FUZZERS); do \
+	    mkdir -p build/fuzz/found-$$name tests/corpus/$$name && \
+	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
+	        build/fuzz/found-$$name tests/corpus/$$name || exit 1; \
+	done
+
+include platform/programs.mk
 
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -1,0 +1,96 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# all.sh - every suite, one after the other; `make test` calls it. Each suite's output goes to build/test/NAME.log and is
+# shown when it fails. The last line adds up: N passed, N failed.
+#
+# A suite whose tools are missing is named together with the command that installs them. With CI=true that is a
+# failure: there, everything runs.
+set -u
+make=${MAKE:-make}
+log=build/test
+mkdir -p "$log"
+passed=0
+failed=0
+missing=0
+started=$(date +%s)
+
+# suite NAME COMMAND...: a suite counts its tests in a last line "N passed, N failed"; else it is one test.
+suite() {
+    name=$1
+    shift
+    before=$(date +%s)
+    "$@" >"$log/$name.log" 2>&1
+    status=$?
+    line=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log/$name.log" | tail -n 1)
+    if [ -n "$line" ]; then
+        good=$(echo "$line" | cut -d' ' -f1)
+        bad=$(echo "$line" | cut -d' ' -f3)
+        [ $status -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
+    else
+        good=0
+        bad=0
+        if [ $status -eq 0 ]; then good=1; else bad=1; fi
+    fi
+    passed=$((passed + good))
+    failed=$((failed + bad))
+    printf '%-28s %4d passed, %d failed  (%d s)\n' "$name" "$good" "$bad" $(($(date +%s) - before))
+    if [ "$bad" -gt 0 ]; then
+        echo "--- $log/$name.log"
+        tail -n 60 "$log/$name.log"
+        echo "---"
+    fi
+}
+
+# needs TOOL PACKAGES: true when the tool is there.
+needs() {
+    command -v "$1" >/dev/null 2>&1 && return 0
+    if [ "${CI:-}" = true ]; then
+        echo "$1 is missing: apt-get install --no-install-recommends $2"
+        failed=$((failed + 1))
+    else
+        echo "not run without $1: apt-get install --no-install-recommends $2"
+        missing=$((missing + 1))
+    fi
+    return 1
+}
+
+exr() {
+    command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
+}
+
+suite layers $make -s layers
+suite build $make -s all
+suite headers $make -s test-headers
+suite tables $make -s test-tables
+suite readme $make -s test-readme
+for name in $($make -s print-suites); do
+    suite "$name" $make -s run-suite SUITE="$name"
+done
+if exr; then
+    suite exr $make -s run-suite SUITE=exr EXR=1
+else
+    needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
+fi
+suite command-line sh tests/cli.sh build/smear
+suite golden-host $make -s TARGET=host target-test
+for name in $($make -s print-san-suites); do
+    suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
+done
+if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
+    for target in cortex-m0plus cortex-m3 cortex-m4; do
+        suite "target-$target" $make -s TARGET=$target target-test
+    done
+    suite objects-cortex-m0plus env CODE_LIMIT=40960 sh tests/target_objects.sh build/objects
+fi
+if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
+    && needs qemu-s390x-static "qemu-user-static"; then
+    suite target-s390x $make -s TARGET=s390x target-test
+fi
+if needs clang-14 "clang-14 libclang-rt-14-dev"; then
+    suite fuzz-corpus $make -s fuzz-corpus
+fi
+
+echo "in $(($(date +%s) - started)) s"
+[ $missing -eq 0 ] || echo "$missing suites were not run; the lines above say what they need"
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
