@@ -131,7 +131,8 @@ void subject_close(struct subject *s)
     *s = (struct subject){0};
 }
 
-struct circling {
+/* A scene that moves in its own way. */
+struct wrapped {
     struct scene inner;
     double speed, time;
 };
@@ -158,42 +159,60 @@ static void turn_about(double m[16], const double centre[3], double angle)
 static bool circling_pose(struct scene *scene, double time, struct scene_instant *out,
                           struct failure *f)
 {
-    struct circling *circling = scene->data;
-    if (!scene_pose(&circling->inner, time, out, f))
+    struct wrapped *w = scene->data;
+    if (!scene_pose(&w->inner, time, out, f))
         return false;
     struct scene_camera *camera = &out->camera;
     double far_plane = camera->zfar > 0.0 ? camera->zfar : 8.0 * camera->znear;
     double middle = 0.5 * (camera->znear + far_plane), centre[3];
     for (int i = 0; i < 3; i++)
         centre[i] = camera->pose[12 + i] - middle * camera->pose[8 + i];
-    turn_about(camera->pose, centre, circling->speed * (time - circling->time));
+    turn_about(camera->pose, centre, w->speed * (time - w->time));
     return true;
 }
 
-static void circling_instant_free(struct scene *scene, struct scene_instant *instant)
+static bool held_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f)
 {
-    struct circling *circling = scene->data;
-    scene_instant_free(&circling->inner, instant);
+    struct wrapped *w = scene->data;
+    (void)time;
+    return scene_pose(&w->inner, w->time, out, f);
 }
 
-static void circling_destroy(struct scene *scene)
+static void wrapped_instant_free(struct scene *scene, struct scene_instant *instant)
 {
-    struct circling *circling = scene->data;
-    scene_free(&circling->inner);
-    free(circling);
+    struct wrapped *w = scene->data;
+    scene_instant_free(&w->inner, instant);
+}
+
+static void wrapped_destroy(struct scene *scene)
+{
+    struct wrapped *w = scene->data;
+    scene_free(&w->inner);
+    free(w);
+}
+
+static bool wrap(struct subject *s, double speed,
+                 bool (*pose)(struct scene *, double, struct scene_instant *, struct failure *))
+{
+    struct wrapped *w = malloc(sizeof *w);
+    if (w == NULL)
+        return false;
+    *w = (struct wrapped){.inner = s->scene, .speed = speed, .time = s->time};
+    s->scene.pose = pose;
+    s->scene.instant_free = wrapped_instant_free;
+    s->scene.destroy = wrapped_destroy;
+    s->scene.data = w;
+    return true;
 }
 
 bool subject_circle(struct subject *s, double radians_per_second)
 {
-    struct circling *circling = malloc(sizeof *circling);
-    if (circling == NULL)
-        return false;
-    *circling = (struct circling){.inner = s->scene, .speed = radians_per_second, .time = s->time};
-    s->scene.pose = circling_pose;
-    s->scene.instant_free = circling_instant_free;
-    s->scene.destroy = circling_destroy;
-    s->scene.data = circling;
-    return true;
+    return wrap(s, radians_per_second, circling_pose);
+}
+
+bool subject_hold(struct subject *s)
+{
+    return wrap(s, 0.0, held_pose);
 }
 
 /* ------------------------------------------------------------------ files */
@@ -430,7 +449,11 @@ bool shot_take(struct subject *s, const struct present_options *present,
     desc.user = &taking;
     /* A full list costs time only, but for a single row of tiles that does not fit it. */
     desc.max_triangles = o->triangles != 0 ? (uint32_t)o->triangles : 5 * desc.max_triangles;
-    if (!shot_alloc(out, width, height, o->look))
+    bool room = shot_alloc(out, width, height, o->look);
+    out->orthographic = p->orthographic;
+    out->near_plane = p->near_plane;
+    out->far_plane = p->far_plane;
+    if (!room)
         fail(&f, "no memory for a picture");
     else if (draw_presented(p, &desc, &taking, &f))
         return true;

@@ -38,6 +38,9 @@ void subject_close(struct subject *s);
  * At the subject's time it is where it was. False when out of memory: the subject is as before. */
 bool subject_circle(struct subject *s, double radians_per_second);
 
+/* From now on nothing moves: every instant is that of the subject's time. */
+bool subject_hold(struct subject *s);
+
 /* The kinds of the suite: 12 with moving objects, 7 with a moving camera, and `still`. */
 enum { OBJECT_KINDS = 12, CAMERA_KINDS = 7, SUITE_KINDS = OBJECT_KINDS + CAMERA_KINDS + 1 };
 extern const char *const suite_kind[SUITE_KINDS];
@@ -74,6 +77,8 @@ struct shot {
     float *distance;            /* scene units along the view; INFINITY: background */
     float *velocity;            /* 2 per pixel, px per frame */
     int16_t *packed;            /* 2 per pixel, half exposure in 1/8 px, as the window keeps it */
+    bool orthographic;
+    double near_plane, far_plane;       /* as the library got them */
     smear_stats stats;
 };
 
