@@ -1,10 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# cli.sh - the program smear as its users meet it: every option, every file it writes, every error line.
+# cli.sh - the program smear as its users meet it: every option, every file it writes, every error
+# line.
 #
 #     sh tests/cli.sh build/smear
 #
-# Works in a folder of its own. Prints each claim that does not hold and, last, `N passed, N failed`.
+# Works in a folder of its own. Prints each claim that does not hold and, last,
+# `N passed, N failed`.
 
 case ${1:-} in
 '') echo "usage: sh tests/cli.sh PROGRAM" >&2; exit 2 ;;
@@ -83,8 +85,8 @@ exists() { [ -f "$1" ] || { echo "no $1"; return 1; }; }
 out_has() { grep -e "$1" "$base/out" || { head -5 "$base/out"; return 1; }; }
 err_has() { grep -e "$1" "$base/err" || { head -5 "$base/err"; return 1; }; }
 starts_with() { # FILE OCTAL-BYTES
-    [ "$(od -An -to1 -N"$(echo $2 | wc -w)" "$1" | tr -s ' \n' ' ' | sed 's/^ //;s/ $//')" = "$2" ] ||
-        { echo "starts with $(od -An -c -N8 "$1")"; return 1; }
+    start=$(od -An -to1 -N"$(echo $2 | wc -w)" "$1" | tr -s ' \n' ' ' | sed 's/^ //;s/ $//')
+    [ "$start" = "$2" ] || { echo "starts with $(od -An -c -N8 "$1")"; return 1; }
 }
 stat_of() { # FILE KEY: its first value
     sed -n "s/.*\"$2\":\"\{0,1\}\([^,}\"]*\).*/\1/p" "$1" | head -1
@@ -96,8 +98,8 @@ value_of() { sed -n "s/^$1=//p" "$base/out"; }
 # bytes FILE [SKIP]: of a PPM, in decimal, one to a line, behind its three header lines
 ppm_bytes() { tail -n +4 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | grep .; }
 ppm_pixel() { # FILE WIDTH X Y
-    ppm_bytes "$1" | sed -n "$((($4 * $2 + $3) * 3 + 1)),$((($4 * $2 + $3) * 3 + 3))p" | tr '\n' ' ' |
-        sed 's/ $//'
+    first=$((($4 * $2 + $3) * 3 + 1))
+    ppm_bytes "$1" | sed -n "$first,$((first + 2))p" | tr '\n' ' ' | sed 's/ $//'
 }
 # pfm_value FILE WIDTH HEIGHT CHANNELS X Y CHANNEL: PFM has the bottom row first
 pfm_value() {
@@ -117,7 +119,8 @@ cat >"$base/in/plate.gltf" <<'END'
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"name":"root","children":[1,2,3,4]},{"name":"plate","mesh":0},
  {"name":"wall","mesh":1,"translation":[0,1.5,-2],"scale":[3,0.5,1]},
- {"name":"front","camera":0,"translation":[0,0,4]},{"name":"flat","camera":1,"translation":[0,0,4]}],
+ {"name":"front","camera":0,"translation":[0,0,4]},
+ {"name":"flat","camera":1,"translation":[0,0,4]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":1.5707963267948966,"znear":0.5,"zfar":20}},
  {"type":"orthographic","orthographic":{"xmag":4,"ymag":4,"znear":0.5,"zfar":20}}],
 "materials":[{"name":"red","doubleSided":true,"extensions":{"KHR_materials_unlit":{}},
@@ -131,7 +134,8 @@ cat >"$base/in/plate.gltf" <<'END'
   "channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]},
  {"name":"spin","samplers":[{"input":2,"output":4}],
   "channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]}],
-"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},
+"bufferViews":[
+ {"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},
  {"buffer":0,"byteOffset":60,"byteLength":8},{"buffer":0,"byteOffset":68,"byteLength":24},
  {"buffer":0,"byteOffset":92,"byteLength":32}],
 "accessors":[
@@ -140,8 +144,12 @@ cat >"$base/in/plate.gltf" <<'END'
  {"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
  {"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"},
  {"bufferView":4,"componentType":5126,"count":2,"type":"VEC4"}],
-"buffers":[{"byteLength":124,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAAAAABAAIAAAACAAMAAAAAAAAAgD8AAIDAAAAAAAAAAAAAAIBAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAADXs10/AAAAPw=="}]}
 END
+# Corners, indices, two times, two places and two turns.
+printf '"buffers":[{"byteLength":124,"uri":"data:application/octet-stream;base64,%s%s%s"}]}\n' \
+    AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAA \
+    AAABAAIAAAACAAMAAAAAAAAAgD8AAIDAAAAAAAAAAAAAAIBAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/ \
+    AAAAAAAAAADXs10/AAAAPw== >>"$base/in/plate.gltf"
 plate=$base/in/plate.gltf
 sed 's/"mode":4,//;s/"material":1}/"material":1},{"attributes":{"POSITION":0},"mode":0}/' "$plate" \
     >"$base/in/points.gltf"
@@ -248,7 +256,8 @@ claim "differ from the sharp frame" differ turn.ppm none.ppm
 claim "an exact frame that is cut" render "$plate" $small --clip slide --frames 2-2 --cut 2 \
     --method accumulate --exact -o exactcut.ppm
 claim "is sharp" same exactcut.ppm none.ppm
-claim "an exact shutter of 0" render $moving --method accumulate --exact --shutter 0 -o exactshut.ppm
+claim "an exact shutter of 0" render $moving --method accumulate --exact --shutter 0 \
+    -o exactshut.ppm
 claim "is sharp" same exactshut.ppm none.ppm
 claim "fractions of a degree are rounded" render $moving --shutter 180.3 -o rounded.ppm
 claim "to whole ones" same rounded.ppm out.ppm
@@ -296,7 +305,8 @@ claim "cameras by name" render $moving --camera flat --method none -o flat.ppm
 claim "cameras by index" render $moving --camera 1 --method none -o camera1.ppm
 claim "are the same" same flat.ppm camera1.ppm
 claim "and others are not" differ flat.ppm none.ppm
-claim "an eye of one's own" render $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none -o eye.ppm
+claim "an eye of one's own" render $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none \
+    -o eye.ppm
 claim "may be the file's" same eye.ppm none.ppm
 claim "--fov has a default" render $moving --eye 0,0,4 --look 0,0,0 -o fov.ppm
 claim "of 45 degrees" render $moving --eye 0,0,4 --look 0,0,0 --fov 45 -o fov45.ppm
@@ -328,7 +338,8 @@ claim "are not the same" differ nearest.ppm bilinear.ppm
 claim "a built-in scene has its size" render builtin:suite/translate -o builtin.ppm
 works info builtin:suite/translate
 claim "as told" equals "$(sed -n 2p builtin.ppm)" "$(sed -n 's/^size: //;1s/x/ /p' "$base/out")"
-claim "which can be changed" render builtin:suite/translate --size 64x48 --time 0.1 --fps 24 -o small.ppm
+claim "which can be changed" render builtin:suite/translate --size 64x48 --time 0.1 --fps 24 \
+    -o small.ppm
 claim "to another" equals "$(sed -n 2p small.ppm)" "64 48"
 run render "$base/in/points.gltf" $small -o points.ppm
 claim "points are skipped" equals "$rc" 0
@@ -357,7 +368,8 @@ claim "velocity" same v.pfm v2.pfm
 claim "velocity from open to close" render $planes --poses shutter --velocity v3.pfm -o planes.ppm
 vx=$(pfm_value v3.pfm 48 32 3 24 16 0)
 claim "is per frame, too" is_true "$vx > 7.96 && $vx < 8.04"
-claim "of an exact frame, too" render $planes --method accumulate --exact --velocity v4.pfm -o planes.ppm
+claim "of an exact frame, too" render $planes --method accumulate --exact --velocity v4.pfm \
+    -o planes.ppm
 claim "the same" same v.pfm v4.pfm
 claim "orthographic depth" render $planes --camera flat --depth d4.pfm -o planes.ppm
 claim "is in scene units" is_true "$(pfm_value d4.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
@@ -367,8 +379,8 @@ claim "is in scene units" is_true "$(pfm_value d4.pfm 48 32 1 24 16 0) - 4 < 0.0
 
 claim "grey of 50 % is dithered" render $moving --clear 7f7f7f --format l1 -o l1.ppm
 claim "to black and white" equals "$(ppm_bytes l1.ppm | sort -nu | tr '\n' ' ')" "0 255 "
-claim "pages of 8 rows" render "$plate" --size 45x30 --fps 4 --time 0.5 --format l1pages -o pages.ppm
-claim "hold the same" render "$plate" --size 45x30 --fps 4 --time 0.5 --format l1 -o l1.ppm
+claim "pages of 8 rows" render builtin:demo/race --size 45x30 --format l1pages -o pages.ppm
+claim "hold the same" render builtin:demo/race --size 45x30 --format l1 -o l1.ppm
 claim "picture" same pages.ppm l1.ppm
 claim "16 greys" render builtin:demo/race --size 47x32 --format l4 -o l4.ppm
 claim "are 17 apart" is_true "$(ppm_bytes l4.ppm | awk '{ s += $1 % 17 } END { print s + 0 }') == 0"
@@ -378,15 +390,16 @@ claim "has 4 blues" is_true "$(ppm_bytes rgb332.ppm | awk 'NR % 3 == 0' | sort -
 claim "rgb555" render $moving --clear 808080 --format rgb555 --dither none -o rgb555.ppm
 claim "rounds both ways to nearest" equals "$(ppm_pixel rgb555.ppm 48 0 31)" "132 132 132"
 claim "red stays red" equals "$(ppm_pixel rgb555.ppm 48 24 16)" "255 0 0"
-claim "rgb565" render $moving --clear 808080 --format rgb565 --dither none -o rgb565.ppm --stats le.json
+claim "rgb565" render $moving --clear 808080 --format rgb565 --dither none -o rgb565.ppm \
+    --stats le.json
 claim "has a finer green" equals "$(ppm_pixel rgb565.ppm 48 0 31)" "132 130 132"
 claim "high byte first" render $moving --clear 808080 --format rgb565be --dither none -o be.ppm \
     --stats be.json
 claim "shows the same" same rgb565.ppm be.ppm
 claim "and has other bytes" is_true "\"$(stat_of le.json crc32)\" != \"$(stat_of be.json crc32)\""
 for dither in ordered blue none; do
-    claim "--dither $dither" render builtin:demo/race --size 48x32 --format rgb332 --dither $dither \
-        -o "dither-$dither.ppm"
+    claim "--dither $dither" render builtin:demo/race --size 48x32 --format rgb332 \
+        --dither $dither -o "dither-$dither.ppm"
     claim "rgb888 and --dither $dither" render $moving --dither $dither -o "full-$dither.ppm"
     claim "rgb888 is never dithered" same full-$dither.ppm out.ppm
 done
@@ -427,7 +440,8 @@ claim "and its triangles" equals "$(stat_of acc.json in)" 16
 claim "medians" render $moving --repeat 5 --stats five.json -o five.ppm
 claim "of the same picture" same five.ppm out.ppm
 claim "with the same CRC" equals "$(stat_of five.json crc32)" "$(stat_of s.json crc32)"
-claim "medians of an exact frame" render $moving --method accumulate --exact --repeat 3 --stats five.json
+claim "medians of an exact frame" render $moving --method accumulate --exact --repeat 3 \
+    --stats five.json
 
 race="builtin:demo/race --size 96x64"
 claim "one core" render $race -o core1.ppm --stats core1.json
@@ -442,7 +456,8 @@ claim "the same" same a1.ppm a2.ppm
 
 claim "an ample arena" render $race --arena 10000000 -o ample.ppm --stats ample.json
 claim "changes nothing" same ample.ppm core1.ppm
-claim "and is not filled" equals "$(stat_of ample.json arena_bytes)" "$(stat_of core1.json arena_bytes)"
+claim "and is not filled" equals "$(stat_of ample.json arena_bytes)" \
+    "$(stat_of core1.json arena_bytes)"
 run render $race --arena 1000 -o no.ppm
 claim "no room" equals "$rc" 1
 claim "tells what is needed" err_has "^smear: builtin:demo/race: needs [0-9]* bytes"
@@ -489,7 +504,8 @@ claim "arrive behind it" grep crc32 linked.json
 # ------------------------------------------------------------------ compare
 
 claim "equal pictures" works compare out.ppm out.png
-claim "are equal" equals "$(tr '\n' ' ' <"$base/out")" "rmse=0.000000 psnr=inf ssim=1.000000 flip=0.000000 "
+claim "are equal" equals "$(tr '\n' ' ' <"$base/out")" \
+    "rmse=0.000000 psnr=inf ssim=1.000000 flip=0.000000 "
 claim "as floats, too" works compare out.pfm out.png
 claim "exactly" out_has '^rmse=0.000000$'
 claim "different pictures" works compare none.ppm out.png --diff diff.png
@@ -500,8 +516,9 @@ claim "of two equal ones" works compare out.ppm out.png --diff diff.ppm
 claim "it is black" equals "$(ppm_bytes diff.ppm | sort -nu | tr '\n' ' ')" "0 "
 claim "--gain" works compare none.ppm out.ppm --diff gain1.ppm --gain 1
 claim "scales it" works compare none.ppm out.ppm --diff gain2.pfm --gain 2
-for bad in "compare out.png" "compare" "compare a b c" "compare a b --diff d.jpg" "compare a b --diff" \
-    "compare a b --gain 0" "compare a b --frob" "compare a b --diff d.gif" "compare a b --diff %x.png"; do
+for bad in "compare out.png" "compare" "compare a b c" "compare a b --diff d.jpg" \
+    "compare a b --diff" "compare a b --gain 0" "compare a b --frob" "compare a b --diff d.gif" \
+    "compare a b --diff %x.png"; do
     claim "bad usage: smear $bad" fails 2 '*' $bad
 done
 input missing.png compare missing.png missing.png
@@ -522,7 +539,8 @@ for line in '^nodes: 5$' '1 "plate" under 0, mesh 0' '^clips: 2$' '0 "slide" 1 s
     claim "has $line" out_has "$line"
 done
 need=$(sed -n 's/^memory at 240x240: \([0-9]*\) bytes.*/\1/p' "$base/out")
-claim "memory as told" render "$plate" --size 240x240 --format rgb565 --arena "${need:-1}" --stats need.json
+claim "memory as told" render "$plate" --size 240x240 --format rgb565 --arena "${need:-1}" \
+    --stats need.json
 claim "draws in one part" equals "$(stat_of need.json split)" 0
 run info "$base/in/points.gltf"
 claim "info counts what is skipped" out_has '^skipped primitives: 1$'
@@ -548,9 +566,9 @@ claim "lists commands" out_has 'smear compare A B'
 claim "--help" works --help
 claim "-h" works -h
 works help render >/dev/null
-for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure poses \
-    method samples exact reconstruct quality target reach tile motion cut light format dither arena \
-    threads repeat depth velocity stats; do
+for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure \
+    poses method samples exact reconstruct quality target reach tile motion cut light format dither \
+    arena threads repeat depth velocity stats; do
     claim "help knows --$option" out_has "--$option"
 done
 usage nosuch help nosuch
@@ -571,8 +589,8 @@ usage -x render "$plate" -x
 usage -oout.png render "$plate" -oout.png
 usage --size render "$plate" --size
 usage --loop render "$plate" --loop=yes
-for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' 99999999999999999999x1
-do
+for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' \
+    99999999999999999999x1; do
     usage --size render "$plate" --size "$size"
 done
 for fps in 0 -1 nan inf -inf 30x '' 1e99 0x10 ' 30' + .; do
@@ -625,8 +643,8 @@ done
 for fov in 0 -1 180 nan ''; do
     usage --fov render "$plate" --eye 0,0,4 --look 0,0,0 --fov "$fov"
 done
-for option in --exposure --poses --method --quality --light --filter --format --dither --shutter-mode \
-    --reconstruct; do
+for option in --exposure --poses --method --quality --light --filter --format --dither \
+    --shutter-mode --reconstruct; do
     usage $option render "$plate" $option frob
     usage $option render "$plate" $option ''
 done
@@ -662,12 +680,12 @@ usage --camera render "$plate" --camera 2
 for motion in plate plate=frob =none nosuch=none 5=none ''; do
     usage --motion render "$plate" --motion "$motion"
 done
-for option in '--clip 0' --loop '--camera 0' '--eye 1,2,3 --look 0,0,0' '--filter nearest' '--motion a=none'
-do
+for option in '--clip 0' --loop '--camera 0' '--eye 1,2,3 --look 0,0,0' '--filter nearest' \
+    '--motion a=none'; do
     usage "${option%% *}" render builtin:suite/still $option
 done
-for name in out.jpg out out. .png png 'out.png.' '%d%d.png' '%x.png' '%4d.png' '%00d.png' '%0d.png' '%' \
-    '%%.png' '%s.png' '%0.png' '%-3d.png' '%.gif' '%d.gif' '%04d.apng' ''; do
+for name in out.jpg out out. .png png 'out.png.' '%d%d.png' '%x.png' '%4d.png' '%00d.png' \
+    '%0d.png' '%' '%%.png' '%s.png' '%0.png' '%-3d.png' '%.gif' '%d.gif' '%04d.apng' ''; do
     usage -o render "$plate" -o "$name"
 done
 usage -o render "$plate" --frames 0-1 -o out.png

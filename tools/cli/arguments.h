@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-/* How an option's value (null when it has none) gets into what `options` points to. Returns null, or
- * what is wrong with it. */
+/* How an option's value (null when it has none) gets into what `options` points to. Returns null,
+ * or what is wrong with it. */
 typedef const char *option_read_fn(void *options, const char *value);
 
 struct option {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* commands.h - the commands of the program. Each gets the arguments behind its name, and returns the
- * exit status after it has said what went wrong. */
+/* commands.h - the commands of the program. Each gets the arguments behind its name, and returns
+ * the exit status after it has said what went wrong. */
 #ifndef SMEAR_TOOLS_CLI_COMMANDS_H
 #define SMEAR_TOOLS_CLI_COMMANDS_H
 

@@ -65,8 +65,8 @@ static int load(const char *path, struct image *out)
     return ok ? STATUS_OK : say_bad_input(path, &f);
 }
 
-static int write_difference(const struct compare_options *o, struct sink *sink, const struct image *a,
-                            const struct image *b)
+static int write_difference(const struct compare_options *o, struct sink *sink,
+                            const struct image *a, const struct image *b)
 {
     struct failure f = { "" };
     struct image difference;

@@ -132,24 +132,11 @@ static bool start_context(struct device *device, struct failure *f)
     return fail(f, "the library did not start (error %d)", result);
 }
 
-bool device_fit(struct device *device, const struct presented *presented, struct failure *f)
+/* A context of this desc, in memory that has grown where it must. */
+static bool make_context(struct device *device, const smear_desc *desc, struct failure *f)
 {
-    smear_desc desc = full_desc(device, presented);
-    size_t arena = device->setup.arena;
-    bool is_free = arena == 0 && device->setup.max_triangles == 0;
-    if (presented->draw_count > 65535)
-        return fail(f, "%d draws are too many for the library (at most 65535)",
-                    presented->draw_count);
-    if (smear_memory_size(&desc) == 0)
-        return fail(f, "%u triangles are too many for the library", presented->triangle_count);
-    /* An arena's list of triangles depends on the draws beside it, and on no other frame. */
-    if (arena > 0 && !fit_arena(&desc, arena, f))
-        return false;
-    if (is_free && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
-        desc.max_triangles <= device->desc.max_triangles)
-        return true;
-    size_t bytes = smear_memory_size(&desc);
-    device->desc = desc;
+    size_t bytes = smear_memory_size(desc);
+    device->desc = *desc;
     device->ctx = NULL;
     if (bytes > device->memory_bytes) {
         free(device->memory);
@@ -160,6 +147,28 @@ bool device_fit(struct device *device, const struct presented *presented, struct
         device->memory_bytes = bytes;
     }
     return start_context(device, f);
+}
+
+static bool is_limited(const struct device *device)
+{
+    return device->setup.arena > 0 || device->setup.max_triangles > 0;
+}
+
+bool device_fit(struct device *device, const struct presented *presented, struct failure *f)
+{
+    smear_desc desc = full_desc(device, presented);
+    if (presented->draw_count > 65535)
+        return fail(f, "%d draws are too many for the library (at most 65535)",
+                    presented->draw_count);
+    if (smear_memory_size(&desc) == 0)
+        return fail(f, "%u triangles are too many for the library", presented->triangle_count);
+    /* An arena's list of triangles depends on the draws beside it, and on no other frame. */
+    if (device->setup.arena > 0 && !fit_arena(&desc, device->setup.arena, f))
+        return false;
+    if (!is_limited(device) && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
+        desc.max_triangles <= device->desc.max_triangles)
+        return true;
+    return make_context(device, &desc, f);
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -185,9 +194,22 @@ static bool use_crc(struct device *device, bool crc, struct failure *f)
 
 bool device_draw(struct device *device, const struct presented *presented, struct failure *f)
 {
-    uint32_t ticks;
     device->is_timed = false;
-    return use_crc(device, true, f) && draw(device, presented, &ticks, f);
+    if (!use_crc(device, true, f))
+        return false;
+    for (;;) {
+        uint32_t ticks;
+        smear_stats stats;
+        if (!draw(device, presented, &ticks, f))
+            return false;
+        smear_get_stats(device->ctx, &stats);
+        smear_desc larger = device->desc;
+        larger.max_triangles *= 2;
+        if (is_limited(device) || stats.triangles_split == 0 || smear_memory_size(&larger) == 0)
+            return true;
+        if (!make_context(device, &larger, f))
+            return false;
+    }
 }
 
 bool device_time(struct device *device, const struct presented *presented,

@@ -48,15 +48,16 @@ struct device {
 /* Smallest list of triangles a short arena is tried with. */
 enum { DEVICE_MIN_TRIANGLES = 16 };
 
-/* Allocates the display and starts the threads. `device` is released by device_close in any case. */
+/* Allocates the display and starts the threads. device_close releases `device` in any case. */
 bool device_open(struct device *device, const struct device_setup *setup, struct failure *f);
 void device_close(struct device *device);
 
-/* Makes sure that the context has room for this frame: memory grows, but not beyond the arena, where
- * the list of triangles is cut short instead. */
+/* Makes sure that the context has room for this frame: memory grows, but not beyond the arena,
+ * where the list of triangles is cut short instead. */
 bool device_fit(struct device *device, const struct presented *presented, struct failure *f);
 
-/* Draws a frame into device->pixels. */
+/* Draws a frame into device->pixels. With neither an arena nor a limit of triangles, memory grows
+ * until the frame is drawn in one part. */
 bool device_draw(struct device *device, const struct presented *presented, struct failure *f);
 
 /* Draws the same frame again for its times alone: nothing is copied and no CRC is taken. */

@@ -7,8 +7,8 @@
 
 enum { DEFAULT_INSTANTS = 8 };
 
-bool exact_open(struct exact *exact, int width, int height, smear_format format, smear_dither dither,
-                struct failure *f)
+bool exact_open(struct exact *exact, int width, int height, smear_format format,
+                smear_dither dither, struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .threads = 1,
                                         .format = format, .dither = dither };
@@ -74,7 +74,8 @@ static void add_counts(smear_stats *sum, const smear_stats *counts)
 
 /* ------------------------------------------------------------------ the mean */
 
-static void add_picture(double *sum, const uint32_t *picture, size_t pixels, const double value[256])
+static void add_picture(double *sum, const uint32_t *picture, size_t pixels,
+                        const double value[256])
 {
     for (size_t i = 0; i < pixels; i++, sum += 3) {
         sum[0] += value[picture[i] >> 16 & 255];
@@ -88,9 +89,9 @@ static uint32_t code_of(double mean, bool is_linear)
     return is_linear ? present_srgb_encode(mean) : (uint32_t)floor(mean * 255.0 + 0.5);
 }
 
-bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device, double time,
-                const struct present_options *options, int instants, smear_stats *counts,
-                struct failure *f)
+bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device,
+                double time, const struct present_options *options, int instants,
+                smear_stats *counts, struct failure *f)
 {
     const struct exposure e = exposure_of(time, options, instants);
     const bool is_linear = options->light == SMEAR_LIGHT_LINEAR;

@@ -13,16 +13,16 @@ struct exact {
 };
 
 /* `exact` is released by exact_close in any case. */
-bool exact_open(struct exact *exact, int width, int height, smear_format format, smear_dither dither,
-                struct failure *f);
+bool exact_open(struct exact *exact, int width, int height, smear_format format,
+                smear_dither dither, struct failure *f);
 void exact_close(struct exact *exact);
 
-/* The mean of `instants` (0: 8) frames at the midpoints of the exposure, into exact->display.pixels.
- * `device` draws them: sharp, XRGB8888. Counts add up over the instants, as the library's own
- * accumulation counts. A frame that is cut has one instant. */
-bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device, double time,
-                const struct present_options *options, int instants, smear_stats *counts,
-                struct failure *f);
+/* The mean of `instants` (0: 8) frames at the midpoints of the exposure, in exact->display.pixels
+ * afterwards. `device` draws them: sharp, XRGB8888. Counts add up over the instants, as in the
+ * library's own accumulation. A frame that is cut has one instant. */
+bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device,
+                double time, const struct present_options *options, int instants,
+                smear_stats *counts, struct failure *f);
 
 /* What the library takes for the instants' drawing, posing excluded. */
 bool exact_time(struct presenter *presenter, struct device *device, double time,

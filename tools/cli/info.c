@@ -169,9 +169,10 @@ static bool find_bounds(const struct scene_instant *instant, double low[3], doub
 
 static void print_memory(const struct memory_need *need, int width, int height)
 {
-    printf("memory at %dx%d: %zu bytes (rgb565, reach %d, tile %d, %u draws, %u triangles)\n", width,
-           height, need->total, need->reach, need->tile, (unsigned)need->draws,
+    printf("memory at %dx%d: %zu bytes (rgb565, reach %d, tile %d, %u draws, %u triangles)\n",
+           width, height, need->total, need->reach, need->tile, (unsigned)need->draws,
            (unsigned)need->triangles);
+    printf("  triangles drawn: %u\n", (unsigned)need->triangles_drawn);
     printf("  window %zu, band %zu, draws %zu, triangles %zu, rest %zu\n", need->window, need->band,
            need->draw_bytes, need->triangle_bytes, need->rest);
 }

@@ -414,7 +414,8 @@ static int check_builtin(const struct render_options *o)
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)
-            return say_bad_usage(only_files[i].option, "is for files, built-in scenes have their own");
+            return say_bad_usage(only_files[i].option,
+                                 "is for files, built-in scenes have their own");
     return STATUS_OK;
 }
 

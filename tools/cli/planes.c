@@ -38,7 +38,7 @@ void planes_close(struct planes *planes)
 
 bool planes_draw(struct planes *planes, const struct presented *presented, struct failure *f)
 {
-    /* Only the filter has velocities; the centre of a centred exposure is the frame's own instant. */
+    /* Only the filter has velocities; a centred exposure has the frame's own instant amid. */
     struct presented drawn = *presented;
     drawn.frame.method = SMEAR_RECONSTRUCT;
     drawn.frame.exposure = SMEAR_CENTRED;

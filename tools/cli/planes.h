@@ -8,7 +8,7 @@
 
 struct planes {
     struct device device;               /* draws for the planes alone */
-    struct float_image depth;           /* along the view in the scene's units; background +infinity */
+    struct float_image depth;           /* along the view, scene units; background +infinity */
     struct float_image velocity;        /* vx, vy, 0 in pixels per frame, y down; background 0 */
     const struct presented *presented;  /* being drawn */
 };

@@ -94,7 +94,8 @@ static bool open_devices(struct render *r, int reach, int tile, struct failure *
     }
     if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, r->width, r->height, f))
         return false;
-    if ((o->depth != NULL || o->velocity != NULL) && !planes_open(&r->planes, r->width, r->height, f))
+    if ((o->depth != NULL || o->velocity != NULL) &&
+        !planes_open(&r->planes, r->width, r->height, f))
         return false;
     size_t repeat = o->repeat > 0 ? (size_t)o->repeat : 1;
     r->times = calloc(repeat, sizeof *r->times);
@@ -116,20 +117,27 @@ static struct present_options options_of_frame(const struct render *r, long fram
     return p;
 }
 
+/* What a frame is drawn from. */
+struct shot {
+    long frame;
+    double time;
+    struct present_options options;
+    const struct presented *presented;  /* null with --exact: instants are posed one by one */
+};
+
 /* The picture in r->picture, counts in `report`. */
-static bool draw_frame(struct render *r, double time, const struct present_options *options,
-                       struct frame_report *report, struct failure *f)
+static bool draw_frame(struct render *r, const struct shot *shot, struct frame_report *report,
+                       struct failure *f)
 {
     struct device *shown = &r->device;
     if (r->options.exact) {
         shown = &r->exact.display;
-        if (!exact_draw(&r->exact, r->presenter, &r->device, time, options, r->options.samples,
-                        &report->counts, f))
+        if (!exact_draw(&r->exact, r->presenter, &r->device, shot->time, &shot->options,
+                        r->options.samples, &report->counts, f))
             return false;
     } else {
-        const struct presented *presented = presenter_frame(r->presenter, time, options, f);
-        if (presented == NULL || !device_fit(&r->device, presented, f) ||
-            !device_draw(&r->device, presented, f))
+        if (!device_fit(&r->device, shot->presented, f) ||
+            !device_draw(&r->device, shot->presented, f))
             return false;
         smear_get_stats(r->device.ctx, &report->counts);
     }
@@ -138,20 +146,15 @@ static bool draw_frame(struct render *r, double time, const struct present_optio
 }
 
 /* The frame again, for its times. */
-static bool time_frame(struct render *r, double time, const struct present_options *options,
-                       struct frame_report *report, struct failure *f)
+static bool time_frame(struct render *r, const struct shot *shot, struct frame_report *report,
+                       struct failure *f)
 {
     int repeat = r->options.repeat > 0 ? r->options.repeat : 1;
-    const struct presented *presented = NULL;
-    if (!r->options.exact) {
-        presented = presenter_frame(r->presenter, time, options, f);
-        if (presented == NULL)
-            return false;
-    }
     for (int i = 0; i < repeat; i++) {
-        bool ok = r->options.exact ? exact_time(r->presenter, &r->device, time, options,
-                                                r->options.samples, &r->times[i], f)
-                                   : device_time(&r->device, presented, &r->times[i], f);
+        bool ok = r->options.exact
+                      ? exact_time(r->presenter, &r->device, shot->time, &shot->options,
+                                   r->options.samples, &r->times[i], f)
+                      : device_time(&r->device, shot->presented, &r->times[i], f);
         if (!ok)
             return false;
     }
@@ -159,20 +162,22 @@ static bool time_frame(struct render *r, double time, const struct present_optio
     return true;
 }
 
-static int write_planes(struct render *r, long frame, double time,
-                        const struct present_options *options)
+static int write_planes(struct render *r, const struct shot *shot)
 {
     struct failure f = { "" };
     struct render_options *o = &r->options;
+    const struct presented *presented = shot->presented;
     if (o->depth == NULL && o->velocity == NULL)
         return STATUS_OK;
-    const struct presented *presented = presenter_frame(r->presenter, time, options, &f);
+    if (presented == NULL)
+        presented = presenter_frame(r->presenter, shot->time, &shot->options, &f);
     if (presented == NULL || !planes_draw(&r->planes, presented, &f))
         return say_bad_input(r->source.name, &f);
-    if (o->depth != NULL && !sink_add(&o->depth_sink, &r->picture, &r->planes.depth, frame, &f))
+    if (o->depth != NULL &&
+        !sink_add(&o->depth_sink, &r->picture, &r->planes.depth, shot->frame, &f))
         return say_bad_input(o->depth_sink.name, &f);
     if (o->velocity != NULL &&
-        !sink_add(&o->velocity_sink, &r->picture, &r->planes.velocity, frame, &f))
+        !sink_add(&o->velocity_sink, &r->picture, &r->planes.velocity, shot->frame, &f))
         return say_bad_input(o->velocity_sink.name, &f);
     return STATUS_OK;
 }
@@ -188,14 +193,18 @@ static int render_frame(struct render *r, long frame, double time)
     struct failure f = { "" };
     struct render_options *o = &r->options;
     struct frame_report report = { .frame = frame, .time = time };
-    const struct present_options options = options_of_frame(r, frame);
+    struct shot shot = { .frame = frame, .time = time, .options = options_of_frame(r, frame) };
     bool is_timed = o->stats != NULL || o->repeat > 0;
-    if (!draw_frame(r, time, &options, &report, &f) ||
-        (is_timed && !time_frame(r, time, &options, &report, &f)))
+    if (!o->exact) {
+        shot.presented = presenter_frame(r->presenter, time, &shot.options, &f);
+        if (shot.presented == NULL)
+            return say_bad_input(r->source.name, &f);
+    }
+    if (!draw_frame(r, &shot, &report, &f) || (is_timed && !time_frame(r, &shot, &report, &f)))
         return say_bad_input(r->source.name, &f);
     if (o->output != NULL && !sink_add(&o->picture_sink, &r->picture, NULL, frame, &f))
         return say_bad_input(o->picture_sink.name, &f);
-    int status = write_planes(r, frame, time, &options);
+    int status = write_planes(r, &shot);
     if (status != STATUS_OK)
         return status;
     if (r->stats.stream != NULL)

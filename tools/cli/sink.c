@@ -38,7 +38,8 @@ static bool find_pattern(const char *path, bool *has_pattern)
     return *d == 'd' && strchr(d, '%') == NULL;
 }
 
-int sink_open(struct sink *sink, const char *option, const char *path, long frames, bool floats_only)
+int sink_open(struct sink *sink, const char *option, const char *path, long frames,
+              bool floats_only)
 {
     *sink = (struct sink){ .path = path };
     if (strlen(path) + 16 > sizeof sink->name)
@@ -47,12 +48,13 @@ int sink_open(struct sink *sink, const char *option, const char *path, long fram
         return say_bad_usage(option, "the name must end in %s (\"%s\")",
                              floats_only ? ".pfm" : ".png, .ppm, .pfm, .gif or .apng", path);
     if (!find_pattern(path, &sink->has_pattern))
-        return say_bad_usage(option, "a %% may only be one %%d or %%04d, for the frame (\"%s\")", path);
+        return say_bad_usage(option, "a %% may only be one %%d or %%04d, the frame (\"%s\")", path);
     bool moves = sink->kind == SINK_GIF || sink->kind == SINK_APNG;
     if (moves && sink->has_pattern)
-        return say_bad_usage(option, "an animation holds all frames, it takes no %%d (\"%s\")", path);
+        return say_bad_usage(option, "an animation holds all frames and takes no %%d (\"%s\")",
+                             path);
     if (!moves && !sink->has_pattern && frames > 1)
-        return say_bad_usage(option, "%ld frames do not fit into one still file, use %%04d (\"%s\")",
+        return say_bad_usage(option, "%ld frames do not fit into one still, use %%04d (\"%s\")",
                              frames, path);
     return STATUS_OK;
 }

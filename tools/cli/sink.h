@@ -10,7 +10,7 @@
 enum sink_kind { SINK_PNG, SINK_PPM, SINK_PFM, SINK_GIF, SINK_APNG };
 
 struct sink {
-    const char *path;           /* with the frame pattern, if it has one; null: nobody wants frames */
+    const char *path;           /* with the frame pattern, if it has one; null: not wanted */
     enum sink_kind kind;
     bool has_pattern;           /* %d or %0Nd: the frame's index */
     double fps;
@@ -21,7 +21,8 @@ struct sink {
 
 /* Understands `path` (given by `option`), to which `frames` frames shall go; `floats_only` allows
  * nothing but PFM. Looks at nothing but the name. Returns a status. */
-int sink_open(struct sink *sink, const char *option, const char *path, long frames, bool floats_only);
+int sink_open(struct sink *sink, const char *option, const char *path, long frames,
+              bool floats_only);
 
 /* Adds the picture of frame `index`; `floats` goes into PFM files instead when it is not null. On
  * failure sink->name tells which file. Animations are complete only after sink_end. */

@@ -51,7 +51,8 @@ static int open_file(const struct source_view *view, struct source *out)
     else if (view->camera != NULL) {
         scene_view.camera = model_find_camera(&out->model, view->camera);
         if (scene_view.camera < 0)
-            status = say_bad_usage("--camera", "the file has no such camera (\"%s\")", view->camera);
+            status = say_bad_usage("--camera", "the file has no such camera (\"%s\")",
+                                   view->camera);
     } else if (!view->has_eye && out->model.camera_count > 0) {
         scene_view.camera = 0;
     }

@@ -32,8 +32,8 @@ const char *source_builtin_name(const char *name);
 int source_open(const char *name, const struct source_view *view, struct source *out);
 void source_close(struct source *source);
 
-/* The motion of each draw of an instant, by `NODE=full|camera|none` settings: each holds for the node
- * (by name, else by index) and all below it, later ones over earlier ones. Returns a status. */
+/* The motion of each draw of an instant, by `NODE=full|camera|none` settings: each holds for the
+ * node (by name, else by index) and all below it, later ones over earlier ones. A status. */
 int source_motion(const struct source *source, const char *const *setting, int setting_count,
                   const struct scene_instant *instant, uint8_t *motion);
 

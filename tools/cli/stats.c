@@ -66,12 +66,12 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
     fprintf(s->stream, " \"us\":{\"submit\":%.1f,\"raster\":%.1f,\"reduce\":%.1f,\"class\":0,"
             "\"blur\":%.1f,\"merge\":0,\"convert\":%.1f,\"total\":%.1f},\n",
             us(t->submit), us(t->raster), us(t->reduce), us(t->blur), us(t->convert), us(t->total));
-    fprintf(s->stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32 ",\"dropped\":%" PRIu32
-            ",\"split\":%" PRIu32 "},\n", c->triangles_in, c->triangles_drawn, c->triangles_dropped,
-            c->triangles_split);
+    fprintf(s->stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32
+            ",\"dropped\":%" PRIu32 ",\"split\":%" PRIu32 "},\n",
+            c->triangles_in, c->triangles_drawn, c->triangles_dropped, c->triangles_split);
     fprintf(s->stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
-    fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32 ",\"complex\":%" PRIu32
-            "},\n", c->tiles_still, c->tiles_uniform, c->tiles_complex);
+    fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
+            ",\"complex\":%" PRIu32 "},\n", c->tiles_still, c->tiles_uniform, c->tiles_complex);
     fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
             ",\"reconstruct\":%" PRIu32 "},\n", c->tiles_none, c->tiles_accumulate,
             c->tiles_reconstruct);

@@ -27,8 +27,8 @@ struct stats_file {
     long frames;
 };
 
-/* What is there and no regular file (a terminal, a pipe, a link such as /dev/stdout) is written to as
- * it is. */
+/* What is there and no regular file (a terminal, a pipe, a link such as /dev/stdout) is written to
+ * as it is. */
 bool stats_open(struct stats_file *s, const char *path, struct failure *f);
 void stats_add(struct stats_file *s, const struct frame_report *report);
 bool stats_end(struct stats_file *s, struct failure *f);
