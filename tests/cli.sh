@@ -567,11 +567,13 @@ claim "--help" works --help
 claim "-h" works -h
 works help render >/dev/null
 for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure \
-    poses method samples exact reconstruct quality target reach tile motion cut light format dither \
-    arena threads repeat depth velocity stats; do
+    poses method samples exact reconstruct quality target reach tile motion cut light format \
+    dither arena threads repeat depth velocity stats; do
     claim "help knows --$option" out_has "--$option"
 done
 usage nosuch help nosuch
+usage view help view
+claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
 
 # ------------------------------------------------------------------ bad usage
@@ -723,6 +725,9 @@ mkdir "$base/in/there.png"
 input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
 if [ -c /dev/full ]; then
     input /dev/full render "$plate" --stats /dev/full
+    "$smear" help >/dev/full 2>"$base/err"
+    claim "a full disk is an error" equals "$? $(cat "$base/err")" \
+        "1 smear: standard output: cannot be written (No space left on device)"
 fi
 claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"

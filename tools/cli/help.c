@@ -143,7 +143,8 @@ int help_print(const char *command)
         return STATUS_OK;
     }
     if (found < 0)
-        return say_bad_usage(command, "unknown command (smear help)");
+        return say_bad_usage(command, command_is_planned(command) ? "not built yet"
+                                                                  : "unknown command (smear help)");
     for (const char *const *text = texts[found]; *text != NULL; text++)
         fputs(*text, stdout);
     return STATUS_OK;
