@@ -171,7 +171,8 @@ static bool circling_pose(struct scene *scene, double time, struct scene_instant
     return true;
 }
 
-static bool held_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f)
+static bool held_pose(struct scene *scene, double time, struct scene_instant *out,
+                      struct failure *f)
 {
     struct wrapped *w = scene->data;
     (void)time;
@@ -430,7 +431,8 @@ bool shot_take(struct subject *s, const struct present_options *present,
                const struct shot_options *o, struct shot *out)
 {
     struct failure f = {{0}};
-    int width = o->width != 0 ? o->width : s->width, height = o->height != 0 ? o->height : s->height;
+    int width = o->width != 0 ? o->width : s->width,
+        height = o->height != 0 ? o->height : s->height;
     *out = (struct shot){0};
     const struct presented *p = presenter_frame(s->presenter, s->time, present, &f);
     if (p == NULL)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* accuracy.h - what the tests of accuracy share: subjects to draw, pictures the library has drawn of
- * them with all that lies under the picture, and tables of figures.
+/* accuracy.h - what the tests of accuracy share: subjects to draw, pictures the library has drawn
+ * of them with all that lies under the picture, and tables of figures.
  *
- * Used by test_accuracy.c (rasterizer, accumulation), test_blur.c (filters) and test_assets.c (model
- * files). Host only. */
+ * Used by test_accuracy.c (rasterizer, accumulation), test_blur.c (filters) and test_assets.c
+ * (model files). Host only. */
 #ifndef SMEAR_TESTS_ACCURACY_H
 #define SMEAR_TESTS_ACCURACY_H
 
@@ -34,8 +34,9 @@ bool subject_open(struct subject *s, const char *name);
 bool subject_open_file(struct subject *s, const char *path, int width, int height);
 void subject_close(struct subject *s);
 
-/* From now on the camera circles the middle between its planes, about the vertical: everything moves.
- * At the subject's time it is where it was. False when out of memory: the subject is as before. */
+/* From now on the camera circles the middle between its planes, about the vertical: everything
+ * moves. At the subject's time it is where it was. False when out of memory: the subject is as
+ * before. */
 bool subject_circle(struct subject *s, double radians_per_second);
 
 /* From now on nothing moves: every instant is that of the subject's time. */
@@ -111,8 +112,8 @@ void truth_forget(void);
 /* printf to where tests print. */
 void say(const char *format, ...);
 
-/* A check with its figures: prints file, line, subject and both numbers when `got` is above `bar` or
- * not a number. */
+/* A check with its figures: prints file, line, subject and both numbers when `got` is above `bar`
+ * or not a number. */
 bool check_bar(double got, double bar, const char *subject, const char *what, const char *file,
                int line);
 #define CHECK_BAR(got, bar, subject) \

@@ -40,8 +40,8 @@
  *                    1))); n is the unit perpendicular of v_max on v_p's side: (-y, x)/L, negated
  *                    if its product with v_p is negative
  *
- * What a rolling window costs (`window`): while a tile row is finished, the one below it is drawn but
- * not the one below that. Where v_max is looked up in the tile row below the pixel's own, its
+ * What a rolling window costs (`window`): while a tile row is finished, the one below it is drawn
+ * but not the one below that. Where v_max is looked up in the tile row below the pixel's own, its
  * neighbour maximum lacks the three tiles below it. And tiles in whose 3x3 nothing moves are
  * copied, whatever a look-up a quarter tile away would have found. */
 #ifndef SMEAR_TESTS_FILTER_REF_H
