@@ -1,0 +1,1829 @@
+/* SPDX-License-Identifier: MIT */
+/* test_api.c - the library through its public interface: arguments, order, memory, capacities, poses kept from frame
+ * to frame, bands, workers and the filter alone. Host only: threads and floating point. */
+#include "smear.h"
+
+#include "test.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+void suite_api(void);
+
+/* ------------------------------------------------------------------ a context with everything around it */
+
+enum { GUARD = 64, PATTERN = 0xa5 };
+
+/* A context in a block with guard bytes, and all that its callbacks were given. */
+struct rig {
+    smear_desc desc;
+    smear_context *ctx;
+    uint8_t *block;             /* GUARD bytes, the context's memory, GUARD bytes */
+    size_t bytes;
+    uint8_t *picture;           /* band after band */
+    size_t picture_size, picture_room;
+    int bands, next_row;
+    bool bands_in_order;
+    int fail_at, fail_with;     /* flush of band fail_at returns fail_with; -1: none */
+    uint32_t *color;            /* inspected rows */
+    uint16_t *depth;
+    int32_t *velocity;
+    int inspected;
+};
+
+static int take_band(void *user, const smear_band *band)
+{
+    struct rig *r = user;
+    if (band->y != r->next_row || band->width != r->desc.width || band->size == 0)
+        r->bands_in_order = false;
+    r->next_row = band->y + band->height;
+    if (r->picture_size + band->size <= r->picture_room)
+        memcpy(r->picture + r->picture_size, band->pixels, band->size);
+    r->picture_size += band->size;
+    return r->bands++ == r->fail_at ? r->fail_with : 0;
+}
+
+static void take_row(void *user, int y, const uint32_t *color, const uint16_t *depth, const int32_t *velocity)
+{
+    struct rig *r = user;
+    size_t w = (size_t)r->desc.width, at = (size_t)y * w;
+    memcpy(r->color + at, color, w * sizeof *color);
+    memcpy(r->depth + at, depth, w * sizeof *depth);
+    memcpy(r->velocity + 2 * at, velocity, 2 * w * sizeof *velocity);
+    r->inspected++;
+}
+
+static smear_desc small_desc(int width, int height)
+{
+    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8, .max_triangles = 400,
+                         .max_draws = 8, .format = SMEAR_XRGB8888 };
+}
+
+/* False (and a failed check) when the context cannot be made. */
+static bool rig_open(struct rig *r, const smear_desc *desc, bool inspect)
+{
+    memset(r, 0, sizeof *r);
+    r->desc = *desc;
+    if (r->desc.flush == NULL)
+        r->desc.flush = take_band;
+    r->desc.inspect = inspect ? take_row : NULL;
+    r->desc.user = r;
+    r->fail_at = -1;
+    size_t pixels = (size_t)desc->width * (size_t)desc->height;
+    r->bytes = smear_memory_size(&r->desc);
+    r->block = malloc(r->bytes + 2 * GUARD);
+    r->picture_room = pixels * 4;
+    r->picture = calloc(pixels, 4);
+    r->color = calloc(pixels, sizeof *r->color);
+    r->depth = calloc(pixels, sizeof *r->depth);
+    r->velocity = calloc(pixels, 2 * sizeof *r->velocity);
+    if (!CHECK(r->block != NULL && r->picture != NULL && r->color != NULL && r->depth != NULL
+               && r->velocity != NULL))
+        return false;
+    memset(r->block, PATTERN, r->bytes + 2 * GUARD);
+    return CHECK(r->bytes > 0)
+        && CHECK_EQ(smear_init(&r->ctx, &r->desc, r->block + GUARD, r->bytes), SMEAR_OK);
+}
+
+static bool guards_intact(const struct rig *r)
+{
+    for (size_t i = 0; i < GUARD; i++)
+        if (r->block[i] != PATTERN || r->block[GUARD + r->bytes + i] != PATTERN)
+            return false;
+    return true;
+}
+
+static void rig_close(struct rig *r)
+{
+    if (r->block != NULL)
+        CHECK(guards_intact(r));
+    free(r->block);
+    free(r->picture);
+    free(r->color);
+    free(r->depth);
+    free(r->velocity);
+    memset(r, 0, sizeof *r);
+}
+
+static void rig_forget_output(struct rig *r)
+{
+    r->picture_size = 0;
+    r->bands = r->next_row = r->inspected = 0;
+    r->bands_in_order = true;
+}
+
+/* Begins, submits, renders; returns the first error. */
+static int rig_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count)
+{
+    rig_forget_output(r);
+    int result = smear_begin(r->ctx, frame);
+    for (int i = 0; i < count && result == SMEAR_OK; i++)
+        result = smear_submit(r->ctx, &draw[i]);
+    return result != SMEAR_OK ? result : smear_render(r->ctx);
+}
+
+/* One more frame into a fresh copy of the picture; the caller frees it. */
+static uint8_t *rig_picture(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count)
+{
+    CHECK_EQ(rig_frame(r, frame, draw, count), SMEAR_OK);
+    CHECK(r->bands_in_order && r->next_row == r->desc.height && r->picture_size <= r->picture_room);
+    uint8_t *copy = malloc(r->picture_room);
+    if (CHECK(copy != NULL))
+        memcpy(copy, r->picture, r->picture_room);
+    return copy;
+}
+
+static bool same_picture(const struct rig *r, const uint8_t *picture)
+{
+    for (size_t i = 0; i < r->picture_size; i++)
+        if (r->picture[i] != picture[i])
+            return CHECK_EQ((int64_t)i, -1);        /* where they differ */
+    return true;
+}
+
+/* ------------------------------------------------------------------ poses and cameras */
+
+static int32_t q16(double v) { return (int32_t)lrint(v * 65536); }
+static int32_t q24(double v) { return (int32_t)lrint(v * (1 << 24)); }
+
+/* Turned by `yaw` about y, then by `pitch` about x; then moved. */
+static smear_transform pose_at(double x, double y, double z, double yaw, double pitch)
+{
+    double cy = cos(yaw), sy = sin(yaw), cp = cos(pitch), sp = sin(pitch);
+    return (smear_transform){ { q24(cy), q24(sy * sp), q24(sy * cp), 0, q24(cp), q24(-sp),
+                                q24(-sy), q24(cy * sp), q24(cy * cp) },
+                              { q16(x), q16(y), q16(z) } };
+}
+
+static smear_camera camera_at(double x, double y, double z, double yaw)
+{
+    return (smear_camera){ .pose = pose_at(x, y, z, yaw, 0), .focal = 65536, .near_plane = 6554,
+                           .far_plane = 100 * 65536 };
+}
+
+/* ------------------------------------------------------------------ meshes: one step is 1/256 unit */
+
+enum { STEP = 8 };
+
+/* A square of edge 2 in the plane z = 0, seen from +z. */
+static const int16_t square_position[] = { -256, -256, 0, 256, -256, 0, 256, 256, 0, -256, 256, 0 };
+static const int16_t square_uv[] = { 0, 32767, 32767, 32767, 32767, 0, 0, 0 };
+static const uint16_t square_index[] = { 0, 1, 2, 0, 2, 3 };
+static const smear_mesh square = {
+    .position = square_position, .uv = square_uv, .index = square_index, .triangle_count = 2,
+    .vertex_count = 4, .shift = STEP
+};
+
+static const int16_t cube_position[] = {
+    -256, -256, -256, 256, -256, -256, 256, 256, -256, -256, 256, -256,
+    -256, -256, 256, 256, -256, 256, 256, 256, 256, -256, 256, 256
+};
+static const int8_t cube_normal[] = {
+    -73, -73, -73, 73, -73, -73, 73, 73, -73, -73, 73, -73, -73, -73, 73, 73, -73, 73, 73, 73, 73, -73, 73, 73
+};
+static const uint8_t cube_color[] = {
+    255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 0, 255,
+    0, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 64, 64, 64, 255
+};
+static const uint16_t cube_index[] = {
+    4, 5, 6, 4, 6, 7, 1, 0, 3, 1, 3, 2, 5, 1, 2, 5, 2, 6, 0, 4, 7, 0, 7, 3, 7, 6, 2, 7, 2, 3, 0, 1, 5, 0, 5, 4
+};
+static const smear_mesh cube = {
+    .position = cube_position, .normal = cube_normal, .color = cube_color, .index = cube_index,
+    .triangle_count = 12, .vertex_count = 8, .shift = STEP
+};
+
+static uint32_t checker[8 * 8];
+static const smear_texture checker_texture = { .texels = checker, .width = 8, .height = 8 };
+
+static void make_checker(void)
+{
+    for (uint32_t i = 0; i < 64; i++)
+        checker[i] = ((i ^ i >> 3) & 1u ? 0xffe0c020u : 0xff2040a0u) + (i << 8);
+}
+
+/* A busy scene at time t: ground that passes under the camera, two cubes, a pane of glass, a cut-out. */
+enum { SCENE_DRAWS = 5 };
+
+struct scene {
+    smear_transform pose[SCENE_DRAWS];
+    smear_material material[SCENE_DRAWS];
+    smear_draw draw[SCENE_DRAWS];
+    smear_camera camera;
+    smear_frame frame;
+};
+
+static uint32_t leaf[16 * 16];
+static const smear_texture leaf_texture = { .texels = leaf, .width = 16, .height = 16 };
+
+static void make_scene(struct scene *s, double t, int method)
+{
+    make_checker();
+    for (uint32_t i = 0; i < 256; i++)
+        leaf[i] = (i & 4u) ^ (i >> 4 & 4u) ? 0xff30b040u : 0x0030b040u;
+    memset(s, 0, sizeof *s);
+    s->pose[0] = pose_at(0, -1, -2, 0, -1.5707963);
+    for (int i = 0; i < 9; i++)
+        s->pose[0].basis[i] *= 6;
+    s->pose[1] = pose_at(-1.5 + t, 0.2, -5, t, 0.3);
+    s->pose[2] = pose_at(1.5, 0.3 - 0.5 * t, -6, -2 * t, 0.1);
+    s->pose[3] = pose_at(0.4 * t, 0, -3.5, 0.2, 0);
+    s->pose[4] = pose_at(0.5 - 0.8 * t, 0.4, -4, 0, 0);
+    s->material[0] = (smear_material){ .texture = &checker_texture };
+    s->material[2] = (smear_material){ .color = { 255, 180, 90, 255 } };
+    s->material[3] = (smear_material){ .color = { 80, 160, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1 };
+    s->material[4] = (smear_material){ .texture = &leaf_texture, .alpha = SMEAR_CUTOUT, .double_sided = 1 };
+    for (int i = 0; i < SCENE_DRAWS; i++)
+        s->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = i == 1 || i == 2 ? &cube : &square,
+                                   .material = &s->material[i], .now = &s->pose[i] };
+    s->camera = camera_at(0.1 * t, 0.1, 0, 0.05 * t);
+    s->frame = (smear_frame){ .camera = &s->camera, .method = (uint8_t)method, .clear = 0x203040 };
+}
+
+static int render_scene(struct rig *r, double t, int method)
+{
+    struct scene s;
+    make_scene(&s, t, method);
+    s.frame.camera = &s.camera;
+    return rig_frame(r, &s.frame, s.draw, SCENE_DRAWS);
+}
+
+/* ------------------------------------------------------------------ memory */
+
+static void test_the_memory_macro_is_never_below_the_memory_function(void)
+{
+    static const int width[] = { 1, 7, 8, 16, 33, 64, 96, 127, 128, 160, 240, 320, 321, 479, 480, 640, 2047, 2048 };
+    static const int height[] = { 1, 5, 8, 16, 17, 64, 128, 239, 240, 320, 480, 2048 };
+    static const unsigned reach[] = { 1, 5, 8, 9, 12, 15, 16, 17, 32, 33, 64 };
+    static const uint32_t triangles[] = { 1, 2, 7, 100, 600, 1024, 5000, 100000 };
+    static const int draws[] = { 1, 2, 8, 16, 255, 4096, 65535 };
+    for (size_t w = 0; w < sizeof width / sizeof width[0]; w++)
+        for (size_t h = 0; h < sizeof height / sizeof height[0]; h++)
+            for (size_t k = 0; k < sizeof reach / sizeof reach[0]; k++)
+                for (size_t n = 0; n < sizeof triangles / sizeof triangles[0]; n++)
+                    for (size_t d = 0; d < sizeof draws / sizeof draws[0]; d++)
+                        for (int format = SMEAR_RGB565; format <= SMEAR_L1_PAGES; format++) {
+                            smear_desc desc = {
+                                .width = (int16_t)width[w], .height = (int16_t)height[h],
+                                .reach = (int16_t)reach[k], .max_triangles = triangles[n],
+                                .max_draws = (uint16_t)draws[d], .format = (uint8_t)format, .flush = take_band
+                            };
+                            size_t room = SMEAR_MEMORY_SIZE(width[w], height[h], reach[k], triangles[n], draws[d]);
+                            size_t need = smear_memory_size(&desc);
+                            if (!CHECK(need > 0) || !CHECK(need <= room) || !CHECK(room % 8 == 0)) {
+                                CHECK_EQ(width[w], 0);
+                                CHECK_EQ(height[h], 0);
+                                CHECK_EQ(reach[k], 0);
+                                CHECK_EQ(triangles[n], 0);
+                                CHECK_EQ(draws[d], 0);
+                                return;
+                            }
+                        }
+}
+
+static void test_the_memory_macro_wastes_less_than_an_eighth(void)
+{
+    smear_desc desc = { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8,
+                        .format = SMEAR_RGB565, .flush = take_band };
+    size_t room = SMEAR_MEMORY_SIZE(240, 240, 12, 600, 8), need = smear_memory_size(&desc);
+    CHECK(room - need < need / 8);
+}
+
+static void test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_it_alone(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 64, 48 }, { 100, 70 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int variant = 0; variant < 8; variant++) {
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant);
+            desc.sharp = variant == 1;
+            desc.bands = variant == 2 ? 1 : 0;
+            desc.reach = variant == 3 ? 20 : 8;
+            desc.accumulate = variant == 4;
+            desc.max_triangles = variant == 5 ? 1 : 60;
+            struct rig r;
+            if (rig_open(&r, &desc, variant & 1)) {
+                smear_context *other = (smear_context *)&r;
+                CHECK_EQ(smear_init(&other, &r.desc, r.block + GUARD, r.bytes - 1), SMEAR_ERR_MEMORY);
+                CHECK(other == NULL);
+                for (int k = 0; k < 3; k++) {
+                    CHECK_EQ(render_scene(&r, k * 0.2, desc.accumulate ? SMEAR_ACCUMULATE : 0), SMEAR_OK);
+                    CHECK(guards_intact(&r));
+                }
+            }
+            rig_close(&r);
+        }
+}
+
+static void test_memory_must_exist_and_be_aligned(void)
+{
+    smear_desc desc = small_desc(16, 16);
+    desc.flush = take_band;
+    size_t bytes = smear_memory_size(&desc);
+    uint64_t *memory = malloc(bytes + 16);
+    smear_context *ctx = NULL;
+    CHECK_EQ(smear_init(&ctx, &desc, NULL, bytes), SMEAR_ERR_MEMORY);
+    for (int shift = 1; shift < 8; shift++)
+        CHECK_EQ(smear_init(&ctx, &desc, (uint8_t *)memory + shift, bytes + 8), SMEAR_ERR_MEMORY);
+    CHECK_EQ(smear_init(&ctx, &desc, memory, 0), SMEAR_ERR_MEMORY);
+    CHECK(ctx == NULL);
+    CHECK_EQ(smear_init(&ctx, &desc, memory, bytes + 16), SMEAR_OK);
+    CHECK(ctx != NULL);
+    smear_stats stats;
+    smear_get_stats(ctx, &stats);
+    CHECK_EQ(stats.arena_bytes, (int64_t)bytes);
+    free(memory);
+}
+
+/* ------------------------------------------------------------------ arguments */
+
+static void test_every_bad_field_of_a_desc_is_refused(void)
+{
+    static const struct { size_t offset, size; int32_t value; } bad[] = {
+#define BAD(field, value) { offsetof(smear_desc, field), sizeof ((smear_desc *)0)->field, value }
+        BAD(width, 0), BAD(width, -1), BAD(width, 2049), BAD(height, 0), BAD(height, -5), BAD(height, 2049),
+        BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
+        BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(dither, SMEAR_DITHER_BLUE + 1), BAD(bands, 3),
+        BAD(workers, 9), BAD(workers, 255), BAD(band_rows, 8), BAD(band_rows, -8), BAD(band_rows, 12),
+        BAD(vertex_cache, 8), BAD(vertex_cache, 65), BAD(vertex_cache, 8192),
+        BAD(max_triangles, (16 << 20) + 1), BAD(max_triangles, -1)
+#undef BAD
+    };
+    uint8_t *memory = malloc(1 << 20);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        smear_desc desc = small_desc(64, 48);
+        desc.flush = take_band;
+        desc.tile = 16;
+        CHECK(smear_memory_size(&desc) > 0);
+        int16_t half = (int16_t)bad[i].value;
+        uint8_t byte = (uint8_t)bad[i].value;
+        const void *value = bad[i].size == 4 ? (const void *)&bad[i].value
+                          : bad[i].size == 2 ? (const void *)&half : (const void *)&byte;
+        memcpy((uint8_t *)&desc + bad[i].offset, value, bad[i].size);
+        smear_context *ctx = NULL;
+        if (!CHECK(smear_memory_size(&desc) == 0)
+            || !CHECK_EQ(smear_init(&ctx, &desc, memory, 1 << 20), SMEAR_ERR_ARG))
+            CHECK_EQ((int64_t)i, -1);
+        CHECK(ctx == NULL);
+    }
+    smear_desc desc = small_desc(64, 48);
+    smear_context *ctx = NULL;
+    CHECK_EQ(smear_init(&ctx, &desc, memory, 1 << 20), SMEAR_ERR_ARG);      /* no flush */
+    desc.flush = take_band;
+    CHECK_EQ(smear_init(NULL, &desc, memory, 1 << 20), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_init(&ctx, NULL, memory, 1 << 20), SMEAR_ERR_ARG);
+    CHECK(smear_memory_size(NULL) == 0);
+    free(memory);
+}
+
+static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
+{
+    smear_desc given = { .width = 100, .height = 80, .reach = 4, .tile = 8, .format = SMEAR_XRGB8888,
+                         .dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
+                         .max_triangles = 1024, .vertex_cache = 64 };
+    smear_desc zero = { .width = 100, .height = 80 };
+    struct rig a, b;
+    if (rig_open(&a, &given, false) && rig_open(&b, &zero, false)) {
+        CHECK(a.bytes == b.bytes);
+        for (int k = 0; k < 3; k++) {
+            struct scene s;
+            make_scene(&s, 0.3 * k, SMEAR_RECONSTRUCT);
+            s.frame.samples = 8;
+            s.frame.shutter_degrees = 180;
+            uint8_t *picture = rig_picture(&a, &s.frame, s.draw, SCENE_DRAWS);
+            CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
+            same_picture(&b, picture);
+            free(picture);
+        }
+        rig_close(&b);
+    }
+    rig_close(&a);
+}
+
+static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        const smear_camera good = s.camera;
+        smear_camera bad[16];
+        int count = 0;
+        for (int i = 0; i < 16; i++)
+            bad[i] = good;
+        bad[count++].focal = 0;
+        bad[count++].focal = -1;
+        bad[count++].near_plane = 0;
+        bad[count++].near_plane = -65536;
+        bad[count++].far_plane = good.near_plane;
+        bad[count++].far_plane = -1;
+        bad[count++].half_height = -1;
+        bad[count].half_height = 65536;
+        bad[count++].far_plane = 0;                 /* orthographic needs one */
+        bad[count++].pose.basis[4] = 2 * SMEAR_BASIS_ONE + 1;
+        bad[count++].pose.basis[8] = INT32_MIN;
+        for (int i = 0; i < count; i++) {
+            smear_frame f = { .camera = &bad[i] };
+            if (!CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG))
+                CHECK_EQ(i, -1);
+            f.camera = &good;
+            f.open = &bad[i];
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+            f.open = NULL;
+            f.close = &bad[i];
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        smear_frame f = { .camera = NULL };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_begin(r.ctx, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_begin(NULL, &s.frame), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .method = SMEAR_RECONSTRUCT + 1 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .method = SMEAR_ACCUMULATE };       /* desc.accumulate is 0 */
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .exposure = SMEAR_LEADING + 1 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .light = SMEAR_LIGHT_ENCODED + 1 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .samples = 1025 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .shutter_degrees = 3601 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
+        CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
+    }
+    rig_close(&r);
+
+    desc.sharp = 1;
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_RECONSTRUCT);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_ERR_ARG);      /* no window */
+        CHECK_EQ(render_scene(&r, 0, SMEAR_DEFAULT_METHOD), SMEAR_OK);
+    }
+    rig_close(&r);
+}
+
+static void test_every_bad_draw_is_refused_and_the_rest_is_drawn(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (!rig_open(&r, &desc, false)) {
+        rig_close(&r);
+        return;
+    }
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 1);
+
+    smear_mesh mesh[12];
+    int meshes = 0;
+    for (int i = 0; i < 12; i++)
+        mesh[i] = square;
+    mesh[meshes++].position = NULL;
+    mesh[meshes++].index = NULL;
+    mesh[meshes++].shift = -33;
+    mesh[meshes++].shift = 63;
+    mesh[meshes++].uv_shift = 16;
+    mesh[meshes++].scale = -1;
+    mesh[meshes++].offset[0] = (1 << 20) + 1;
+    mesh[meshes++].offset[2] = -(1 << 20) - 1;
+    smear_texture texture[12];
+    int textures = 0;
+    for (int i = 0; i < 12; i++)
+        texture[i] = checker_texture;
+    texture[textures++].texels = NULL;
+    texture[textures++].width = 0;
+    texture[textures++].height = 0;
+    texture[textures++].width = 4097;
+    texture[textures++].height = 65535;
+    texture[textures++].format = SMEAR_TEXEL_PALETTE8 + 1;
+    texture[textures++].format = SMEAR_TEXEL_PALETTE8;      /* no palette */
+    texture[textures++].wrap_u = SMEAR_MIRROR + 1;
+    texture[textures++].wrap_v = 200;
+
+    rig_forget_output(&r);
+    CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+    for (int i = 0; i < meshes; i++) {
+        smear_draw d = { .mesh = &mesh[i], .now = &s.pose[3] };
+        CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    }
+    for (int i = 0; i < textures; i++) {
+        smear_material m = { .texture = &texture[i] };
+        smear_draw d = { .mesh = &square, .material = &m, .now = &s.pose[3] };
+        CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    }
+    smear_material m = { .alpha = SMEAR_BLEND + 1 };
+    smear_draw d = { .mesh = &square, .material = &m, .now = &s.pose[3] };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    d = (smear_draw){ .mesh = NULL };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    d = (smear_draw){ .mesh = &square, .motion = SMEAR_MOTION_NONE + 1 };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(r.ctx, NULL), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(NULL, &s.draw[1]), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    same_picture(&r, picture);
+    free(picture);
+    rig_close(&r);
+}
+
+static void test_calls_out_of_turn_are_refused(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        static const uint32_t color[32], depth[32];
+        static const int16_t velocity[64];
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);             /* twice */
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        CHECK_EQ(smear_filter_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);
+        for (int y = 0; y < 32; y++)
+            CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);     /* one row too many */
+        CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
+    }
+    rig_close(&r);
+}
+
+static void test_a_frame_begun_again_is_forgotten(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 1);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
+        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
+        same_picture(&r, picture);
+        free(picture);
+    }
+    rig_close(&r);
+}
+
+static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
+{
+    smear_desc desc = small_desc(48, 32);
+    desc.max_draws = 2;
+    struct rig r;
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 2);
+        rig_forget_output(&r);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[2]), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[0]), SMEAR_ERR_FULL);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[3]), SMEAR_ERR_FULL);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        same_picture(&r, picture);
+        free(picture);
+    }
+    rig_close(&r);
+}
+
+/* ------------------------------------------------------------------ capacity */
+
+/* Frames 0 to 2 of the scene with ample room, then with `tight`: the same pictures, unless triangles are dropped.
+ * Returns how often the tighter one was split, -1 when triangles were dropped. */
+static int compare_with_ample(const smear_desc *tight, int method)
+{
+    smear_desc ample = *tight;
+    ample.max_triangles = 2000;
+    struct rig a, b;
+    int splits = -1;
+    if (rig_open(&a, &ample, false) && rig_open(&b, tight, false)) {
+        splits = 0;
+        for (int k = 0; k < 3 && splits >= 0; k++) {
+            smear_stats sa, sb;
+            CHECK_EQ(render_scene(&a, 0.25 * k, method), SMEAR_OK);
+            CHECK_EQ(render_scene(&b, 0.25 * k, method), SMEAR_OK);
+            smear_get_stats(a.ctx, &sa);
+            smear_get_stats(b.ctx, &sb);
+            CHECK_EQ(sa.triangles_split, 0);
+            CHECK_EQ(sa.triangles_dropped, 0);
+            CHECK(b.bands_in_order);
+            if (sb.triangles_dropped != 0)
+                splits = -1;
+            else if (same_picture(&a, b.picture))
+                splits += (int)sb.triangles_split;
+        }
+        rig_close(&b);
+    }
+    rig_close(&a);
+    return splits;
+}
+
+static void test_a_full_triangle_list_changes_no_pixel(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT };
+    for (int m = 0; m < 3; m++) {
+        int most = 0;
+        for (uint32_t room = 120; room >= 20; room -= 4) {
+            smear_desc tight = small_desc(96, 136);
+            tight.accumulate = 1;
+            tight.max_triangles = room;
+            int splits = compare_with_ample(&tight, method[m]);
+            if (splits < 0)             /* a single row is too much by now */
+                break;
+            most = splits > most ? splits : most;
+        }
+        CHECK(most > 0);
+    }
+}
+
+/* A tall heap of small triangles: many rows, each with a handful. */
+static int16_t heap_position[3 * 3 * 300];
+static uint16_t heap_index[3 * 300];
+static uint8_t heap_color[4 * 300];
+
+static smear_mesh make_heap(void)
+{
+    for (int i = 0; i < 300; i++) {
+        int x = -200 + i * 37 % 400, y = -230 + i * 460 / 300;
+        const int corner[3][2] = { { x, y }, { x + 60, y + i % 7 }, { x + 20, y + 40 } };
+        for (int k = 0; k < 3; k++) {
+            heap_position[3 * (3 * i + k)] = (int16_t)corner[k][0];
+            heap_position[3 * (3 * i + k) + 1] = (int16_t)corner[k][1];
+            heap_position[3 * (3 * i + k) + 2] = (int16_t)(i * 13 % 50);
+            heap_index[3 * i + k] = (uint16_t)(3 * i + k);
+        }
+        for (int c = 0; c < 3; c++)
+            heap_color[4 * i + c] = (uint8_t)(i * (31 + 20 * c));
+        heap_color[4 * i + 3] = 255;
+    }
+    return (smear_mesh){ .position = heap_position, .index = heap_index, .face_color = heap_color,
+                         .triangle_count = 300, .vertex_count = 900, .shift = STEP };
+}
+
+static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    smear_mesh heap = make_heap();
+    for (int m = 0; m < 2; m++)
+        for (int alpha = SMEAR_OPAQUE; alpha <= SMEAR_BLEND; alpha += SMEAR_BLEND) {
+            struct rig ample, tight;
+            smear_desc desc = small_desc(64, 128);
+            desc.max_triangles = 2000;
+            smear_desc small = desc;
+            small.max_triangles = 220;
+            if (rig_open(&ample, &desc, false) && rig_open(&tight, &small, false)) {
+                for (int k = 0; k < 3; k++) {
+                    smear_transform pose = pose_at(0.1 * k, 0, -2, 0.1 * k, 0);
+                    smear_material material = { .color = { 255, 255, 255, 100 }, .alpha = (uint8_t)alpha };
+                    smear_camera camera = camera_at(0, 0, 0, 0);
+                    smear_draw d = { .id = 7, .mesh = &heap, .material = &material, .now = &pose };
+                    smear_frame f = { .camera = &camera, .method = method[m] };
+                    CHECK_EQ(rig_frame(&ample, &f, &d, 1), SMEAR_OK);
+                    CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
+                    smear_stats stats;
+                    smear_get_stats(tight.ctx, &stats);
+                    CHECK(stats.triangles_split > 1);
+                    CHECK_EQ(stats.triangles_dropped, 0);
+                    same_picture(&ample, tight.picture);
+                }
+                rig_close(&tight);
+            }
+            rig_close(&ample);
+        }
+}
+
+static void test_a_row_that_does_not_fit_drops_triangles_and_counts_them(void)
+{
+    smear_mesh heap = make_heap();
+    struct rig r;
+    smear_desc desc = small_desc(64, 16);
+    desc.max_triangles = 8;
+    if (rig_open(&r, &desc, false)) {
+        smear_transform pose = pose_at(0, 0, -2, 0, 0);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_draw d = { .mesh = &heap, .now = &pose };
+        smear_frame f = { .camera = &camera };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        smear_stats stats;
+        smear_get_stats(r.ctx, &stats);
+        CHECK(stats.triangles_dropped > 0);
+        CHECK(stats.triangles_drawn > 0);
+        CHECK_EQ(stats.triangles_in, 300);
+        CHECK(r.bands_in_order && r.next_row == 16);
+    }
+    rig_close(&r);
+}
+
+static void test_the_size_of_the_vertex_cache_changes_no_pixel(void)
+{
+    uint8_t *picture[3] = { NULL, NULL, NULL };
+    for (int cache = 16; cache <= 4096; cache *= 4) {
+        struct rig r;
+        smear_desc desc = small_desc(96, 72);
+        desc.vertex_cache = (uint16_t)cache;
+        if (rig_open(&r, &desc, false)) {
+            for (int k = 0; k < 3; k++) {
+                CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
+                if (picture[k] == NULL) {
+                    picture[k] = malloc(r.picture_room);
+                    memcpy(picture[k], r.picture, r.picture_room);
+                } else {
+                    same_picture(&r, picture[k]);
+                }
+            }
+        }
+        rig_close(&r);
+    }
+    for (int k = 0; k < 3; k++)
+        free(picture[k]);
+}
+
+/* ------------------------------------------------------------------ wild input */
+
+static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
+{
+    static const int32_t wild[] = { INT32_MAX, INT32_MIN, -INT32_MAX, 1, -1, 0, 0x40000000, SMEAR_BASIS_ONE };
+    enum { WILD = sizeof wild / sizeof wild[0] };
+    struct rig r;
+    smear_desc desc = small_desc(40, 24);
+    desc.accumulate = 1;
+    if (!rig_open(&r, &desc, true)) {
+        rig_close(&r);
+        return;
+    }
+    uint32_t random = 1;
+    for (int n = 0; n < 1500; n++) {
+        struct scene s;
+        make_scene(&s, 0.1 * (n % 7), 1 + n % 3);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            for (int e = 0; e < 12; e++) {
+                random = random * 1664525u + 1013904223u;
+                int32_t value = wild[random >> 24 & (WILD - 1)];
+                if ((random >> 16 & 3u) < (unsigned)n % 4u) {
+                    if (e < 9)
+                        s.pose[i].basis[e] = value;
+                    else
+                        s.pose[i].origin[e - 9] = value;
+                }
+            }
+        smear_mesh mesh = square;
+        random = random * 1664525u + 1013904223u;
+        mesh.scale = wild[random >> 29] < 0 ? 1 : wild[random >> 29];
+        mesh.shift = (int8_t)((int)(random >> 16 & 127u) % 95 - 32);
+        mesh.offset[0] = (int32_t)(random >> 8 & 0xfffffu);
+        if (n % 2)
+            s.draw[0].mesh = &mesh;
+        if (n % 5 == 0) {
+            s.camera.half_height = wild[random >> 20 & 7u] > 0 ? wild[random >> 20 & 7u] : 0;
+            s.camera.near_plane = 1;
+            s.camera.far_plane = random & 64u ? INT32_MAX : 2;
+            for (int e = 0; e < 3; e++)
+                s.camera.pose.origin[e] = wild[random >> (4 * e) & 7u];
+        }
+        if (n % 5 == 1)
+            s.camera.focal = random & 128u ? INT32_MAX : 1;
+        s.frame.shutter_degrees = n % 3 ? 0 : 3600;
+        s.frame.exposure = (uint8_t)(n % 3);
+        s.frame.samples = 3;
+        s.frame.shutter_poses = n % 7 == 0;
+        if (!CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK) || !CHECK(guards_intact(&r)))
+            break;
+    }
+    /* And then a plain frame as ever. */
+    struct rig fresh;
+    if (rig_open(&fresh, &desc, true)) {
+        CHECK_EQ(render_scene(&fresh, 0.1, SMEAR_NONE), SMEAR_OK);
+        CHECK_EQ(render_scene(&r, 0.1, SMEAR_NONE), SMEAR_OK);
+        same_picture(&r, fresh.picture);
+    }
+    rig_close(&fresh);
+    rig_close(&r);
+}
+
+static void test_frames_of_every_shape_are_covered_by_bands_in_order(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 1, 64 }, { 7, 5 }, { 5, 7 }, { 8, 8 }, { 9, 1 }, { 17, 33 },
+                                       { 2048, 3 }, { 3, 2048 }, { 2048, 20 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int format = 0; format <= SMEAR_L1_PAGES; format++) {
+            struct rig r;
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.format = (uint8_t)format;
+            desc.reach = (int16_t)(format % 2 ? 0 : 3);
+            if (rig_open(&r, &desc, true)) {
+                for (int k = 0; k < 2; k++) {
+                    CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
+                    CHECK(r.bands_in_order);
+                    CHECK_EQ(r.next_row, size[i][1]);
+                    CHECK_EQ(r.inspected, size[i][1]);
+                }
+            }
+            rig_close(&r);
+        }
+}
+
+static void test_an_index_out_of_range_drops_its_triangle_only(void)
+{
+    static const uint16_t index[] = { 0, 1, 4, 0, 1, 2, 65535, 0, 1, 0, 2, 3 };
+    struct rig r;
+    smear_desc desc = small_desc(48, 48);
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        smear_mesh mesh = square;
+        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[4], 1);
+        mesh.index = index;
+        mesh.triangle_count = 4;
+        s.draw[4].mesh = &mesh;
+        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[4], 1), SMEAR_OK);
+        same_picture(&r, picture);
+        smear_stats stats;
+        smear_get_stats(r.ctx, &stats);
+        CHECK_EQ(stats.triangles_dropped, 2);
+        CHECK_EQ(stats.triangles_in, 4);
+        free(picture);
+    }
+    rig_close(&r);
+}
+
+static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    if (rig_open(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        smear_mesh empty = square, no_vertex = square;
+        empty.triangle_count = 0;
+        empty.index = NULL;
+        no_vertex.vertex_count = 0;
+        smear_draw d[2] = { { .mesh = &empty }, { .mesh = &no_vertex } };
+        CHECK_EQ(rig_frame(&r, &s.frame, d, 2), SMEAR_OK);
+        for (size_t i = 0; i < 16 * 16; i++)
+            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
+    }
+    rig_close(&r);
+}
+
+static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
+{
+    struct rig here, there;
+    smear_desc desc = small_desc(96, 72);
+    if (rig_open(&here, &desc, false) && rig_open(&there, &desc, false)) {
+        for (int k = 0; k < 3; k++) {
+            struct scene s;
+            make_scene(&s, 0.3 * k, 0);
+            CHECK_EQ(rig_frame(&here, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            const int32_t shift[3] = { 10000 * 65536, -7000 * 65536, 20000 * 65536 };
+            for (int axis = 0; axis < 3; axis++) {
+                for (int i = 0; i < SCENE_DRAWS; i++)
+                    s.pose[i].origin[axis] += shift[axis];
+                s.camera.pose.origin[axis] += shift[axis];
+            }
+            CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            same_picture(&here, there.picture);
+        }
+        rig_close(&there);
+    }
+    rig_close(&here);
+}
+
+/* ------------------------------------------------------------------ flush */
+
+static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT };
+    for (int m = 0; m < 3; m++) {
+        struct rig r, fresh;
+        smear_desc desc = small_desc(48, 64);
+        desc.accumulate = 1;
+        if (rig_open(&r, &desc, false) && rig_open(&fresh, &desc, false)) {
+            int bands = 0;
+            for (int k = 0; k < 12; k++) {
+                CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
+                bands = fresh.bands;
+                r.fail_at = k & 1 ? -1 : k / 2 % bands;
+                r.fail_with = -77 - k;
+                int result = render_scene(&r, 0.1 * k, method[m]);
+                if (k & 1) {
+                    CHECK_EQ(result, SMEAR_OK);
+                    same_picture(&fresh, r.picture);
+                } else {
+                    CHECK_EQ(result, -77 - k);
+                    CHECK_EQ(r.bands, r.fail_at + 1);
+                }
+            }
+            CHECK(bands > 1);
+            r.fail_at = 1;
+            r.fail_with = 5;                        /* not negative: goes on */
+            CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
+            CHECK_EQ(r.bands, bands);
+            rig_close(&fresh);
+        }
+        rig_close(&r);
+    }
+}
+
+/* A display that takes its time: a thread that frees the oldest band after a while. */
+struct slow_display {
+    struct rig *rig;
+    atomic_int handed, sent;
+    atomic_bool over;
+    const uint8_t *held[2];
+    size_t held_size[2];
+    bool overwritten;
+    uint8_t copy[2][64 * 8 * 4];
+};
+
+static struct slow_display display;
+
+static void *send_slowly(void *unused)
+{
+    (void)unused;
+    for (;;) {
+        int sent = atomic_load(&display.sent);
+        if (sent == atomic_load(&display.handed)) {
+            if (atomic_load(&display.over))
+                return NULL;
+            sched_yield();
+            continue;
+        }
+        for (int i = 0; i < 20; i++)
+            sched_yield();
+        /* What was handed over must not have changed while it was being sent. */
+        int slot = sent & 1;
+        if (memcmp(display.held[slot], display.copy[slot], display.held_size[slot]) != 0)
+            display.overwritten = true;
+        atomic_store(&display.sent, sent + 1);
+        smear_band_done(display.rig->ctx);
+    }
+}
+
+static int hand_to_slow_display(void *user, const smear_band *band)
+{
+    int slot = atomic_load(&display.handed) & 1;
+    display.held[slot] = band->pixels;
+    display.held_size[slot] = band->size;
+    memcpy(display.copy[slot], band->pixels, band->size);
+    int result = take_band(user, band);
+    atomic_fetch_add(&display.handed, 1);
+    return result;
+}
+
+static void yield(void *user)
+{
+    (void)user;
+    sched_yield();
+}
+
+static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    struct rig one, two;
+    smear_desc desc = small_desc(64, 50);
+    smear_desc twice = desc;
+    twice.bands = 2;
+    twice.flush = hand_to_slow_display;
+    twice.idle = yield;
+    if (rig_open(&one, &desc, false) && rig_open(&two, &twice, false)) {
+        memset(&display, 0, sizeof display);
+        display.rig = &two;
+        pthread_t thread;
+        if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
+            for (int k = 0; k < 8; k++) {
+                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 1]), SMEAR_OK);
+                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 1]), SMEAR_OK);
+                same_picture(&one, two.picture);
+            }
+            atomic_store(&display.over, true);
+            pthread_join(thread, NULL);
+            CHECK(!display.overwritten);
+            CHECK_EQ(atomic_load(&display.sent), 8 * 7);
+        }
+        rig_close(&two);
+    }
+    rig_close(&one);
+}
+
+/* ------------------------------------------------------------------ workers */
+
+struct helper {
+    smear_context *ctx;
+    int worker, frames;
+};
+
+static void *help(void *argument)
+{
+    struct helper *h = argument;
+    for (int i = 0; i < h->frames; i++)
+        smear_work(h->ctx, h->worker);
+    return NULL;
+}
+
+static void test_any_number_of_workers_draws_the_same_picture(void)
+{
+    enum { FRAMES = 6 };
+    static const uint8_t method[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE };
+    uint8_t *picture[FRAMES] = { NULL };
+    smear_stats first[FRAMES];
+    for (int workers = 1; workers <= 8; workers++) {
+        struct rig r;
+        smear_desc desc = small_desc(150, 60);
+        desc.workers = (uint8_t)workers;
+        desc.accumulate = 1;
+        desc.crc = 1;
+        desc.max_triangles = 50;
+        desc.idle = yield;
+        desc.format = SMEAR_RGB565;
+        if (rig_open(&r, &desc, false)) {
+            pthread_t thread[8];
+            struct helper helper[8];
+            for (int i = 1; i < workers; i++) {
+                helper[i] = (struct helper){ r.ctx, i, FRAMES };
+                CHECK_EQ(pthread_create(&thread[i], NULL, help, &helper[i]), 0);
+            }
+            for (int k = 0; k < FRAMES; k++) {
+                smear_stats stats;
+                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % 3]), SMEAR_OK);
+                smear_get_stats(r.ctx, &stats);
+                if (workers == 1) {
+                    first[k] = stats;
+                    picture[k] = malloc(r.picture_room);
+                    memcpy(picture[k], r.picture, r.picture_room);
+                } else {
+                    same_picture(&r, picture[k]);
+                    CHECK_EQ(stats.crc32, first[k].crc32);
+                    CHECK_EQ(stats.samples, first[k].samples);
+                    CHECK_EQ(stats.triangles_drawn, first[k].triangles_drawn);
+                    CHECK_EQ(stats.tiles_complex, first[k].tiles_complex);
+                }
+            }
+            for (int i = 1; i < workers; i++)
+                pthread_join(thread[i], NULL);
+        }
+        rig_close(&r);
+    }
+    for (int k = 0; k < FRAMES; k++)
+        free(picture[k]);
+}
+
+static void test_work_of_an_index_that_is_no_helper_returns_at_once(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    desc.workers = 2;
+    if (rig_open(&r, &desc, false)) {
+        smear_work(NULL, 1);
+        smear_work(r.ctx, 0);
+        smear_work(r.ctx, 2);
+        smear_work(r.ctx, -1);
+    }
+    rig_close(&r);
+}
+
+/* ------------------------------------------------------------------ motion */
+
+/* A rig with one square in front of a still camera, whose velocity is read where it is drawn. */
+enum { MOTION_W = 64, MOTION_H = 64, STEPS = 2 };      /* velocities may be off by 2/256 px */
+
+static smear_camera motion_camera;
+static const smear_material motion_material = { .unlit = 1 };
+
+static bool motion_open(struct rig *r)
+{
+    smear_desc desc = small_desc(MOTION_W, MOTION_H);
+    /* focal 1: 32 px per unit at distance 1; the square lies at distance 4, 8 px per unit. */
+    motion_camera = camera_at(0, 0, 0, 0);
+    return rig_open(r, &desc, true);
+}
+
+/* The square at (x, y); z is -4 unless a test moves it. */
+static smear_transform motion_pose(double x, double y)
+{
+    return pose_at(x, y, -4, 0, 0);
+}
+
+/* Draws one frame of draws and returns the velocity at the pixel, 1/256 px per frame. */
+static void motion_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count, int px, int py,
+                         int32_t velocity[2])
+{
+    CHECK_EQ(rig_frame(r, frame, draw, count), SMEAR_OK);
+    size_t at = (size_t)py * MOTION_W + (size_t)px;
+    velocity[0] = r->velocity[2 * at];
+    velocity[1] = r->velocity[2 * at + 1];
+}
+
+static bool all_still(const struct rig *r)
+{
+    for (int i = 0; i < 2 * MOTION_W * MOTION_H; i++)
+        if (r->velocity[i] != 0)
+            return false;
+    return true;
+}
+
+/* Frame `k` of a square that moves 0.25 units right and 0.125 up: 2 px right, 1 px up. */
+static void moving_square(struct rig *r, int k, const smear_draw *like, smear_frame frame, int32_t velocity[2])
+{
+    smear_transform now = motion_pose(0.25 * k, 0.125 * k);
+    smear_draw d = *like;
+    d.mesh = &square;
+    d.material = &motion_material;
+    d.now = &now;
+    frame.camera = &motion_camera;
+    motion_frame(r, &frame, &d, 1, 32 + 2 * k, 31 - k, velocity);
+}
+
+static void test_a_known_draw_moves_and_unknown_ones_stand_still(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        const smear_frame plain = { .camera = NULL };
+        const smear_draw known = { .id = 5 }, anonymous = { .id = 0 };
+        smear_draw cut = { .id = 5, .cut = 1 };
+        int32_t v[2];
+        moving_square(&r, 0, &known, plain, v);         /* first frame */
+        CHECK(all_still(&r));
+        moving_square(&r, 1, &known, plain, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        CHECK_NEAR(v[1], -256, STEPS);
+        moving_square(&r, 2, &cut, plain, v);           /* teleported */
+        CHECK(all_still(&r));
+        moving_square(&r, 3, &known, plain, v);         /* and on from there */
+        CHECK_NEAR(v[0], 512, STEPS);
+        moving_square(&r, 3, &known, plain, v);         /* stopped: no blur is left over */
+        CHECK(all_still(&r));
+        moving_square(&r, 4, &anonymous, plain, v);     /* without identity: and id 5 is away */
+        CHECK(all_still(&r));
+        moving_square(&r, 5, &known, plain, v);         /* back again: its earlier pose is unknown */
+        CHECK(all_still(&r));
+        moving_square(&r, 6, &known, plain, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        const smear_draw other = { .id = 6 };
+        moving_square(&r, 7, &other, plain, v);         /* first sight of this id */
+        CHECK(all_still(&r));
+    }
+    rig_close(&r);
+}
+
+static void test_a_cut_of_the_camera_stops_everything_for_one_frame(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        const smear_draw known = { .id = 5 };
+        int32_t v[2];
+        moving_square(&r, 0, &known, (smear_frame){ .cut = 0 }, v);
+        moving_square(&r, 1, &known, (smear_frame){ .cut = 1 }, v);
+        CHECK(all_still(&r));
+        moving_square(&r, 2, &known, (smear_frame){ .cut = 0 }, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        /* The picture of a cut is the sharp one. */
+        uint8_t *sharp = NULL;
+        for (int k = 0; k < 2; k++) {
+            struct scene s;
+            make_scene(&s, 0.3, k == 0 ? SMEAR_NONE : SMEAR_RECONSTRUCT);
+            s.frame.cut = 1;
+            if (k == 0)
+                sharp = rig_picture(&r, &s.frame, s.draw, SCENE_DRAWS);
+            else
+                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        }
+        same_picture(&r, sharp);
+        free(sharp);
+    }
+    rig_close(&r);
+}
+
+static void test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        for (int k = 0; k < 8; k++) {
+            smear_transform pose[2] = { pose_at(0.25 * k - 1.5, 0.8, -4, 0, 0), pose_at(0.25 * k - 0.5, -1.2, -4, 0, 0) };
+            smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &pose[0] },
+                                { .id = 2, .mesh = &square, .now = &pose[1] } };
+            smear_frame f = { .camera = &motion_camera };
+            CHECK_EQ(rig_frame(&r, &f, d, k < 5 ? 1 : 2), SMEAR_OK);
+            size_t first = (size_t)(32 - 6) * MOTION_W + (size_t)(20 + 2 * k);
+            size_t second = (size_t)(32 + 10) * MOTION_W + (size_t)(28 + 2 * k);
+            CHECK_NEAR(r.velocity[2 * first], k == 0 ? 0 : 512, STEPS);
+            CHECK_NEAR(r.velocity[2 * second], k <= 5 ? 0 : 512, STEPS);
+        }
+    }
+    rig_close(&r);
+}
+
+static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        int32_t v[4][2] = { { 0 } };
+        for (int k = 0; k < 2; k++) {
+            /* Four squares, all but the last moving with the camera's pan to the right. */
+            motion_camera = camera_at(0.25 * k, 0, 0, 0);
+            smear_transform pose[4];
+            smear_draw d[4];
+            static const double corner[4][2] = { { -1.5, 1.5 }, { 1.5, 1.5 }, { -1.5, -1.5 }, { 1.5, -1.5 } };
+            for (int i = 0; i < 4; i++) {
+                pose[i] = pose_at(corner[i][0] + 0.5 * k, corner[i][1], -4, 0, 0);
+                d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &motion_material,
+                                     .now = &pose[i] };
+            }
+            d[1].motion = SMEAR_MOTION_CAMERA;
+            d[2].motion = SMEAR_MOTION_NONE;
+            d[3].cut = 1;
+            smear_frame f = { .camera = &motion_camera };
+            CHECK_EQ(rig_frame(&r, &f, d, 4), SMEAR_OK);
+            for (int i = 0; i < 4 && k == 1; i++) {
+                int x = (int)(32 + 8 * (corner[i][0] + 0.25)), y = (int)(32 - 8 * corner[i][1]);
+                for (int axis = 0; axis < 2; axis++)
+                    v[i][axis] = r.velocity[2 * (y * MOTION_W + x) + axis];
+            }
+        }
+        CHECK_NEAR(v[0][0], 512, STEPS);            /* object 4 px right, camera 2 px: 2 px */
+        CHECK_NEAR(v[1][0], -512, STEPS);           /* as if it stood still: camera only */
+        CHECK_EQ(v[2][0], 0);
+        CHECK_NEAR(v[3][0], -512, STEPS);
+        for (int i = 0; i < 4; i++)
+            CHECK_NEAR(v[i][1], 0, STEPS);
+    }
+    rig_close(&r);
+}
+
+static void test_motion_none_writes_zero_over_what_moves_behind_it(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        for (int order = 0; order < 2; order++)
+            for (int k = 0; k < 2; k++) {
+                smear_transform back = pose_at(0.25 * k, 0, -8, 0, 0), front = pose_at(0, 0, -4, 0, 0);
+                for (int i = 0; i < 9; i++)
+                    back.basis[i] *= 4;
+                smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &back },
+                                    { .id = 2, .mesh = &square, .now = &front, .motion = SMEAR_MOTION_NONE } };
+                if (order == 1) {
+                    smear_draw swap = d[0];
+                    d[0] = d[1];
+                    d[1] = swap;
+                }
+                smear_frame f = { .camera = &motion_camera };
+                CHECK_EQ(rig_frame(&r, &f, d, 2), SMEAR_OK);
+                CHECK_EQ(r.velocity[2 * (32 * MOTION_W + 32)], 0);
+                CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 44)], k == 1 ? 256 : -256 * order, STEPS);
+            }
+    }
+    rig_close(&r);
+}
+
+static void test_given_poses_win_over_kept_ones(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        smear_transform now = motion_pose(0, 0), before = motion_pose(-0.5, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open = &before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 32, 32, v);         /* in the very first frame */
+        CHECK_NEAR(v[0], 1024, STEPS);
+        motion_frame(&r, &f, &d, 1, 32, 32, v);
+        CHECK_NEAR(v[0], 1024, STEPS);
+        smear_camera earlier = camera_at(-0.25, 0, 0, 0);
+        f.open = &earlier;
+        motion_frame(&r, &f, &d, 1, 32, 32, v);         /* camera 2 px right as well */
+        CHECK_NEAR(v[0], 512, STEPS);
+        d.open = NULL;
+        d.cut = 1;
+        motion_frame(&r, &f, &d, 1, 32, 32, v);
+        CHECK_NEAR(v[0], -512, STEPS);
+    }
+    rig_close(&r);
+}
+
+static void test_shutter_poses_are_scaled_to_a_frame(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        smear_transform now = motion_pose(0, 0), open = motion_pose(-0.25, 0), close = motion_pose(0.25, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open = &open, .close = &close };
+        int32_t v[2];
+        /* 4 px between the poses: in half a frame, in a frame, in two. */
+        static const int degrees[] = { 180, 360, 720 };
+        for (int i = 0; i < 3; i++) {
+            smear_frame f = { .camera = &motion_camera, .open = &motion_camera, .close = &motion_camera,
+                              .shutter_poses = 1, .shutter_degrees = (uint16_t)degrees[i] };
+            motion_frame(&r, &f, &d, 1, 32, 32, v);
+            CHECK_NEAR(v[0], 4 * 256 * 360 / degrees[i], 2);
+        }
+        /* Without poses of its own a draw stands still, kept ones or not. */
+        smear_frame f = { .camera = &motion_camera, .shutter_poses = 1 };
+        for (int k = 0; k < 2; k++) {
+            smear_transform place = motion_pose(0.25 * k, 0);
+            smear_draw plain = { .id = 1, .mesh = &square, .now = &place };
+            CHECK_EQ(rig_frame(&r, &f, &plain, 1), SMEAR_OK);
+            CHECK(all_still(&r));
+        }
+    }
+    rig_close(&r);
+}
+
+static void test_deformed_meshes_move_vertex_by_vertex(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        int16_t before[12];
+        memcpy(before, square_position, sizeof before);
+        for (int i = 0; i < 4; i++)
+            before[3 * i] = (int16_t)(before[3 * i] - (before[3 * i + 1] > 0 ? 128 : 0));    /* the top leans right */
+        smear_transform now = motion_pose(0, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open_position = before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 32, 25, v);
+        CHECK_NEAR(v[0], 1024 * 29 / 32, 8);
+        motion_frame(&r, &f, &d, 1, 32, 38, v);
+        CHECK_NEAR(v[0], 1024 * 3 / 32, 8);
+        d.motion = SMEAR_MOTION_CAMERA;
+        motion_frame(&r, &f, &d, 1, 32, 25, v);
+        CHECK_EQ(v[0], 0);
+    }
+    rig_close(&r);
+}
+
+static void test_what_was_behind_the_camera_moves_in_the_right_direction(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        /* A wide floor-like square at x = 1 crosses the near plane on its way in: from behind the eye to z = -2. */
+        smear_transform before = pose_at(1, 0, 0.5, 0, 0), now = pose_at(1, 0, -2, 0, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 48, 32, v);
+        CHECK(v[0] < -8 * 256);                 /* it came from far right */
+        CHECK(abs(v[1]) <= abs(v[0]) / 8 + 256);
+        for (int i = 0; i < MOTION_W * MOTION_H; i++)
+            CHECK(abs(r.velocity[2 * i]) <= 1 << 22 && abs(r.velocity[2 * i + 1]) <= 1 << 22);
+    }
+    rig_close(&r);
+}
+
+/* ------------------------------------------------------------------ methods */
+
+static void test_a_still_scene_is_the_same_picture_by_every_method(void)
+{
+    static const int16_t size[][2] = { { 96, 72 }, { 7, 5 }, { 1, 40 }, { 40, 1 }, { 33, 65 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            struct rig r;
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.accumulate = 1;
+            if (rig_open(&r, &desc, false)) {
+                struct scene s;
+                make_scene(&s, 0.2, SMEAR_NONE);
+                s.frame.light = (uint8_t)light;
+                uint8_t *sharp = rig_picture(&r, &s.frame, s.draw, SCENE_DRAWS);
+                for (int n = 1; n <= 1024; n = n * 7 + 1) {
+                    s.frame.method = SMEAR_RECONSTRUCT;
+                    s.frame.samples = (uint16_t)n;
+                    s.frame.reconstruct = (uint8_t)(n & 31);
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    same_picture(&r, sharp);
+                    smear_stats stats;
+                    smear_get_stats(r.ctx, &stats);
+                    CHECK_EQ(stats.samples, 0);
+                    CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                    if (n > 100)
+                        continue;
+                    s.frame.method = SMEAR_ACCUMULATE;
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    same_picture(&r, sharp);
+                }
+                free(sharp);
+            }
+            rig_close(&r);
+        }
+}
+
+static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
+{
+    static const int16_t rows[] = { 0, 8, 16, 24, 64, 72, 2048 - 2048 % 8 };
+    struct rig windowed;
+    smear_desc desc = small_desc(100, 70);
+    desc.format = SMEAR_L1_PAGES;
+    if (rig_open(&windowed, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0.4, SMEAR_NONE);
+        uint8_t *picture = rig_picture(&windowed, &s.frame, s.draw, SCENE_DRAWS);
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+            for (int tile = 8; tile <= 64; tile *= 2) {
+                struct rig r;
+                smear_desc sharp = desc;
+                sharp.sharp = 1;
+                sharp.band_rows = rows[i];
+                sharp.tile = (int16_t)tile;
+                sharp.max_triangles = i & 1 ? 60 : 400;
+                if (rig_open(&r, &sharp, false)) {
+                    CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    CHECK(r.bands_in_order && r.next_row == 70);
+                    same_picture(&r, picture);
+                }
+                rig_close(&r);
+            }
+        free(picture);
+    }
+    rig_close(&windowed);
+}
+
+static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
+{
+    struct rig a, b;
+    smear_desc desc = small_desc(80, 60);
+    desc.crc = 1;
+    if (rig_open(&a, &desc, false) && rig_open(&b, &desc, true)) {
+        memset(b.picture, 0, b.picture_room);
+        for (int k = 0; k < 6; k++) {
+            smear_stats sa, sb;
+            CHECK_EQ(render_scene(&a, 0.15 * k, 0), SMEAR_OK);
+            CHECK_EQ(render_scene(&b, 0.15 * k, 0), SMEAR_OK);     /* inspection is only looking */
+            same_picture(&a, b.picture);
+            smear_get_stats(a.ctx, &sa);
+            smear_get_stats(b.ctx, &sb);
+            CHECK_EQ(sa.crc32, sb.crc32);
+            CHECK_EQ(sa.samples, sb.samples);
+        }
+        rig_close(&b);
+    }
+    rig_close(&a);
+}
+
+/* CRC-32 bit by bit. */
+static uint32_t plain_crc(const uint8_t *bytes, size_t n)
+{
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < n; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
+    }
+    return ~crc;
+}
+
+static void test_statistics_add_up(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_ACCUMULATE };
+    for (int format = 0; format <= SMEAR_L1_PAGES; format++) {
+        struct rig r;
+        smear_desc desc = small_desc(70, 50);
+        desc.format = (uint8_t)format;
+        desc.crc = 1;
+        desc.accumulate = 1;
+        if (rig_open(&r, &desc, false))
+            for (int k = 0; k < 6; k++) {
+                smear_stats s;
+                CHECK_EQ(render_scene(&r, 0.3 * k, method[k % 3]), SMEAR_OK);
+                smear_get_stats(r.ctx, &s);
+                size_t bytes = r.picture_size;
+                if (format == SMEAR_XRGB8888) {         /* of 32-bit pixels, the bytes R G B */
+                    uint8_t *rgb = malloc(bytes);
+                    const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                    for (size_t i = 0; i < bytes / 4; i++) {
+                        rgb[3 * i] = (uint8_t)(pixel[i] >> 16);
+                        rgb[3 * i + 1] = (uint8_t)(pixel[i] >> 8);
+                        rgb[3 * i + 2] = (uint8_t)pixel[i];
+                    }
+                    CHECK_EQ(s.crc32, plain_crc(rgb, bytes / 4 * 3));
+                    free(rgb);
+                } else {
+                    CHECK_EQ(s.crc32, plain_crc(r.picture, bytes));
+                }
+                CHECK_EQ(s.pixels, 70 * 50);
+                uint32_t tiles = 9 * 7;
+                CHECK_EQ(s.tiles_still + s.tiles_uniform + s.tiles_complex, tiles);
+                CHECK_EQ(s.tiles_none + s.tiles_accumulate + s.tiles_reconstruct, tiles);
+                CHECK_EQ(s.triangles_in, 2 + 12 + 12 + 2 + 2);
+                CHECK(s.triangles_drawn > 8);
+                CHECK_EQ(s.triangles_dropped, 0);
+                CHECK_EQ(s.arena_bytes, (int64_t)r.bytes);
+                CHECK_EQ(s.time_total, 0);              /* no clock */
+                if (method[k % 3] == SMEAR_ACCUMULATE)
+                    CHECK_EQ(s.samples, 8 * 70 * 50);
+            }
+        rig_close(&r);
+    }
+}
+
+static uint32_t ticking(void *user)
+{
+    static uint32_t ticks;
+    (void)user;
+    return ticks++;
+}
+
+static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
+{
+    struct rig timed, plain;
+    smear_desc desc = small_desc(64, 48), clocked = desc;
+    clocked.clock = ticking;
+    if (rig_open(&timed, &clocked, false) && rig_open(&plain, &desc, false)) {
+        for (int k = 0; k < 3; k++) {
+            CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
+            CHECK_EQ(render_scene(&plain, 0.2 * k, 0), SMEAR_OK);
+            same_picture(&timed, plain.picture);
+            smear_stats s;
+            smear_get_stats(timed.ctx, &s);
+            CHECK(s.time_submit > 0 && s.time_raster > 0 && s.time_reduce > 0 && s.time_blur > 0);
+            CHECK(s.time_total >= s.time_submit + s.time_raster + s.time_reduce + s.time_blur + s.time_convert);
+            CHECK_EQ(s.crc32, 0);                       /* not asked for */
+        }
+        rig_close(&plain);
+    }
+    rig_close(&timed);
+}
+
+/* ------------------------------------------------------------------ meshes that are cut */
+
+/* A grid of cells x cells squares over the square mesh, of one colour, drawn as glass: a pixel that is drawn twice or
+ * not at all shows. */
+enum { CELLS = 12 };
+static int16_t grid_position[3 * (CELLS + 1) * (CELLS + 1)];
+static uint16_t grid_index[6 * CELLS * CELLS];
+
+static smear_mesh make_grid(void)
+{
+    uint16_t *index = grid_index;
+    for (int j = 0; j <= CELLS; j++)
+        for (int i = 0; i <= CELLS; i++) {
+            int16_t *p = grid_position + 3 * (j * (CELLS + 1) + i);
+            int wobble = i != 0 && i != CELLS && j != 0 && j != CELLS;
+            p[0] = (int16_t)(-24000 + i * 4000 + wobble * ((i * 7 + j * 13) % 11 - 5) * 200);
+            p[1] = (int16_t)(-24000 + j * 4000 + wobble * ((i * 5 + j * 17) % 13 - 6) * 200);
+            p[2] = 0;
+        }
+    for (int j = 0; j < CELLS; j++)
+        for (int i = 0; i < CELLS; i++) {
+            int a = j * (CELLS + 1) + i, b = a + 1, c = b + CELLS + 1, d = c - 1;
+            const int corner[2][6] = { { a, b, c, a, c, d }, { a, b, d, b, c, d } };
+            for (int k = 0; k < 6; k++)
+                *index++ = (uint16_t)corner[(i + j) & 1][k];
+        }
+    return (smear_mesh){ .position = grid_position, .index = grid_index, .triangle_count = 2 * CELLS * CELLS,
+                         .vertex_count = (CELLS + 1) * (CELLS + 1), .shift = 12 };
+}
+
+static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(160, 120);
+    desc.max_triangles = 4000;
+    smear_mesh grid = make_grid();
+    smear_material glass = { .color = { 255, 255, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1, .double_sided = 1 };
+    if (rig_open(&r, &desc, false)) {
+        int cut = 0, drawn = 0;
+        for (int n = 0; n < 120; n++) {
+            smear_transform pose = pose_at(0.03 * n - 1.5, -0.02 * n - 0.05, -0.04 * n, 0.37 * n, -1.2 - 0.01 * n);
+            smear_camera camera = camera_at(0, 0, 0, 0.05 * n);
+            camera.near_plane = 656 << n % 9;
+            camera.far_plane = n % 3 == 0 ? 0 : camera.near_plane * 6 + 65536;
+            camera.focal = 65536 << n % 3;
+            if (n % 7 == 6) {
+                camera.half_height = 65536;
+                camera.far_plane = 4 * 65536;
+            }
+            if (n % 5 == 4)         /* huge: most corners far outside the guard band */
+                for (int i = 0; i < 9; i++)
+                    pose.basis[i] = pose.basis[i] * 6;
+            smear_draw d = { .mesh = &grid, .material = &glass, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            int once = 0, never = 0;
+            for (int i = 0; i < 160 * 120; i++) {
+                once += pixel[i] == 0x818181u || pixel[i] == 0x808080u;
+                never += pixel[i] == 0;
+            }
+            if (!CHECK_EQ(once + never, 160 * 120))
+                CHECK_EQ(n, -1);
+            /* A flat mesh is convex after a cut too: what is covered has no holes along a row. */
+            for (int y = 0; y < 120; y++) {
+                int changes = 0;
+                for (int x = 1; x < 160; x++)
+                    changes += (pixel[y * 160 + x] != 0) != (pixel[y * 160 + x - 1] != 0);
+                if (!CHECK(changes <= 2)) {
+                    CHECK_EQ(n, -1);
+                    break;
+                }
+            }
+            cut += never > 0 && once > 0;
+            drawn += once > 0;
+        }
+        CHECK(drawn > 80 && cut > 40);
+    }
+    rig_close(&r);
+}
+
+/* ------------------------------------------------------------------ the filter alone */
+
+/* A distance whose depth code is `code`, for near plane one: the middle of the code's step. */
+static uint32_t distance_for(uint16_t code)
+{
+    if (code == 0)
+        return 0;
+    double units = code < 32768 ? code + 0.5 : 32768 + (code - 32768) * 16.0;
+    return (uint32_t)(65536.0 * SMEAR_DEPTH_NEAR / units);
+}
+
+static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
+{
+    static const uint8_t flags[] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, SMEAR_UNIFORM, 31 };
+    for (int variant = 0; variant < 14; variant++) {
+        struct rig r, alone;
+        smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
+        desc.reach = (int16_t)(variant & 2 ? 20 : 12);
+        if (rig_open(&r, &desc, true) && rig_open(&alone, &desc, false)) {
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            camera.near_plane = 65536;
+            uint8_t *picture = NULL;
+            smear_frame f = { .camera = &camera, .reconstruct = flags[variant % 7], .clear = 0x556677,
+                              .shutter_degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
+                              .light = (uint8_t)(variant / 7) };
+            for (int k = 0; k < 2; k++) {
+                /* Upright squares at powers of two, moving by whole sixteenths of a pixel: depth and velocity pass
+                 * the filter's formats unchanged. */
+                smear_transform pose[4];
+                smear_draw d[4];
+                smear_material m[4];
+                for (int i = 0; i < 4; i++) {
+                    double px = (double)desc.height / 2 / (2 << i);     /* per unit */
+                    pose[i] = pose_at((i * 6 - 8 + k * (4 * i - 6)) / px, (8 - 5 * i + k * (2 - 3 * i)) / px, -(2 << i),
+                                      0, 0);
+                    m[i] = (smear_material){ .texture = &checker_texture, .unlit = 1 };
+                    d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &m[i], .now = &pose[i] };
+                    for (int e = 0; e < 9; e++)
+                        pose[i].basis[e] *= i + 1;
+                }
+                make_checker();
+                free(picture);
+                picture = rig_picture(&r, &f, d, 4);
+            }
+            rig_forget_output(&alone);
+            CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
+            int moving = 0, left_out = 0;
+            for (int y = 0; y < desc.height; y++) {
+                uint32_t depth[128];
+                int16_t velocity[256];
+                for (int x = 0; x < desc.width; x++) {
+                    int at = y * desc.width + x;
+                    depth[x] = distance_for(r.depth[at]);
+                    for (int axis = 0; axis < 2; axis++) {
+                        int32_t v = r.velocity[2 * at + axis];
+                        velocity[2 * x + axis] = (int16_t)(v >= 0 ? (v + 8) / 16 : -((8 - v) / 16));
+                        moving += v != 0;
+                        left_out += abs(velocity[2 * x + axis] * 16 - v) > 7;
+                    }
+                }
+                CHECK_EQ(smear_filter_row(alone.ctx, r.color + y * desc.width, depth, velocity), SMEAR_OK);
+            }
+            CHECK(moving > 1000);
+            CHECK_EQ(left_out, 0);
+            CHECK(alone.bands_in_order && alone.next_row == desc.height);
+            if (!same_picture(&alone, picture))
+                CHECK_EQ(variant, -1);
+            smear_stats rendered, filtered;
+            smear_get_stats(r.ctx, &rendered);
+            smear_get_stats(alone.ctx, &filtered);
+            CHECK_EQ(rendered.samples, filtered.samples);
+            CHECK_EQ(rendered.tiles_complex, filtered.tiles_complex);
+            free(picture);
+            rig_close(&alone);
+        }
+        rig_close(&r);
+    }
+}
+
+static void test_the_filter_refuses_what_it_cannot_do(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    desc.accumulate = 1;
+    if (rig_open(&r, &desc, false)) {
+        smear_camera camera = { .near_plane = 65536 };      /* all that is looked at */
+        smear_frame f = { .camera = &camera };
+        static const uint32_t words[16];
+        static const int16_t halves[32];
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, NULL, words, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(r.ctx, words, NULL, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(r.ctx, words, words, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(NULL, words, words, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_begin(r.ctx, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_begin(NULL, &f), SMEAR_ERR_ARG);
+        f.method = SMEAR_NONE;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.method = SMEAR_ACCUMULATE;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.method = 0;
+        camera.near_plane = 0;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.camera = NULL;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+    }
+    rig_close(&r);
+}
+
+static void test_the_filter_takes_any_velocity_and_depth(void)
+{
+    static const int16_t wild[] = { INT16_MIN, INT16_MAX, 0, 1, -1, 1000, -1000, 255 };
+    struct rig r;
+    for (int reach = 1; reach <= 64; reach += 21) {
+        smear_desc desc = small_desc(90, 75);
+        desc.reach = (int16_t)reach;
+        if (rig_open(&r, &desc, false)) {
+            uint32_t random = 7;
+            smear_camera camera = { .near_plane = reach == 1 ? INT32_MAX : 1 << reach / 3 };
+            for (int n = 0; n < 6; n++) {
+                smear_frame f = { .camera = &camera, .reconstruct = (uint8_t)(n * 11 & 31), .samples = 1024,
+                                  .shutter_degrees = 3600 };
+                CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+                rig_forget_output(&r);
+                for (int y = 0; y < 75; y++) {
+                    uint32_t color[90], depth[90];
+                    int16_t velocity[180];
+                    for (int x = 0; x < 90; x++) {
+                        random = random * 1664525u + 1013904223u;
+                        color[x] = random;
+                        depth[x] = random >> 7 >> (random >> 2 & 31u);
+                        velocity[2 * x] = wild[random >> 20 & 7u];
+                        velocity[2 * x + 1] = wild[random >> 24 & 7u];
+                    }
+                    CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_OK);
+                }
+                CHECK(r.bands_in_order && r.next_row == 75);
+            }
+        }
+        rig_close(&r);
+    }
+}
+
+void suite_api(void)
+{
+    RUN(test_the_memory_macro_is_never_below_the_memory_function);
+    RUN(test_the_memory_macro_wastes_less_than_an_eighth);
+    RUN(test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_it_alone);
+    RUN(test_memory_must_exist_and_be_aligned);
+    RUN(test_every_bad_field_of_a_desc_is_refused);
+    RUN(test_zero_fields_of_a_desc_mean_the_documented_defaults);
+    RUN(test_every_bad_frame_is_refused_and_the_context_stays_usable);
+    RUN(test_every_bad_draw_is_refused_and_the_rest_is_drawn);
+    RUN(test_calls_out_of_turn_are_refused);
+    RUN(test_a_frame_begun_again_is_forgotten);
+    RUN(test_draws_beyond_the_limit_are_refused_and_not_drawn);
+    RUN(test_a_full_triangle_list_changes_no_pixel);
+    RUN(test_a_frame_in_many_parts_is_the_frame_in_one);
+    RUN(test_a_row_that_does_not_fit_drops_triangles_and_counts_them);
+    RUN(test_the_size_of_the_vertex_cache_changes_no_pixel);
+    RUN(test_wild_transforms_and_cameras_are_drawn_without_harm);
+    RUN(test_frames_of_every_shape_are_covered_by_bands_in_order);
+    RUN(test_an_index_out_of_range_drops_its_triangle_only);
+    RUN(test_meshes_without_triangles_or_vertices_draw_nothing);
+    RUN(test_a_scene_far_from_the_origin_gives_the_same_bits);
+    RUN(test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else);
+    RUN(test_two_bands_are_sent_by_another_thread_while_drawing_goes_on);
+    RUN(test_any_number_of_workers_draws_the_same_picture);
+    RUN(test_work_of_an_index_that_is_no_helper_returns_at_once);
+    RUN(test_a_known_draw_moves_and_unknown_ones_stand_still);
+    RUN(test_a_cut_of_the_camera_stops_everything_for_one_frame);
+    RUN(test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own);
+    RUN(test_the_camera_moves_what_has_no_motion_of_its_own);
+    RUN(test_motion_none_writes_zero_over_what_moves_behind_it);
+    RUN(test_given_poses_win_over_kept_ones);
+    RUN(test_shutter_poses_are_scaled_to_a_frame);
+    RUN(test_deformed_meshes_move_vertex_by_vertex);
+    RUN(test_what_was_behind_the_camera_moves_in_the_right_direction);
+    RUN(test_a_still_scene_is_the_same_picture_by_every_method);
+    RUN(test_the_sharp_picture_does_not_depend_on_window_or_bands);
+    RUN(test_two_contexts_given_the_same_frames_give_the_same_bits);
+    RUN(test_statistics_add_up);
+    RUN(test_a_clock_times_the_stages_and_changes_no_pixel);
+    RUN(test_meshes_cut_by_planes_cover_every_pixel_once);
+    RUN(test_the_filter_gives_the_bits_of_rendering_the_same_content);
+    RUN(test_the_filter_refuses_what_it_cannot_do);
+    RUN(test_the_filter_takes_any_velocity_and_depth);
+}
