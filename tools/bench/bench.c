@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* bench.c - what frames cost and how right they are, beside the bars that are set for them.
+ *
+ *     bench [peers] [accuracy] [methods] [threads] [targets FILE...]
+ *
+ * Without arguments, the first four. `targets` reads what target_bench printed, from files named
+ * after their target. Files are kept in build/bench; run it where that is. The exit status says
+ * whether everything could be measured; with --strict, whether all bars were met as well. */
+#include "count.h"
+#include "groups.h"
+#include "sheet.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+bool group_take(const char *group, int index, struct take *out)
+{
+    if (strcmp(group, "peers") == 0)
+        return peers_take(index, out);
+    if (strcmp(group, "methods") == 0)
+        return methods_take(index, out);
+    return strcmp(group, "threads") == 0 && threads_take(index, out);
+}
+
+struct report {
+    const char *name;
+    bool (*print)(struct sheet *sheet, struct failure *f);
+};
+
+static const struct report reports[] = {
+    { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
+    { "threads", threads_report },
+};
+enum { REPORTS = sizeof reports / sizeof *reports };
+
+static int usage(void)
+{
+    fprintf(stderr, "usage: bench [--strict] [peers] [accuracy] [methods] [threads] "
+                    "[targets FILE...]\n");
+    return 2;
+}
+
+static const struct report *find_report(const char *name)
+{
+    for (int i = 0; i < REPORTS; i++)
+        if (strcmp(reports[i].name, name) == 0)
+            return &reports[i];
+    return NULL;
+}
+
+static bool make_folder(const char *path, struct failure *f)
+{
+    return mkdir(path, 0777) == 0 || errno == EEXIST
+        || fail(f, "cannot make the folder (%s)", strerror(errno));
+}
+
+static int finish(bool ok, const char *what, const struct failure *f)
+{
+    if (!ok)
+        fprintf(stderr, "bench: %s: %s\n", what, f->text);
+    return ok ? 0 : 1;
+}
+
+static int serve(char **argument)
+{
+    struct failure f = { "" };
+    char *end[2];
+    long first = strtol(argument[1], &end[0], 10), frames = strtol(argument[2], &end[1], 10);
+    if (*end[0] != '\0' || *end[1] != '\0' || first < 0 || first > 1 << 20 || frames < 1
+        || frames > COUNT_MAX_FRAMES)
+        return usage();
+    return finish(count_serve(argument[0], (int)first, (int)frames, &f), argument[0], &f);
+}
+
+int main(int argc, char **argv)
+{
+    struct failure f = { "" };
+    struct sheet sheet = { .folder = "build/bench",
+                           .counter = { .program = argv[0], .folder = "build/bench" } };
+    bool strict = false, ok = true;
+    int asked = 0;
+    if (argc == 5 && strcmp(argv[1], "--draw") == 0)
+        return serve(argv + 2);
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "targets") == 0)
+            break;
+        if (strcmp(argv[i], "--strict") != 0 && find_report(argv[i]) == NULL)
+            return usage();
+    }
+    if (!make_folder("build", &f) || !make_folder(sheet.folder, &f))
+        return finish(false, sheet.folder, &f);
+    for (int i = 1; i < argc && ok; i++) {
+        const struct report *report = find_report(argv[i]);
+        if (strcmp(argv[i], "--strict") == 0) {
+            strict = true;
+            continue;
+        }
+        asked++;
+        if (report != NULL) {
+            ok = report->print(&sheet, &f);
+        } else {
+            for (i++; i < argc && ok; i++) {
+                ok = targets_report(&sheet, argv[i], &f);
+                if (i + 1 < argc)
+                    printf("\n");
+            }
+        }
+        if (!ok)
+            return finish(false, report != NULL ? report->name : "targets", &f);
+        printf("\n");
+    }
+    for (int i = 0; i < REPORTS && asked == 0; i++) {
+        if (!reports[i].print(&sheet, &f))
+            return finish(false, reports[i].name, &f);
+        printf("\n");
+    }
+    printf("%d of %d bars met\n", sheet.met, sheet.met + sheet.missed);
+    return strict && sheet.missed > 0 ? 1 : 0;
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+/* count.c - starts callgrind, and reads the totals of its dumps: one for every call of
+ * bench_frame. */
+#include "count.h"
+
+#include "groups.h"
+#include "take.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { PATH_LIMIT = 512, ARGUMENT_LIMIT = 24, NOT_RUN = 127 };
+
+const struct count_toggles count_frame = { 1, { "bench_frame" } };
+
+/* ------------------------------------------------------------------ running */
+
+/* The exit status, NOT_RUN when there is no such program, or -1. Output goes to the file `log`. */
+static int run(char *const argument[], const char *log)
+{
+    int status;
+    pid_t child = fork();
+    if (child < 0)
+        return -1;
+    if (child == 0) {
+        int out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        if (out >= 0) {
+            dup2(out, STDOUT_FILENO);
+            dup2(out, STDERR_FILENO);
+        }
+        execvp(argument[0], argument);
+        _exit(NOT_RUN);
+    }
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static bool path_in(char out[PATH_LIMIT], const struct counter *counter, const char *name)
+{
+    int length = snprintf(out, PATH_LIMIT, "%s/%s", counter->folder, name);
+    return length > 0 && length < PATH_LIMIT;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+/* The number after `key` at the start of some line. */
+static bool read_total(const char *path, uint64_t *total, struct failure *f)
+{
+    static const char key[] = "totals: ";
+    char line[1024];
+    bool found = false;
+    FILE *file = fopen(path, "r");
+    if (file == NULL)
+        return fail(f, "callgrind left no dump (%s)", path);
+    while (!found && fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, key, sizeof key - 1) == 0)
+            found = sscanf(line + sizeof key - 1, "%" SCNu64, total) == 1;
+    fclose(file);
+    return found || fail(f, "a dump of callgrind has no total (%s)", path);
+}
+
+static bool read_dumps(const char *base, int frames, uint64_t *instructions, struct failure *f)
+{
+    char path[PATH_LIMIT + 16];
+    bool ok = true;
+    for (int i = 0; i < frames; i++) {
+        snprintf(path, sizeof path, "%s.%d", base, i + 1);
+        ok = ok && read_total(path, &instructions[i], f);
+        remove(path);
+    }
+    remove(base);           /* what was collected after the last frame: nothing */
+    return ok;
+}
+
+bool count_takes(const struct counter *counter, const char *group, int first, int frames,
+                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+{
+    char base[PATH_LIMIT], log[PATH_LIMIT], out[PATH_LIMIT + 64], from[16], many[16], name[32];
+    char toggle[COUNT_MAX_TOGGLES][64];
+    const char *argument[ARGUMENT_LIMIT];
+    int n = 0;
+    snprintf(name, sizeof name, "count.%ld", (long)getpid());
+    if (!path_in(base, counter, name) || !path_in(log, counter, "valgrind.log"))
+        return fail(f, "the folder's name is too long");
+    snprintf(out, sizeof out, "--callgrind-out-file=%s", base);
+    snprintf(from, sizeof from, "%d", first);
+    snprintf(many, sizeof many, "%d", frames);
+    argument[n++] = "valgrind";
+    argument[n++] = "--tool=callgrind";
+    argument[n++] = "--dump-after=bench_frame";
+    argument[n++] = out;
+    for (int i = 0; i < toggles->count; i++) {
+        snprintf(toggle[i], sizeof toggle[i], "--toggle-collect=%s", toggles->name[i]);
+        argument[n++] = toggle[i];
+    }
+    argument[n++] = counter->program;
+    argument[n++] = "--draw";
+    argument[n++] = group;
+    argument[n++] = from;
+    argument[n++] = many;
+    argument[n] = NULL;
+    /* execvp takes pointers to char for history's sake and changes nothing. */
+    char *plain[ARGUMENT_LIMIT];
+    memcpy(plain, argument, sizeof plain);
+    int status = run(plain, log);
+    if (status == NOT_RUN)
+        return fail(f, "valgrind is not there");
+    if (status != 0)
+        return fail(f, "callgrind failed with status %d (see %s)", status, log);
+    return read_dumps(base, frames, instructions, f);
+}
+
+/* ------------------------------------------------------------------ the other side */
+
+/* Takes that differ in their frame alone share a rig. */
+static bool same_rig(const struct take *a, const struct take *b)
+{
+    return strcmp(a->scene, b->scene) == 0 && a->width == b->width && a->height == b->height
+        && a->windowed == b->windowed && a->accumulate == b->accumulate
+        && a->band_rows == b->band_rows && a->format == b->format && a->method == b->method
+        && a->samples == b->samples && a->reconstruct == b->reconstruct
+        && a->shutter_poses == b->shutter_poses && a->workers == b->workers;
+}
+
+bool count_serve(const char *group, int first, int frames, struct failure *f)
+{
+    struct rig rig;
+    struct take last = { 0 };
+    bool is_open = false, ok = true;
+    for (int i = 0; i < frames && ok; i++) {
+        struct take take;
+        if (!group_take(group, first + i, &take)) {
+            ok = fail(f, "no such take (%s %d)", group, first + i);
+            break;
+        }
+        if (is_open && same_rig(&take, &last)) {
+            ok = rig_seek(&rig, take.frame, f);
+        } else {
+            if (is_open)
+                rig_close(&rig);
+            ok = is_open = rig_open(&rig, &take, f);
+        }
+        last = take;
+        ok = ok && rig_draw(&rig, f);
+    }
+    if (is_open)
+        rig_close(&rig);
+    return ok;
+}

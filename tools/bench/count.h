@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* count.h - instructions per frame: runs this program again under callgrind, which is told to
+ * collect inside bench_frame and nowhere else. Counts do not depend on the machine's load. */
+#ifndef SMEAR_BENCH_COUNT_H
+#define SMEAR_BENCH_COUNT_H
+
+#include "../failure.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { COUNT_MAX_FRAMES = 512, COUNT_MAX_TOGGLES = 8 };
+
+struct counter {
+    const char *program;        /* path of this program */
+    const char *folder;         /* for callgrind's files; exists */
+};
+
+/* What to collect. Entering or leaving a function of the list turns collecting on or off, so a
+ * function inside bench_frame is left out by naming it, too. */
+struct count_toggles {
+    int count;
+    const char *name[COUNT_MAX_TOGGLES];
+};
+
+/* In and below bench_frame, on the thread that calls it. */
+extern const struct count_toggles count_frame;
+
+/* Draws `frames` takes of a group, from the first on, and counts each. */
+bool count_takes(const struct counter *counter, const char *group, int first, int frames,
+                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f);
+
+/* The other side: what this program does when it is run by count_takes. */
+bool count_serve(const char *group, int first, int frames, struct failure *f);
+
+#endif

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* layers.h - counts how often each pixel is drawn.
+ *
+ * A layer scene is a scene in which every triangle is black glass that lets LAYER_CLEAR_SHARE of
+ * the light through, on white, with nothing opaque: no triangle hides another, so a pixel's code
+ * tells how many triangles covered it. Where neighbours share an edge, one pixel too dark was drawn
+ * twice and one too light was missed. */
+#ifndef SMEAR_BENCH_LAYERS_H
+#define SMEAR_BENCH_LAYERS_H
+
+#include "../failure.h"
+#include "../scenes/scene.h"
+
+/* `scene` must outlive `out`, which is freed with scene_free. */
+bool layers_scene(struct scene *scene, struct scene *out, struct failure *f);
+
+/* How many layers leave this code (0..255). Exact for up to LAYER_LIMIT layers, also of a renderer
+ * that rounds each time; deeper ones count as LAYER_LIMIT + 1. */
+enum { LAYER_LIMIT = 12 };
+int layers_from_code(double code);
+
+#endif

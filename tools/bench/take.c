@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+/* take.c - sets up scenes and contexts, draws, collects what is flushed. */
+#include "take.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SHUTTER_DEGREES = 180 };
+
+int bench_frame(const struct presented *frame, smear_context *ctx);
+void bench_worker(smear_context *ctx, int worker);
+void bench_idle(void *user);
+
+/* ------------------------------------------------------------------ what is measured */
+
+#if defined(__GNUC__)
+#define OUT_OF_LINE __attribute__((noinline))
+#else
+#define OUT_OF_LINE
+#endif
+
+OUT_OF_LINE int bench_frame(const struct presented *frame, smear_context *ctx)
+{
+    int result = presented_submit(frame, ctx);
+    return result == SMEAR_OK ? smear_render(ctx) : result;
+}
+
+OUT_OF_LINE void bench_worker(smear_context *ctx, int worker)
+{
+    smear_work(ctx, worker);
+}
+
+/* Waiting is told apart from working. */
+OUT_OF_LINE void bench_idle(void *user)
+{
+    (void)user;
+    sched_yield();
+}
+
+/* ------------------------------------------------------------------ workers */
+
+struct worker {
+    smear_context *ctx;
+    int index;
+    pthread_t thread;
+};
+
+static void *work(void *argument)
+{
+    struct worker *worker = argument;
+    bench_worker(worker->ctx, worker->index);
+    return NULL;
+}
+
+/* Threads are started for each frame: that is not counted, and short beside a frame. */
+static bool draw_with_workers(struct rig *rig, int *result, struct failure *f)
+{
+    struct worker worker[8];
+    int count = rig->take.workers - 1, started = 0;
+    if (count > (int)(sizeof worker / sizeof *worker))
+        return fail(f, "too many workers (%d)", rig->take.workers);
+    for (; started < count; started++) {
+        worker[started].ctx = rig->ctx;
+        worker[started].index = started + 1;
+        if (pthread_create(&worker[started].thread, NULL, work, &worker[started]) != 0)
+            break;
+    }
+    /* smear_render waits for every worker of the desc, so without one it would wait for ever. */
+    if (started < count) {
+        fprintf(stderr, "bench: a thread could not be started\n");
+        _exit(1);
+    }
+    *result = bench_frame(rig->frame, rig->ctx);
+    for (int i = 0; i < started; i++)
+        pthread_join(worker[i].thread, NULL);
+    return true;
+}
+
+/* ------------------------------------------------------------------ rigs */
+
+static int take_band(void *user, const smear_band *band)
+{
+    const struct rig *rig = user;
+    size_t row = (size_t)band->width * (rig->take.format == SMEAR_RGB565 ? 2 : 4);
+    if (rig->display == NULL)
+        return 0;
+    for (int y = 0; y < band->height; y++)
+        memcpy(rig->display + (size_t)(band->y + y) * row,
+               (const uint8_t *)band->pixels + (size_t)y * band->stride, row);
+    return 0;
+}
+
+int take_whole(int height)
+{
+    return (height + 7) / 8 * 8;
+}
+
+static bool start_library(struct rig *rig, struct failure *f)
+{
+    const struct take *t = &rig->take;
+    smear_desc desc = presented_desc(rig->frame, t->width, t->height);
+    desc.format = (uint8_t)t->format;
+    desc.dither = SMEAR_DITHER_NONE;
+    desc.sharp = !t->windowed;
+    desc.accumulate = t->accumulate;
+    desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
+    desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
+    desc.vertex_cache = 4096;
+    desc.flush = take_band;
+    desc.idle = t->workers > 1 ? bench_idle : NULL;
+    desc.user = rig;
+    size_t bytes = smear_memory_size(&desc);
+    rig->memory = bytes > 0 ? calloc(1, bytes) : NULL;
+    if (rig->memory == NULL)
+        return fail(f, "no memory for a context");
+    int result = smear_init(&rig->ctx, &desc, rig->memory, bytes);
+    return result == SMEAR_OK || fail(f, "the library takes no such context (error %d)", result);
+}
+
+bool rig_seek(struct rig *rig, int frame, struct failure *f)
+{
+    const struct take *t = &rig->take;
+    struct present_options options = {
+        .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
+        .samples = t->samples, .reconstruct = t->reconstruct, .light = SMEAR_LIGHT_ENCODED,
+        .shutter_poses = t->shutter_poses, .clear = rig->scene.clear
+    };
+    double time = frame < 0 ? rig->scene.time : frame / rig->scene.fps;
+    rig->frame = presenter_frame(rig->presenter, time, &options, f);
+    return rig->frame != NULL;
+}
+
+static bool open_scene(struct rig *rig, struct failure *f)
+{
+    const struct take *take = &rig->take;
+    if (!scene_builtin(take->scene, &rig->scene, f))
+        return false;
+    if (take->change == NULL)
+        return true;
+    rig->original = rig->scene;
+    if (take->change(&rig->original, &rig->scene, f))
+        return true;
+    rig->scene = rig->original;
+    rig->original = (struct scene){ 0 };
+    return false;
+}
+
+bool rig_open(struct rig *rig, const struct take *take, struct failure *f)
+{
+    memset(rig, 0, sizeof *rig);
+    rig->take = *take;
+    bool ok = open_scene(rig, f);
+    if (ok && take->width == 0)
+        rig->take.width = rig->scene.width;
+    if (ok && take->height == 0)
+        rig->take.height = rig->scene.height;
+    if (ok)
+        rig->presenter = presenter_new(&rig->scene, f);
+    ok = ok && rig->presenter != NULL && rig_seek(rig, take->frame, f) && start_library(rig, f);
+    if (!ok)
+        rig_close(rig);
+    return ok;
+}
+
+void rig_close(struct rig *rig)
+{
+    presenter_free(rig->presenter);
+    scene_free(&rig->scene);
+    scene_free(&rig->original);
+    free(rig->memory);
+    memset(rig, 0, sizeof *rig);
+}
+
+bool rig_draw(struct rig *rig, struct failure *f)
+{
+    int result = SMEAR_OK;
+    if (rig->take.workers > 1) {
+        if (!draw_with_workers(rig, &result, f))
+            return false;
+    } else {
+        result = bench_frame(rig->frame, rig->ctx);
+    }
+    if (result != SMEAR_OK)
+        return fail(f, "the library refused a frame (error %d)", result);
+    smear_get_stats(rig->ctx, &rig->stats);
+    return true;
+}
+
+/* ------------------------------------------------------------------ pictures */
+
+static void widen_565(const uint8_t *in, uint8_t rgba[4])
+{
+    unsigned p = in[0] | (unsigned)in[1] << 8;
+    unsigned r = p >> 11, g = p >> 5 & 63, b = p & 31;
+    rgba[0] = (uint8_t)(r << 3 | r >> 2);
+    rgba[1] = (uint8_t)(g << 2 | g >> 4);
+    rgba[2] = (uint8_t)(b << 3 | b >> 2);
+}
+
+static void widen_8888(const uint8_t *in, uint8_t rgba[4])
+{
+    uint32_t p;
+    memcpy(&p, in, sizeof p);
+    rgba[0] = (uint8_t)(p >> 16);
+    rgba[1] = (uint8_t)(p >> 8);
+    rgba[2] = (uint8_t)p;
+}
+
+bool rig_picture(struct rig *rig, struct image *out, struct failure *f)
+{
+    size_t pixels = (size_t)rig->take.width * (size_t)rig->take.height;
+    if (!image_alloc(out, rig->take.width, rig->take.height, f))
+        return false;
+    rig->display = malloc(pixels * 4);
+    bool ok = rig->display != NULL ? rig_draw(rig, f) : fail(f, "no memory for a picture");
+    for (size_t i = 0; i < pixels && ok; i++) {
+        if (rig->take.format == SMEAR_RGB565)
+            widen_565(rig->display + 2 * i, out->rgba + 4 * i);
+        else
+            widen_8888(rig->display + 4 * i, out->rgba + 4 * i);
+    }
+    free(rig->display);
+    rig->display = NULL;
+    if (!ok)
+        image_free(out);
+    return ok;
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* take.h - one frame of a built-in scene, drawn by the library under stated settings. Everything
+ * that the bench measures is a take.
+ *
+ * Converting the scene is set-up and is not measured. What is: smear_begin, every smear_submit and
+ * smear_render with its clears and the conversion to the display's format, to a flush that does
+ * nothing. */
+#ifndef SMEAR_BENCH_TAKE_H
+#define SMEAR_BENCH_TAKE_H
+
+#include "../failure.h"
+#include "../image/image.h"
+#include "../scenes/present.h"
+#include "../scenes/scene.h"
+
+#include <smear.h>
+#include <stdbool.h>
+
+struct take {
+    const char *scene;          /* of the catalog */
+    int frame;                  /* at the scene's rate; -1: the frame that stands for the scene */
+    int width, height;          /* 0: the scene's */
+    bool windowed;              /* a window for filters; else a context that is only sharp */
+    bool accumulate;            /* room for SMEAR_ACCUMULATE */
+    int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
+    smear_format format;        /* never dithered */
+    smear_method method;
+    int samples;                /* 0: the library's default */
+    int reconstruct;            /* SMEAR_FENCE | ... */
+    bool shutter_poses;
+    int workers;                /* 0: one */
+    bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
+};
+
+/* A take that is ready to be drawn, any number of times. */
+struct rig {
+    struct take take;
+    struct scene scene;         /* changed, if the take changes it */
+    struct scene original;      /* then */
+    struct presenter *presenter;
+    const struct presented *frame;
+    smear_context *ctx;
+    void *memory;
+    smear_stats stats;          /* of the last time it was drawn */
+    uint8_t *display;           /* where flush copies to, rows without padding; null: nowhere */
+};
+
+/* The whole frame as one band: the height in rows of 8. */
+int take_whole(int height);
+
+/* On failure nothing is left to free. Light is encoded, the shutter open for 180 degrees and
+ * centred. */
+bool rig_open(struct rig *rig, const struct take *take, struct failure *f);
+void rig_close(struct rig *rig);
+
+/* Goes on to another frame of the same scene with the same settings. */
+bool rig_seek(struct rig *rig, int frame, struct failure *f);
+
+/* Draws. The work that is measured is in bench_frame, and in bench_worker on other threads, and
+ * nowhere else: both names are looked for by the counter. */
+bool rig_draw(struct rig *rig, struct failure *f);
+
+/* Draws into a picture of 8-bit codes; RGB565 is widened by repeating its upper bits. *out is
+ * allocated here, and empty on failure. */
+bool rig_picture(struct rig *rig, struct image *out, struct failure *f);
+
+#endif
