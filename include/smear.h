@@ -171,7 +171,8 @@ enum {
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
-    const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame */
+    const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame
+                                         * (if it is of the same kind; else nothing has camera motion) */
     uint8_t method;             /* smear_method */
     uint8_t exposure;           /* smear_exposure */
     uint8_t light;              /* smear_light */
@@ -207,7 +208,8 @@ typedef struct smear_band {
     uint32_t size;              /* bytes in all */
 } smear_band;
 
-/* Returns 0, or a negative value that ends the frame and is returned by smear_render. */
+/* Returns 0, or a negative value that ends the frame and is returned by smear_render; with two bands, a refused band needs
+ * no smear_band_done(). */
 typedef int smear_flush_fn(void *user, const smear_band *band);
 
 /* Looked at by tests and tools: a drawn row before the blur. depth: codes, see smear_depth_units().
@@ -228,7 +230,8 @@ typedef struct smear_desc {
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame and ids kept; 0 means 16 */
-    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping); 0 means 1024 */
+    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
+                                 * SMEAR_TRIANGLE_BYTES each; more are drawn in parts; 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_flush_fn *flush;      /* required */
     smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
@@ -315,7 +318,8 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1536u           /* the context itself, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
-#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and the vertices it shares (20), in the mean */
+#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
+                                             * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 

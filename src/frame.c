@@ -419,7 +419,10 @@ static int flush_band(struct smear_context *c, int row, uint8_t *band)
         add_crc(c, band, b.size);
     c->bands_handed++;
     int result = c->desc.flush(c->desc.user, &b);
-    return result < 0 ? result : SMEAR_OK;
+    if (result >= 0)
+        return SMEAR_OK;
+    c->bands_handed--;          /* refused: nobody will report it as sent */
+    return result;
 }
 
 /* ------------------------------------------------------------------ finishing without a filter */

@@ -44,7 +44,7 @@ static bool resolve(smear_desc *d)
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
 
-/* A 24-byte minimum keeps one triangle with every attribute drawable at any capacity. */
+/* At least a few triangles with every attribute can be kept at any capacity. */
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
@@ -101,7 +101,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->row_count = w->rows;
     g->pool_words = pool_words(d);
     g->pool = arena_take(a, g->pool_words, 4);
-    g->segment_limit = d->max_draws + 2u + g->pool_words / 50000u;
+    g->segment_limit = min_u32(d->max_draws + 2u + g->pool_words / 50000u, 65536u);    /* 16-bit numbers */
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
@@ -184,6 +184,11 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }
 
+static bool same_kind(const smear_camera *a, const smear_camera *b)
+{
+    return (a->half_height > 0) == (b->half_height > 0);
+}
+
 int smear_begin(smear_context *c, const smear_frame *frame)
 {
     if (c == NULL || frame == NULL || frame->camera == NULL || !is_camera(frame->camera)
@@ -204,6 +209,11 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         c->camera_moves = f.shutter_poses && frame->close != NULL;
     if (!c->camera_moves || (f.shutter_poses && frame->open == NULL))
         c->camera_open = *frame->camera;
+    /* Between a perspective and an orthographic view there is no path: as after a cut. */
+    if (!same_kind(&c->camera_open, &c->camera) || !same_kind(&c->camera_close, &c->camera)) {
+        c->camera_moves = false;
+        c->camera_open = c->camera_close = *frame->camera;
+    }
     c->kept_camera = *frame->camera;
     c->has_kept_camera = true;
     f.camera = f.open = f.close = NULL;
