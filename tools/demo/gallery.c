@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* gallery.c - see gallery.h. */
+#include "gallery.h"
+
+#include "../cli/say.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { MAX_PATH = 4096 };
+
+static bool make_folder(const char *path, struct failure *f)
+{
+    struct stat info;
+    if (mkdir(path, 0777) == 0)
+        return true;
+    int error = errno;
+    if (stat(path, &info) == 0)
+        return S_ISDIR(info.st_mode) || fail(f, "is no folder");
+    return fail(f, "cannot be made (%s)", strerror(error));
+}
+
+bool gallery_open(struct gallery *gallery, const char *folder, struct failure *f)
+{
+    char path[MAX_PATH];
+    size_t length = strlen(folder);
+    *gallery = (struct gallery){ .folder = folder };
+    if (length == 0 || length >= sizeof path)
+        return fail(f, "is no name for a folder");
+    for (size_t i = 1; i <= length; i++) {
+        if (folder[i] != '/' && folder[i] != '\0')
+            continue;
+        memcpy(path, folder, i);
+        path[i] = '\0';
+        if (!make_folder(path, f))
+            return false;
+    }
+    return true;
+}
+
+static bool path_of(const struct gallery *gallery, const char *name, char path[MAX_PATH],
+                    struct failure *f)
+{
+    int length = snprintf(path, MAX_PATH, "%s/%s", gallery->folder, name);
+    return (length > 0 && length < MAX_PATH) || fail(f, "the path is too long");
+}
+
+static void tell(struct gallery *gallery, const char *path, const char *what)
+{
+    say_progress_end();
+    printf("%-34s %s\n", path, what);
+    fflush(stdout);
+    gallery->pictures++;
+}
+
+bool gallery_hang(struct gallery *gallery, const char *name, const char *what,
+                  const struct image *picture, struct failure *f)
+{
+    char path[MAX_PATH];
+    if (!path_of(gallery, name, path, f) || !png_save(path, picture, f))
+        return false;
+    tell(gallery, path, what);
+    return true;
+}
+
+static bool is_gif(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 4 && strcmp(name + length - 4, ".gif") == 0;
+}
+
+/* GIF counts in hundredths: delays are spread so that no frame is late by more than half of one. */
+static int delay_of(const struct gallery_reel *reel, int frame)
+{
+    double unit = is_gif(reel->name) ? 10 : 1;
+    double begin = floor(frame * 1000.0 / reel->fps / unit + 0.5);
+    double end = floor((frame + 1) * 1000.0 / reel->fps / unit + 0.5);
+    return (int)((end - begin) * unit);
+}
+
+bool gallery_show(struct gallery *gallery, struct film *film, const struct gallery_reel *reel,
+                  struct failure *f)
+{
+    char path[MAX_PATH];
+    if (!path_of(gallery, reel->name, path, f))
+        return false;
+    int width = film->device.setup.width, height = film->device.setup.height;
+    struct animation_writer *writer = is_gif(reel->name) ? gif_begin(path, width, height, f)
+                                                         : apng_begin(path, width, height, f);
+    if (writer == NULL)
+        return false;
+    for (int i = 0; i < reel->count; i++) {
+        struct image frame;
+        bool ok = film_take(film, (reel->first + i) / reel->fps, reel->look, &frame, f) &&
+                  animation_add(writer, &frame, delay_of(reel, i), f);
+        image_free(&frame);
+        if (!ok) {
+            animation_cancel(writer);
+            return false;
+        }
+        say_progress(i + 1, reel->count, "frame");
+    }
+    if (!animation_end(writer, f))
+        return false;
+    tell(gallery, path, reel->what);
+    return true;
+}
