@@ -63,7 +63,7 @@ test:
 
 ## instructions per frame against other rasterizers (needs valgrind)
 bench: build/smear-bench
-	sh tools/bench.sh build/smear-bench
+	MAKE="$(MAKE)" sh tools/bench/bench.sh build/smear-bench $(REPORTS)
 
 build/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
