@@ -2,11 +2,13 @@
 /* assemble.c - the loop over a draw's triangles.
  *
  * Order of work, cheapest rejection first: share an outcode, need clipping, face away, touch no pixel centre.
- * Only then are vertices shaded, moved to the other poses and stored, once each. */
+ * Only then are vertices shaded, moved to the other poses and stored, once each. Triangles of one or two plain pixels
+ * are finished here: they become points. */
 #include "assemble.h"
 
 #include "clip.h"
 #include "fixmath.h"
+#include "tiny.h"
 
 void smear_assembler_reset(struct smear_assembler *a)
 {
@@ -15,26 +17,28 @@ void smear_assembler_reset(struct smear_assembler *a)
     a->serial = 0;
 }
 
-static void fill_cached(struct smear_cached_vertex *v, const struct smear_assembler *a,
-                        const struct smear_assembly *d, uint32_t index)
+static inline void fill_cached(struct smear_cached_vertex *v, const struct smear_assembler *a,
+                               const struct smear_assembly *d, uint32_t index)
 {
+    struct smear_homogeneous h;
     v->stored = 0;
-    smear_transform_vertex(&v->now, &d->now, d->position + 3 * index);
+    smear_transform_vertex(&h, &d->now, d->position + 3 * index);
     for (int i = 0; i < d->extra_count; i++) {
         struct smear_homogeneous term;
         smear_transform_vertex(&term, &d->extra[i], d->extra_position[i] + 3 * index);
-        v->now.x += term.x;
-        v->now.y += term.y;
-        v->now.w += term.w;
-        v->now.distance += term.distance;
+        h.x += term.x;
+        h.y += term.y;
+        h.w += term.w;
+        h.distance += term.distance;
     }
-    if (v->now.distance < d->now.near_distance) {
+    v->now = h;
+    if (h.distance < d->now.near_distance) {
         v->outcode = OUT_NEAR;
         return;
     }
-    smear_project(&v->screen, &d->now, &v->now, &a->viewport);
+    project(&v->screen, &d->now, &h, &a->viewport);
     v->outcode = outcode_sides(&v->screen, &a->viewport);
-    if (v->now.distance > d->now.far_distance)
+    if (h.distance > d->now.far_distance)
         v->outcode |= OUT_FAR;
 }
 
@@ -101,11 +105,10 @@ static void shade_vertex(struct smear_color *color, const struct smear_assembly 
                 cosine);
 }
 
-/* The three vertices of a triangle on their way through. */
-struct corner {
-    uint32_t index;
-    struct smear_cached_vertex *cached;
-};
+static uint32_t index_of(const struct smear_cached_vertex *v)
+{
+    return v->tag & 0xffffu;
+}
 
 /* What a triangle has in common. */
 struct face {
@@ -114,57 +117,76 @@ struct face {
     uint32_t cosine;            /* flat light */
 };
 
-static void store_vertex(uint32_t *record, const struct smear_assembler *a,
+static SMEAR_NOINLINE void store_vertex(uint32_t *record, const struct smear_assembler *a,
                          const struct smear_assembly *d, const struct smear_segment *s,
-                         const struct corner *c, const struct face *face)
+                         const struct smear_cached_vertex *v, const struct face *face)
 {
     const smear_mesh *mesh = d->mesh;
-    store_place(record, &c->cached->screen);
+    uint32_t index = index_of(v);
+    store_place(record, &v->screen);
     if (s->uv != 0)
-        store_uv(record + s->uv, mesh->uv[2 * c->index], mesh->uv[2 * c->index + 1]);
+        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
     if (s->color != 0) {
         struct smear_color color;
-        shade_vertex(&color, d, c->index, face->color, face->cosine, face->back);
+        shade_vertex(&color, d, index, face->color, face->cosine, face->back);
         store_color(record + s->color, color.channel);
     }
     for (int pose = 0; pose < s->moves; pose++) {
         struct smear_homogeneous h;
-        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * c->index);
-        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &c->cached->now,
-                     &c->cached->screen, &a->viewport);
+        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
+                     &a->viewport);
     }
 }
 
-/* Twice the signed area in q16 pixels, positive when clockwise on the screen (y down): seen from behind. */
-static int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
-                       const struct smear_screen *c)
+/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when clockwise on the
+ * screen (y down). */
+static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {
-    int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
 #if !SMEAR_HAS_MUL64
-    const int32_t small = 1 << 14;
-    if (x1 < small && x1 > -small && y1 < small && y1 > -small
-        && x2 < small && x2 > -small && y2 < small && y2 > -small)
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small)
+         | ((uint32_t)y2 + small)) < 2 * small)
         return x1 * y2 - x2 * y1;
 #endif
     return (int64_t)x1 * y2 - (int64_t)x2 * y1;
 }
 
-/* First tile row in which a pixel centre can be covered, or -1: none at all, or none in this part of the frame. */
-static int first_row(const struct smear_assembler *a, const struct smear_screen *v[3])
+static int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
+                       const struct smear_screen *c)
+{
+    return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
+}
+
+/* Pixels whose centres may be covered. */
+struct box {
+    int32_t x0, y0, x1, y1;
+};
+
+static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
+                                const struct smear_screen *c)
+{
+    struct box box;
+    box.x0 = (min_i32(a->x, min_i32(b->x, c->x)) + 127) >> 8;
+    box.x1 = (max_i32(a->x, max_i32(b->x, c->x)) + 127) >> 8;
+    box.y0 = (min_i32(a->y, min_i32(b->y, c->y)) + 127) >> 8;
+    box.y1 = (max_i32(a->y, max_i32(b->y, c->y)) + 127) >> 8;
+    return box;
+}
+
+/* Cuts a box to the part of the frame that is being filled. */
+static inline void box_cut(struct box *box, const struct smear_assembler *a)
 {
     const struct smear_geometry *g = a->geometry;
-    int32_t left = min_i32(v[0]->x, min_i32(v[1]->x, v[2]->x));
-    int32_t right = max_i32(v[0]->x, max_i32(v[1]->x, v[2]->x));
-    int32_t x0 = max_i32((left + 127) >> 8, 0), x1 = min_i32((right + 127) >> 8, a->viewport.width);
-    if (x0 >= x1)
-        return -1;
-    int32_t top = min_i32(v[0]->y, min_i32(v[1]->y, v[2]->y));
-    int32_t bottom = max_i32(v[0]->y, max_i32(v[1]->y, v[2]->y));
-    int32_t y0 = max_i32((top + 127) >> 8, g->row_first * g->row_px);
-    int32_t y1 = min_i32((bottom + 127) >> 8, min_i32(a->viewport.height, g->row_end * g->row_px));
-    if (y0 >= y1)
-        return -1;
-    return (int)((uint32_t)y0 / (uint32_t)g->row_px);
+    box->x0 = max_i32(box->x0, 0);
+    box->x1 = min_i32(box->x1, a->viewport.width);
+    box->y0 = max_i32(box->y0, g->row_first * g->row_px);
+    box->y1 = min_i32(box->y1, min_i32(a->viewport.height, g->row_end * g->row_px));
+}
+
+static inline bool box_is_empty(const struct box *box)
+{
+    return box->x0 >= box->x1 || box->y0 >= box->y1;
 }
 
 static bool is_blend(const struct smear_assembly *d)
@@ -209,30 +231,22 @@ static bool shares_vertices(const struct smear_assembly *d, const struct smear_s
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 
-/* Room for one more triangle with `fresh` new vertices; opens a new segment where offsets run out. */
-static struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
-                                       struct smear_segment *s, uint32_t fresh)
+/* Room for one more triangle with three new vertices; opens a new segment where offsets run out. */
+static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
+                                              struct smear_segment *s, uint32_t entries)
 {
     struct smear_geometry *g = a->geometry;
-    if (s == NULL || g->vertex_words + fresh * s->stride - s->base > 65536u) {
+    if (s == NULL || g->vertex_words + 3u * s->stride - s->base > 65536u) {
         s = open_segment(a, d);
         if (s == NULL)
             return NULL;
     }
-    return geometry_has_room(g, fresh * s->stride, 1) ? s : NULL;
+    return geometry_has_room(g, 3u * s->stride, entries) ? s : NULL;
 }
 
-static struct smear_triangle *add_triangle(struct smear_assembler *a, const struct smear_segment *s,
-                                           uint32_t color, int row, bool blend)
+static inline uint32_t *row_list(struct smear_geometry *g, const struct smear_assembly *d, int row)
 {
-    struct smear_geometry *g = a->geometry;
-    uint32_t i = g->triangle_count++;
-    struct smear_triangle *t = geometry_triangle(g, i);
-    t->segment = (uint16_t)(s - g->segment);
-    t->color = color;
-    smear_geometry_link(g, i, row, blend);
-    a->triangles_drawn++;
-    return t;
+    return is_blend(d) ? &g->blend_last[row] : &g->opaque_last[row];
 }
 
 static uint32_t face_color_of(const struct smear_assembly *d, const struct smear_segment *s,
@@ -245,25 +259,24 @@ static uint32_t face_color_of(const struct smear_assembly *d, const struct smear
     return smear_color_pack(&color, d->shading.linear);
 }
 
-static struct face face_of(const struct smear_assembly *d, uint32_t triangle,
-                           const struct corner corner[3], bool back)
+static struct face face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
 {
     struct face face = { back, NULL, 65536u };
     if (d->mesh->face_color != NULL)
         face.color = d->mesh->face_color + 4 * triangle;
     if (d->shading.lit && d->mesh->normal == NULL) {
         const int16_t *p = d->position;
-        const int16_t *v[3] = { p + 3 * corner[0].index, p + 3 * corner[1].index,
-                                p + 3 * corner[2].index };
-        face.cosine = smear_light_face(&d->shading, v[0], v[back ? 2 : 1], v[back ? 1 : 2]);
+        const uint16_t *index = d->mesh->index + 3 * triangle;
+        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
+                                       p + 3 * index[back ? 1 : 2]);
     }
     return face;
 }
 
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
-static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
-                        struct smear_segment **segment, uint32_t triangle,
-                        const struct corner corner[3])
+static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
+                                       struct smear_segment **segment, uint32_t triangle,
+                                       const struct smear_cached_vertex *corner[3])
 {
     struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
     struct smear_screen screen[SMEAR_CLIP_MAX];
@@ -271,15 +284,16 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
     int codes = 0;
     for (int i = 0; i < 3; i++) {
         struct smear_clip_vertex *v = &polygon[i];
-        codes |= corner[i].cached->outcode;
-        v->now = corner[i].cached->now;
+        uint32_t index = index_of(corner[i]);
+        codes |= corner[i]->outcode;
+        v->now = corner[i]->now;
         for (int pose = 0; pose < 2; pose++)
             v->pose[pose] = v->now;
         for (int pose = 0; pose < d->moves; pose++)
             smear_transform_vertex(&v->pose[pose], &d->pose[pose],
-                                   d->pose_position[pose] + 3 * corner[i].index);
-        v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * corner[i].index] : 0;
-        v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * corner[i].index + 1] : 0;
+                                   d->pose_position[pose] + 3 * index);
+        v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
+        v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
         for (int c = 0; c < 4; c++)
             v->color[c] = 0;
     }
@@ -298,7 +312,7 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
     if (area == 0 || (back && !d->material->double_sided))
         return true;
 
-    struct face face = face_of(d, triangle, corner, back);
+    struct face face = face_of(d, triangle, back);
     if (*segment == NULL)
         *segment = open_segment(a, d);
     if (*segment == NULL)
@@ -306,7 +320,7 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
     if ((*segment)->color != 0) {
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
-            shade_vertex(&color, d, corner[i].index, face.color, face.cosine, back);
+            shade_vertex(&color, d, index_of(corner[i]), face.color, face.cosine, back);
             for (int c = 0; c < 4; c++)
                 polygon[i].color[c] = color.channel[c];
         }
@@ -325,10 +339,13 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
         const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
         /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
         int64_t part = area_of(place[0], place[1], place[2]);
-        int row = part == 0 || (part > 0) != (area > 0) ? -1 : first_row(a, place);
-        if (row < 0)
+        if (part == 0 || (part > 0) != (area > 0))
             continue;
-        struct smear_segment *s = make_room(a, d, *segment, 3);
+        struct box box = box_of(place[0], place[1], place[2]);
+        box_cut(&box, a);
+        if (box_is_empty(&box))
+            continue;
+        struct smear_segment *s = make_room(a, d, *segment, 1);
         if (s == NULL)
             return false;
         *segment = s;
@@ -350,7 +367,11 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
                 store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
                              &v->now, place[k], &a->viewport);
         }
-        struct smear_triangle *t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
+        struct smear_geometry *g = a->geometry;
+        struct smear_triangle *t = geometry_add(g, row_list(g, d, geometry_row(g, box.y0)));
+        a->triangles_drawn++;
+        t->segment = (uint16_t)(s - a->geometry->segment);
+        t->color = face_color_of(d, s, &face);
         t->vertex[0] = offset[0];
         t->vertex[1] = offset[area > 0 ? 1 : 2];
         t->vertex[2] = offset[area > 0 ? 2 : 1];
@@ -358,48 +379,168 @@ static bool add_clipped(struct smear_assembler *a, const struct smear_assembly *
     return true;
 }
 
-/* A triangle that lies within the guard band; `clockwise` on the screen. */
-static bool add_whole(struct smear_assembler *a, const struct smear_assembly *d,
-                      struct smear_segment **segment, bool shares, uint32_t triangle,
-                      const struct corner corner[3], bool clockwise)
+/* A draw on its way: what the loop over its triangles needs at every turn. */
+struct batch {
+    struct smear_assembler *a;
+    const struct smear_assembly *d;
+    struct smear_segment *segment;      /* the newest */
+    bool shares;                        /* vertices are the same for all faces */
+    bool cut;                           /* only a part of the frame is being filled */
+    bool points;                        /* nothing but a colour and depth: may become points */
+    const uint8_t *face_color;          /* flat colours as they are; null: shaded */
+};
+
+/* The pixel a triangle covers and its weights there. */
+struct covered {
+    int32_t x, y, e1, e2;
+};
+
+/* Triangles of up to this many covered pixels become points; in memory they are no larger than a triangle with
+ * vertices. */
+enum { POINTS_MAX = 2, TINY_BOX = 2 };
+
+/* How many centres in the box a triangle covers; the first POINTS_MAX of them. */
+static inline int cover(struct covered out[POINTS_MAX], const struct tiny_edges *e, const struct box *box)
 {
-    const struct smear_screen *place[3] = { &corner[0].cached->screen, &corner[1].cached->screen,
-                                            &corner[2].cached->screen };
-    int row = first_row(a, place);
-    if (row < 0)
+    int count = 0;
+    int32_t row0 = e->e0, row1 = e->e1, row2 = e->e2;
+    for (int32_t y = box->y0;;) {
+        int32_t e0 = row0, e1 = row1, e2 = row2;
+        for (int32_t x = box->x0;;) {
+            if ((e0 | e1 | e2) >= 0) {
+                if (count < POINTS_MAX)
+                    out[count] = (struct covered){ x, y, e1, e2 };
+                count++;
+            }
+            if (++x == box->x1)
+                break;
+            e0 += e->right0;
+            e1 += e->right1;
+            e2 += e->right2;
+        }
+        if (++y == box->y1)
+            return count;
+        row0 += e->down0;
+        row1 += e->down1;
+        row2 += e->down2;
+    }
+}
+
+static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    struct face face = face_of(b->d, triangle, back);
+    return face_color_of(b->d, b->segment, &face);
+}
+
+static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    if (b->face_color != NULL) {
+        const uint8_t *c = b->face_color + 4 * triangle;
+        return pixel_make(c[3], c[0], c[1], c[2]);
+    }
+    return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
+}
+
+/* Words of the vertex's record; stores it when that has not been done. */
+static inline uint32_t stored_vertex(struct batch *b, struct smear_cached_vertex *v, uint32_t triangle, bool back)
+{
+    const struct smear_segment *s = b->segment;
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    bool shares = b->shares && (!back || s->color == 0);
+    if (shares && v->stored > s->base)
+        return v->stored - 1;
+    struct smear_geometry *g = b->a->geometry;
+    struct face face = { back, NULL, 65536u };
+    uint32_t word = g->vertex_words;
+    if (s->color != 0)
+        face = face_of(b->d, triangle, back);
+    g->vertex_words += s->stride;
+    store_vertex(g->pool + word, b->a, b->d, s, v, &face);
+    if (shares)
+        v->stored = word + 1;
+    return word;
+}
+
+static inline void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                              bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+{
+    struct smear_geometry *g = b->a->geometry;
+    const struct smear_segment *s = b->segment;
+    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    uint32_t color = 0;
+    if (s->color == 0)
+        color = color_of_face(b, triangle, back);
+    else
+        for (int i = 0; i < 3; i++)
+            channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+    struct tiny_scale scale = tiny_scale_make(area);
+    int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
+    for (int i = 0; i < count; i++) {
+        const struct covered *p = &covered[i];
+        uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
+        struct smear_triangle *t = geometry_add(g, &g->opaque_last[geometry_row(g, p->y)]);
+        t->x = (uint16_t)p->x;
+        t->y = (uint16_t)p->y;
+        t->depth = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->segment = SMEAR_POINT;
+        t->color = s->color == 0 ? color
+                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.linear);
+    }
+}
+
+/* A triangle that lies within the guard band, clockwise on the screen. False when there is no room. */
+static inline bool add_whole(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                             bool back, int64_t area, bool cut)
+{
+    struct smear_geometry *g = b->a->geometry;
+    struct box box = box_of(&v[0]->screen, &v[1]->screen, &v[2]->screen);
+    bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
+    if (cut)
+        box_cut(&box, b->a);
+    if (box_is_empty(&box))
         return true;
-    struct smear_segment *s = make_room(a, d, *segment, 3);
+    struct covered covered[POINTS_MAX];
+    int count = POINTS_MAX + 1;
+    if (tiny) {
+        const struct smear_screen *p = &v[0]->screen;
+        struct tiny_edges e;
+        tiny_start(&e, p->x, p->y, v[1]->screen.x - p->x, v[1]->screen.y - p->y, v[2]->screen.x - p->x,
+                   v[2]->screen.y - p->y, (int32_t)area, box.x0, box.y0);
+        count = cover(covered, &e, &box);
+        if (count == 0)
+            return true;
+    }
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
     if (s == NULL)
         return false;
-    *segment = s;
-    bool back = clockwise != d->mirrored;
-    struct face face = face_of(d, triangle, corner, back);
-    struct smear_triangle *t = add_triangle(a, s, face_color_of(d, s, &face), row, is_blend(d));
-    struct smear_geometry *g = a->geometry;
-    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    shares = shares && (!back || s->color == 0);
-    for (int i = 0; i < 3; i++) {
-        struct smear_cached_vertex *v = corner[i].cached;
-        uint32_t word = v->stored - 1;
-        if (!shares || v->stored <= s->base) {
-            word = g->vertex_words;
-            g->vertex_words += s->stride;
-            store_vertex(g->pool + word, a, d, s, &corner[i], &face);
-            if (shares)
-                v->stored = word + 1;
-        }
-        t->vertex[clockwise || i == 0 ? i : 3 - i] = (uint16_t)(word - s->base);
+    b->segment = s;
+    b->a->triangles_drawn++;
+    if (count <= POINTS_MAX && b->points) {
+        add_points(b, v, triangle, back, covered, count, (int32_t)area);
+        return true;
     }
+    uint32_t base = s->base;
+    uint16_t offset[3];
+    for (int i = 0; i < 3; i++)
+        offset[i] = (uint16_t)(stored_vertex(b, v[i], triangle, back) - base);
+    struct smear_triangle *t = geometry_add(g, row_list(g, b->d, geometry_row(g, box.y0)));
+    t->vertex[0] = offset[0];
+    t->vertex[1] = offset[1];
+    t->vertex[2] = offset[2];
+    t->segment = (uint16_t)(s - g->segment);
+    t->color = color_of_face(b, triangle, back);
     return true;
 }
 
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
                                                       const struct smear_assembly *d, uint32_t tag,
-                                                      struct smear_cached_vertex *v,
                                                       const struct smear_cached_vertex *in_use1,
                                                       const struct smear_cached_vertex *in_use2,
                                                       struct smear_cached_vertex *spare)
 {
+    struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
+    if ((tag & 0xffffu) >= d->mesh->vertex_count)
+        return NULL;
     /* A slot that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
@@ -408,7 +549,7 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
     return v;
 }
 
-/* The transformed vertex: remembered, or made now. */
+/* The transformed vertex: remembered, or made now. Null when the mesh has no such vertex. */
 static inline struct smear_cached_vertex *look_up(const struct smear_assembler *a,
                                                   const struct smear_assembly *d, uint32_t tag,
                                                   const struct smear_cached_vertex *in_use1,
@@ -416,44 +557,59 @@ static inline struct smear_cached_vertex *look_up(const struct smear_assembler *
                                                   struct smear_cached_vertex *spare)
 {
     struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
-    return v->tag == tag ? v : miss(a, d, tag, v, in_use1, in_use2, spare);
+    return v->tag == tag ? v : miss(a, d, tag, in_use1, in_use2, spare);
 }
 
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
 {
     const smear_mesh *mesh = d->mesh;
-    struct smear_segment *segment = open_segment(a, d);
-    if (segment == NULL) {
+    const struct smear_geometry *g = a->geometry;
+    struct batch b = { .a = a, .d = d, .segment = open_segment(a, d) };
+    if (b.segment == NULL) {
         if (drop)
             a->triangles_dropped += mesh->triangle_count;
         return drop;
     }
-    bool shares = shares_vertices(d, segment);
+    b.shares = shares_vertices(d, b.segment);
+    b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
+    b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0;
+    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
+        b.face_color = mesh->face_color;
     uint32_t tag = ++a->serial << 16;
     const uint16_t *index = mesh->index;
     struct smear_cached_vertex spare[3];
+    const bool double_sided = d->material->double_sided;
+    /* Vertices are taken in the order that is clockwise on the screen for front faces. */
+    const int second = d->mirrored ? 1 : 2, third = 3 - second;
 
     for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
-        uint32_t i0 = index[0], i1 = index[1], i2 = index[2];
-        if (max_u32(i0, max_u32(i1, i2)) >= mesh->vertex_count) {
+        struct smear_cached_vertex *v[3];
+        v[0] = look_up(a, d, tag | index[0], NULL, NULL, &spare[0]);
+        v[1] = look_up(a, d, tag | index[second], v[0], NULL, &spare[1]);
+        v[2] = look_up(a, d, tag | index[third], v[0], v[1], &spare[2]);
+        if (v[0] == NULL || v[1] == NULL || v[2] == NULL) {
             a->triangles_dropped++;
             continue;
         }
-        struct smear_cached_vertex *v0 = look_up(a, d, tag | i0, NULL, NULL, &spare[0]);
-        struct smear_cached_vertex *v1 = look_up(a, d, tag | i1, v0, NULL, &spare[1]);
-        struct smear_cached_vertex *v2 = look_up(a, d, tag | i2, v0, v1, &spare[2]);
-        if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
+        int any = v[0]->outcode | v[1]->outcode | v[2]->outcode;
+        if (any != 0 && (v[0]->outcode & v[1]->outcode & v[2]->outcode & OUT_REJECT) != 0)
             continue;
-        struct corner corner[3] = { { i0, v0 }, { i1, v1 }, { i2, v2 } };
         bool added;
-        if (((v0->outcode | v1->outcode | v2->outcode) & OUT_CLIP) != 0) {
-            added = add_clipped(a, d, &segment, i, corner);
+        if ((any & OUT_CLIP) != 0) {
+            const struct smear_cached_vertex *corner[3] = { v[0], v[second], v[third] };
+            added = add_clipped(a, d, &b.segment, i, corner);
         } else {
-            int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
-            bool back = (area > 0) != d->mirrored;
-            if (area == 0 || (back && !d->material->double_sided))
-                continue;
-            added = add_whole(a, d, &segment, shares, i, corner, area > 0);
+            int64_t area = area_of(&v[0]->screen, &v[1]->screen, &v[2]->screen);
+            bool back = area < 0;
+            if (area <= 0) {
+                if (area == 0 || !double_sided)
+                    continue;
+                struct smear_cached_vertex *swap = v[1];
+                v[1] = v[2];
+                v[2] = swap;
+                area = -area;
+            }
+            added = add_whole(&b, v, i, back, area, any != 0 || b.cut);
         }
         if (!added) {
             if (!drop)

@@ -7,6 +7,7 @@ void smear_geometry_reset(struct smear_geometry *g, int first, int end)
     g->vertex_words = 0;
     g->triangle_count = 0;
     g->segment_count = 0;
+    g->row_recip = ((1u << 22) + (uint32_t)g->row_px - 1) / (uint32_t)g->row_px;
     g->row_first = first;
     g->row_end = end;
     for (int row = first; row < end; row++)
@@ -15,30 +16,18 @@ void smear_geometry_reset(struct smear_geometry *g, int first, int end)
 
 struct smear_segment *smear_geometry_open(struct smear_geometry *g)
 {
-    if (g->segment_count == g->segment_limit)
+    if (g->segment_count == min_u32(g->segment_limit, SMEAR_POINT))
         return NULL;
     struct smear_segment *s = &g->segment[g->segment_count++];
     s->base = g->vertex_words;
     return s;
 }
 
-void smear_geometry_link(struct smear_geometry *g, uint32_t triangle, int row, bool blend)
-{
-    uint32_t *last = blend ? &g->blend_last[row] : &g->opaque_last[row];
-    struct smear_triangle *t = geometry_triangle(g, triangle);
-    if (*last == SMEAR_NO_TRIANGLE) {
-        t->next = triangle;
-    } else {
-        struct smear_triangle *before = geometry_triangle(g, *last);
-        t->next = before->next;
-        before->next = triangle;
-    }
-    *last = triangle;
-}
-
 /* True when the triangle covers a pixel centre at or below pixel row y. */
 static bool reaches(const struct smear_geometry *g, const struct smear_triangle *t, int32_t y)
 {
+    if (t->segment == SMEAR_POINT)
+        return t->y >= y;
     const struct smear_segment *s = &g->segment[t->segment];
     int32_t end = y * 256 + 128;
     for (int i = 0; i < 3; i++)

@@ -8,7 +8,8 @@
  *     | vertices ->                  free                  <- triangles |
  *
  * Vertices are shared between triangles through the vertex cache, so a closed mesh keeps about half a record
- * per triangle. */
+ * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for the depth
+ * test: points, in entries of the same size. */
 #ifndef SMEAR_GEOMETRY_H
 #define SMEAR_GEOMETRY_H
 
@@ -19,11 +20,19 @@
 #define SMEAR_NO_TRIANGLE UINT32_MAX
 
 struct smear_triangle {
-    uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen */
-    uint16_t segment;
+    union {
+        uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen */
+        struct {
+            uint16_t x, y, depth;       /* a point: pixel and depth code */
+        };
+    };
+    uint16_t segment;       /* SMEAR_POINT: a point */
     uint32_t next;          /* in its row's ring, later in the row's list */
     uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */
 };
+
+/* In place of a segment: opaque, without motion. */
+#define SMEAR_POINT 0xffffu
 
 enum smear_shade_mode {
     SHADE_NONE,             /* texel alone */
@@ -61,6 +70,7 @@ struct smear_geometry {
     uint32_t *opaque_last, *blend_last;     /* per tile row: last triangle of the ring, or none */
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
+    uint32_t row_recip;             /* 2^22 / row_px, rounded up */
     int row_first, row_end;         /* tile rows that are being filled: a part of the frame */
 };
 
@@ -85,11 +95,30 @@ static inline bool geometry_has_room(const struct smear_geometry *g, uint32_t ve
 /* Empties the store for the tile rows [first, end). */
 void smear_geometry_reset(struct smear_geometry *g, int first, int end);
 
+/* Tile row of pixel row y < 2048. Exact: the reciprocal is too large by less than row_px / 2^22. */
+static inline int geometry_row(const struct smear_geometry *g, int32_t y)
+{
+    return (int)((uint32_t)y * g->row_recip >> 22);
+}
+
 /* Starts a segment at the next free vertex word; null when the table is full. */
 struct smear_segment *smear_geometry_open(struct smear_geometry *g);
 
-/* Links the newest triangle into the list of tile row `row`. */
-void smear_geometry_link(struct smear_geometry *g, uint32_t triangle, int row, bool blend);
+/* The next free entry, linked into the list of tile row `row`. There must be room. */
+static inline struct smear_triangle *geometry_add(struct smear_geometry *g, uint32_t *last_of_row)
+{
+    uint32_t i = g->triangle_count++, last = *last_of_row;
+    struct smear_triangle *t = geometry_triangle(g, i);
+    if (last == SMEAR_NO_TRIANGLE) {
+        t->next = i;
+    } else {
+        struct smear_triangle *before = geometry_triangle(g, last);
+        t->next = before->next;
+        before->next = i;
+    }
+    *last_of_row = i;
+    return t;
+}
 
 /* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission order.
  * `head` is the list of the row before (or none); returns the new head; lists end with SMEAR_NO_TRIANGLE. */

@@ -481,13 +481,34 @@ static void draw_triangle(const struct smear_raster_frame *frame,
         cover_large(&s, write);
 }
 
+/* A finished pixel. */
+static inline void draw_point(const struct smear_raster_target *target, const struct smear_triangle *t, bool moved)
+{
+    int32_t x = t->x, y = t->y - target->y0;
+    if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
+        return;
+    int32_t slot = target->window_rows.slot0 + y;
+    if (slot >= target->window_rows.ring)
+        slot -= target->window_rows.ring;
+    int32_t at = slot * target->window_rows.stride + x;
+    if (t->depth <= target->depth[at])
+        return;
+    target->depth[at] = t->depth;
+    target->color[at] = t->color & 0xffffffu;
+    if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
+        smear_velocity_zero(target, at);
+}
+
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head)
 {
     bool moved = false;
     while (head != SMEAR_NO_TRIANGLE) {
         const struct smear_triangle *t = geometry_triangle(frame->geometry, head);
-        draw_triangle(frame, target, t, &moved);
         head = t->next;
+        if (t->segment == SMEAR_POINT)
+            draw_point(target, t, moved);
+        else
+            draw_triangle(frame, target, t, &moved);
     }
 }

@@ -3,6 +3,7 @@
 #ifndef SMEAR_TRANSFORM_H
 #define SMEAR_TRANSFORM_H
 
+#include "fixmath.h"
 #include "matrix.h"
 
 /* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges are then
@@ -52,28 +53,62 @@ static inline void smear_transform_vertex(struct smear_homogeneous *out,
     out->distance = p->orthographic ? transform_row(p->m[3], v) : out->w;
 }
 
-/* Divides. w > 0 is promised; the result is clamped far outside the guard band. */
+/* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product first, so nothing is lost but the last bits. */
+static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
+{
+    int32_t high = mulh_i32(a, (int32_t)r);
+    if (shift < 0 && shift > -32)
+        return (high + (1 << (-shift - 1))) >> -shift;      /* |high| < 2^30: no overflow */
+    return scale_sat(high, clamp_i32(shift, -31, 31));
+}
+
+/* Divides. w > 0 is promised. |x| and |y| stay below 2^30, far outside the guard band: sums of two fit. */
+static inline void project(struct smear_screen *out, const struct smear_projection *p,
+                           const struct smear_homogeneous *in, const struct smear_viewport *viewport)
+{
+    SMEAR_ASSERT(in->w > 0);
+    int zeros = count_leading_zeros((uint32_t)in->w);
+    uint32_t r = recip_norm((uint32_t)in->w << zeros);      /* 1/w = r 2^(zeros - 61) */
+
+    /* x r / 2^32 = x/w 2^(29 - zeros); q8 wants 2^8. */
+    int32_t x = mulh_i32(in->x, (int32_t)r), y = mulh_i32(in->y, (int32_t)r);
+    int down = 21 - zeros;
+    if (down > 0) {
+        int32_t half = 1 << (down - 1);
+        x = (x + half) >> down;
+        y = (y + half) >> down;
+    } else {
+        const int32_t far_out = 1 << 24;
+        x = clamp_i32(scale_sat(x, -down), -far_out, far_out);
+        y = clamp_i32(scale_sat(y, -down), -far_out, far_out);
+    }
+    out->x = (viewport->width << 7) + x;
+    out->y = (viewport->height << 7) + y;
+
+    int32_t depth;
+    if (p->orthographic)
+        depth = times_recip(sub_wrap(p->far_distance, in->distance), (uint32_t)p->depth_mantissa, p->depth_shift);
+    else
+        depth = times_recip(p->depth_mantissa, r, p->depth_shift + zeros);
+    out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+}
+
+/* The same as a call. */
 void smear_project(struct smear_screen *out, const struct smear_projection *p,
                    const struct smear_homogeneous *in, const struct smear_viewport *viewport);
 
 /* The sides a projected vertex lies beyond. */
 static inline int outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport)
 {
-    int code = 0;
-    if (s->x < 0)
-        code |= OUT_LEFT;
-    if (s->x > viewport->width << 8)
-        code |= OUT_RIGHT;
-    if (s->y < 0)
-        code |= OUT_TOP;
-    if (s->y > viewport->height << 8)
-        code |= OUT_BOTTOM;
-    if (code != 0) {
-        int32_t dx = s->x - (viewport->width << 7), dy = s->y - (viewport->height << 7);
-        const int32_t guard = SMEAR_GUARD_PX << 8;
-        if (dx < -guard || dx > guard || dy < -guard || dy > guard)
-            code |= OUT_GUARD;
-    }
+    int32_t right = viewport->width << 8, bottom = viewport->height << 8;
+    if ((uint32_t)s->x <= (uint32_t)right && (uint32_t)s->y <= (uint32_t)bottom)
+        return 0;
+    int code = (s->x < 0 ? OUT_LEFT : 0) | (s->x > right ? OUT_RIGHT : 0) | (s->y < 0 ? OUT_TOP : 0)
+             | (s->y > bottom ? OUT_BOTTOM : 0);
+    int32_t dx = s->x - (right >> 1), dy = s->y - (bottom >> 1);
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    if (dx < -guard || dx > guard || dy < -guard || dy > guard)
+        code |= OUT_GUARD;
     return code;
 }
 

@@ -71,8 +71,8 @@ static void list_begin(void)
         draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
     }
     frame = (struct smear_raster_frame){
-        .geometry = &geometry, .draw = draw, .velocity_scale = 32768, .inspect_scale = 65536,
-        .reach_q3 = 15 * 8
+        .geometry = &geometry, .draw = draw, .width = W, .height = H, .velocity_scale = 32768,
+        .inspect_scale = 65536, .reach_q3 = 15 * 8
     };
     list_last = SMEAR_NO_TRIANGLE;
 }
@@ -197,7 +197,8 @@ static bool draw_and_check(int32_t p[3][2])
     uint16_t v[3];
     for (int i = 0; i < 3; i++)
         v[i] = add_vertex(0, p[i][0], p[i][1], SMEAR_DEPTH_MAX / 2);
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    int second = area_of(p) > 0 ? 1 : 2;        /* the list holds clockwise triangles */
+    add_triangle(0, v[0], v[second], v[3 - second], 0xffffffffu);
     for (int i = 0; i < W * H; i++)
         full.depth[i] = 0;
     draw_list(&full);
@@ -575,6 +576,941 @@ static void test_fans_to_the_guard_band_cover_every_pixel_once(void)
     }
 }
 
+/* ------------------------------------------------------------------ exact attributes */
+
+static uint32_t *words_at(uint16_t vertex, int offset)
+{
+    return pool + vertex + offset;
+}
+
+static void set_uv(int at, uint16_t vertex, int32_t u, int32_t v)
+{
+    *words_at(vertex, segment[at].uv) = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
+}
+
+static void set_color(int at, uint16_t vertex, const uint16_t channel[4])
+{
+    words_at(vertex, segment[at].color)[0] = channel[0] | (uint32_t)channel[1] << 16;
+    words_at(vertex, segment[at].color)[1] = channel[2] | (uint32_t)channel[3] << 16;
+}
+
+static void set_motion(int at, uint16_t vertex, int pose, int32_t dx, int32_t dy, int32_t ratio)
+{
+    uint32_t *motion = words_at(vertex, segment[at].motion + pose * MOTION_WORDS);
+    motion[MOTION_DX] = (uint32_t)dx;
+    motion[MOTION_DY] = (uint32_t)dy;
+    motion[MOTION_RATIO] = (uint32_t)ratio;
+}
+
+/* Weights of the corners at a pixel's centre; they add up to the area, which is positive. */
+static void weights_at(int32_t p[3][2], int32_t px, int32_t py, int64_t weight[3])
+{
+    int32_t centre[2] = { px * 256 + 128, py * 256 + 128 };
+    bool clockwise = area_of(p) > 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *a = p[(i + 1) % 3], *b = p[(i + 2) % 3];
+        int64_t e = edge_value(a, b, centre[0], centre[1]);
+        weight[i] = clockwise ? e : -e;
+    }
+}
+
+static int64_t floor_divide(int64_t a, int64_t b)
+{
+    int64_t q = a / b;
+    return a % b < 0 ? q - 1 : q;
+}
+
+/* sum weight value / sum weight, exact, for values below 2^31 and weights below 2^42. */
+static int64_t weighted(const int64_t weight[3], const int32_t value[3])
+{
+    int64_t high = 0, low = 0, area = weight[0] + weight[1] + weight[2];
+    for (int i = 0; i < 3; i++) {
+        high += weight[i] * (value[i] >> 15);
+        low += weight[i] * (value[i] & 0x7fff);
+    }
+    int64_t whole = floor_divide(high, area);
+    return whole * 32768 + floor_divide((high - whole * area) * 32768 + low, area);
+}
+
+/* Random corners of a triangle of at least `pixels` square pixels; false when luck is out. */
+static bool fat_triangle(int32_t p[3][2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
+{
+    for (int tries = 0; tries < 50; tries++) {
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = between(low, high_x);
+            p[i][1] = between(low, high_y);
+        }
+        int64_t area = area_of(p);
+        if (area > (int64_t)pixels << 17 || area < -((int64_t)pixels << 17))
+            return true;
+    }
+    return false;
+}
+
+/* Code of exact depth units in q11, rounded as smear_depth_units undoes it. */
+static int32_t code_of(int64_t units_q11)
+{
+    int64_t units = (units_q11 + 1024) >> 11;
+    return (int32_t)(units < 32768 ? units : 32768 + ((units_q11 - (32768 << 11) + (8 << 11)) >> 15));
+}
+
+static void test_depth_is_the_plane_through_the_corners(void)
+{
+    random_state = 11;
+    for (int n = 0; n < 120; n++) {
+        const int32_t guard = SMEAR_GUARD_PX << 8;
+        int32_t p[3][2], q[3];
+        bool large = n % 4 == 3;
+        if (!fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
+            continue;
+        /* Everywhere from the far end to the near plane; a third of them bends. */
+        int32_t level = between(0, 13);
+        for (int i = 0; i < 3; i++)
+            q[i] = n % 3 == 0 ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
+                 : n % 3 == 1 ? (32768 << 11) + between(-(1 << 24), 1 << 24)
+                 : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        /* Gradients are rounded to 1/2 step of q11 per pixel: 1/32 unit over 64 px, two over 4096. */
+        int32_t slack = large ? 3 : 1;
+        for (int32_t y = 0; y < H; y++)
+            for (int32_t x = 0; x < W; x++) {
+                if (!covers(p, x, y))
+                    continue;
+                int64_t weight[3];
+                weights_at(p, x, y, weight);
+                if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), slack))
+                    return;
+            }
+    }
+}
+
+static void test_depth_stays_between_the_corners_even_of_slivers(void)
+{
+    random_state = 12;
+    for (int n = 0; n < 400; n++) {
+        int32_t p[3][2], q[3], low = INT32_MAX, high = 0;
+        int32_t size = 16 << n % 11, x = between(0, W * 256), y = between(0, H * 256);
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+        }
+        if (n & 1) {            /* all but on a line */
+            p[2][0] = (p[0][0] + p[1][0]) / 2 + between(-2, 2);
+            p[2][1] = (p[0][1] + p[1][1]) / 2 + between(-2, 2);
+        }
+        if (area_of(p) == 0)
+            continue;
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+            low = low < q[i] ? low : q[i];
+            high = high > q[i] ? high : q[i];
+        }
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        for (int i = 0; i < W * H; i++)
+            if (full.depth[i] != 0
+                && !CHECK(full.depth[i] >= code_of(low) - 1 && full.depth[i] <= code_of(high) + 1))
+                return;
+    }
+}
+
+static void test_depth_codes_grow_over_the_bend(void)
+{
+    /* A row in which units run from 16384 to 65536: every pixel is drawn, codes never fall. */
+    list_begin();
+    uint16_t a = add_vertex(0, 0, 0, 16384 << 11), b = add_vertex(0, W * 256, 0, 65536 << 11);
+    uint16_t c = add_vertex(0, W * 256, H * 256, 65536 << 11), d = add_vertex(0, 0, H * 256, 16384 << 11);
+    add_triangle(0, a, b, c, 0xffffffffu);
+    add_triangle(0, a, c, d, 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            int32_t units = 16384 + (2 * x + 1) * 49152 / (2 * W);
+            CHECK_NEAR((int32_t)smear_depth_units(full.depth[y * W + x]), units, units < 32768 ? 2 : 17);
+            if (x > 0 && !CHECK(full.depth[y * W + x] > full.depth[y * W + x - 1]))
+                return;
+        }
+    CHECK_EQ(smear_depth_units(32767), 32767);
+    CHECK_EQ(smear_depth_units(32768), 32768);
+    CHECK_EQ(smear_depth_units(32769), 32784);
+    CHECK_EQ(smear_depth_units(65535), SMEAR_DEPTH_NEAR);
+    CHECK_EQ(code_of((int64_t)SMEAR_DEPTH_NEAR << 11), 65535);
+}
+
+static void test_tiny_and_small_triangles_have_the_depth_of_large_ones(void)
+{
+    random_state = 13;
+    for (int n = 0; n < 200; n++) {
+        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000);
+        int32_t size = 300 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = (1 << 20 << n % 9) + between(0, 1 << 18 << n % 9);
+        }
+        int64_t area = area_of(p);
+        if (area < 30000 && area > -30000)
+            continue;
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        for (int32_t py = 0; py < H; py++)
+            for (int32_t px = 0; px < W; px++) {
+                if (!covers(p, px, py))
+                    continue;
+                int64_t weight[3];
+                weights_at(p, px, py, weight);
+                if (!CHECK_NEAR(full.depth[py * W + px], code_of(weighted(weight, q)), 1))
+                    return;
+            }
+    }
+}
+
+/* Channel c of a working pixel. */
+static int32_t code_in(uint32_t pixel, int c)
+{
+    return (int32_t)(pixel >> (16 - 8 * c) & 255u);
+}
+
+/* A triangle with random colours; checks each pixel against the exact mean of its corners' values. */
+static bool check_colors(int32_t p[3][2], const int32_t q[3], bool flat_depth, bool linear, int32_t slack)
+{
+    list_begin();
+    set_layout(0, false, true, 0, SHADE_GOURAUD);
+    segment[0].flat_depth = flat_depth;
+    frame.linear = linear;
+    uint16_t v[3], channel[3][4];
+    for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 4; c++)
+            channel[i][c] = (uint16_t)(chance(4) ? chance(2) ? 0 : 65535 : between(0, 65535));
+        if (!linear)
+            for (int c = 0; c < 3; c++)
+                channel[i][c] = (uint16_t)(channel[i][c] & 0xff00);
+        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        set_color(0, v[i], channel[i]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y))
+                continue;
+            int64_t weight[3], sum = 0;
+            weights_at(p, x, y, weight);
+            for (int i = 0; i < 3; i++) {
+                weight[i] = flat_depth ? weight[i] : (weight[i] >> 8) * (q[i] >> 14);
+                sum += weight[i];
+            }
+            for (int c = 0; c < 3; c++) {
+                int64_t total = 0;
+                for (int i = 0; i < 3; i++)
+                    total += weight[i] * (channel[i][c] >> 4);
+                int64_t mean = total / sum;             /* 12 bits */
+                int32_t want = linear ? smear_srgb_encode[mean > 4095 ? 4095 : mean] : (int32_t)((mean + 8) >> 4);
+                if (!CHECK_NEAR(code_in(full.color[y * W + x], c), want, slack))
+                    return false;
+            }
+        }
+    return true;
+}
+
+static void test_colors_are_interpolated_within_a_code(void)
+{
+    random_state = 14;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], q[3];
+        for (int i = 0; i < 3; i++)
+            q[i] = between(1 << 20, 1 << 28);
+        if (!fat_triangle(p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        if (!check_colors(p, q, true, n & 1, n & 1 ? 2 : 1))
+            return;
+    }
+}
+
+static void test_colors_are_right_in_perspective(void)
+{
+    random_state = 15;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], q[3];
+        for (int i = 0; i < 3; i++)
+            q[i] = between(1 << 26, 3 << 26);
+        if (!fat_triangle(p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        if (!check_colors(p, q, false, n & 1, n & 1 ? 4 : 3))
+            return;
+    }
+}
+
+static void test_colors_of_small_triangles_are_interpolated_within_a_code(void)
+{
+    random_state = 16;
+    for (int n = 0; n < 150; n++) {
+        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = 1 << 26;
+        }
+        int64_t area = area_of(p);
+        if (area < 60000 && area > -60000)
+            continue;
+        if (!check_colors(p, q, false, n & 1, n & 1 ? 2 : 1))
+            return;
+    }
+}
+
+/* Texels that say where they are: u in the low byte and a half, v above. */
+enum { TEXELS = 64 * 64 };
+static uint32_t texels[TEXELS];
+
+static void set_texture(int at, int32_t width, int32_t height, int wrap_u, int wrap_v, int uv_shift)
+{
+    for (int32_t v = 0; v < height; v++)
+        for (int32_t u = 0; u < width; u++)
+            texels[v * width + u] = 0xff000000u | (uint32_t)v << 12 | (uint32_t)u;
+    const smear_texture texture = {
+        .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height,
+        .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
+    };
+    smear_sampler_make(&draw[at].sampler, &texture, uv_shift, false, false);
+}
+
+/* The texel that a wrap mode shows at integer coordinate i. */
+static int32_t wrapped(int64_t i, int32_t size, int mode)
+{
+    if (mode == SMEAR_CLAMP)
+        return (int32_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
+    int32_t period = mode == SMEAR_MIRROR ? 2 * size : size, at = (int32_t)(i % period);
+    at = at < 0 ? at + period : at;
+    return at < size ? at : period - 1 - at;
+}
+
+/* True when `got` is a texel that a coordinate (q8) moved by at most half a texel would show. */
+static bool within_half_a_texel(int32_t got, int64_t coordinate, int32_t size, int mode)
+{
+    for (int64_t move = -128; move <= 128; move += 64)
+        if (wrapped(floor_divide(coordinate + move, 256), size, mode) == got)
+            return true;
+    return false;
+}
+
+static bool check_texels(int32_t p[3][2], const int32_t q[3], const int32_t uv[3][2], int32_t width,
+                         int32_t height, int wrap_u, int wrap_v, int uv_shift)
+{
+    list_begin();
+    set_layout(0, true, false, 0, SHADE_NONE);
+    set_texture(0, width, height, wrap_u, wrap_v, uv_shift);
+    uint16_t v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        set_uv(0, v[i], uv[i][0], uv[i][1]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y))
+                continue;
+            int64_t weight[3], sum = 0, exact[2];
+            weights_at(p, x, y, weight);
+            for (int i = 0; i < 3; i++) {           /* at most 2^29 x 2^12 */
+                weight[i] *= q[i] >> 18;
+                sum += weight[i];
+            }
+            for (int axis = 0; axis < 2; axis++) {
+                int64_t total = 0;
+                for (int i = 0; i < 3; i++)
+                    total += weight[i] * uv[i][axis];
+                int64_t ratio = floor_divide(total * 32, sum);      /* q5 mesh units */
+                exact[axis] = floor_divide(ratio * (axis == 0 ? width : height) * 8, (int64_t)1 << uv_shift);
+            }
+            uint32_t got = full.color[y * W + x];
+            if (!CHECK(within_half_a_texel((int32_t)(got & 4095u), exact[0], width, wrap_u))
+                || !CHECK(within_half_a_texel((int32_t)(got >> 12 & 4095u), exact[1], height, wrap_v))) {
+                CHECK_EQ(x * 1000 + y, -1);
+                CHECK_EQ(got & 4095u, exact[0] / 256);
+                CHECK_EQ(got >> 12, exact[1] / 256);
+                return false;
+            }
+        }
+    return true;
+}
+
+static void test_texels_in_perspective_are_within_half_a_texel(void)
+{
+    static const int32_t size[][2] = { { 16, 16 }, { 64, 64 }, { 8, 64 }, { 1, 1 }, { 64, 2 }, { 50, 37 },
+                                       { 3, 5 }, { 33, 64 }, { 64, 63 } };
+    random_state = 17;
+    for (int n = 0; n < 180; n++) {
+        int32_t p[3][2], q[3], uv[3][2];
+        if (!fat_triangle(p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        for (int i = 0; i < 3; i++) {
+            q[i] = (n & 1 ? between(1, 4095) : between(2000, 4000)) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                uv[i][axis] = between(-32768, 32767) / (n % 3 == 0 ? 1 : 8);
+        }
+        const int32_t *s = size[n % 9];
+        if (!check_texels(p, q, uv, s[0], s[1], n % 3, n / 3 % 3, n % 2 ? 15 : 13))
+            return;
+    }
+}
+
+static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
+{
+    /* One texel per pixel, no perspective: each pixel shows its own texel. */
+    static const int32_t size[][2] = { { 64, 32 }, { 50, 37 }, { 64, 64 } };
+    for (int k = 0; k < 3; k++)
+        for (int wrap = SMEAR_REPEAT; wrap <= SMEAR_MIRROR; wrap++) {
+            int32_t w = size[k][0], h = size[k][1];
+            list_begin();
+            set_layout(0, true, false, 0, SHADE_NONE);
+            segment[0].flat_depth = 1;
+            set_texture(0, w, h, wrap, wrap, 15);
+            uint16_t v[4];
+            static const int corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+            for (int i = 0; i < 4; i++) {
+                v[i] = add_vertex(0, corner[i][0] * w * 256, corner[i][1] * h * 256, 1 << 28);
+                set_uv(0, v[i], corner[i][0] * 32767, corner[i][1] * 32767);
+            }
+            add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+            add_triangle(0, v[0], v[2], v[3], 0xffffffffu);
+            planes_clear(&full);
+            draw_list(&full);
+            for (int32_t y = 0; y < H && y < h; y++)
+                for (int32_t x = 0; x < W && x < w; x++)
+                    if (!CHECK_EQ(full.color[y * W + x] & 0xffffffu, y << 12 | x))
+                        return;
+        }
+}
+
+/* ------------------------------------------------------------------ velocity */
+
+/* A moving triangle against the exact quotient; `slack` in 1/256 px. */
+static bool check_velocity(int32_t p[3][2], int poses, int32_t motion[2][3][3], int32_t slack)
+{
+    list_begin();
+    set_layout(0, false, false, poses, SHADE_FLAT);
+    uint16_t v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, p[i][0], p[i][1], 1 << 28);
+        for (int pose = 0; pose < poses; pose++)
+            set_motion(0, v[i], pose, motion[pose][i][0], motion[pose][i][1], motion[pose][i][2]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y)) {
+                if (!CHECK_EQ(full.inspect[2 * (y * W + x)], 0))
+                    return false;
+                continue;
+            }
+            int64_t weight[3];
+            int32_t want[2] = { 0, 0 };
+            weights_at(p, x, y, weight);
+            for (int pose = 0; pose < poses; pose++)
+                for (int axis = 0; axis < 2; axis++) {
+                    int64_t top = 0, ratio = 0;
+                    for (int i = 0; i < 3; i++) {       /* 2^22 x (2^12 x 2^15 + 2^27) */
+                        int64_t b = weight[i] >> 8, r = motion[pose][i][2] >> 8;
+                        top += b * (r * p[i][axis] + motion[pose][i][axis] * 4096);
+                        ratio += b * r;
+                    }
+                    int32_t there = (int32_t)floor_divide(top, ratio) - ((axis == 0 ? x : y) * 256 + 128);
+                    want[axis] += pose == 0 ? -there : there;
+                }
+            for (int axis = 0; axis < 2; axis++) {
+                int32_t got = full.inspect[2 * (y * W + x) + axis];
+                if (!CHECK_NEAR(got, want[axis], slack))
+                    return false;
+                /* The packed one: half of it (the shutter is open all the time), in 1/8 px, no longer than the reach. */
+                int64_t length = (int64_t)want[0] * want[0] + (int64_t)want[1] * want[1];
+                int64_t reach = 2 * 15 * 256;
+                int32_t packed = full.velocity[2 * (y * W + x) + axis];
+                if (length < (reach - 256) * (reach - 256) && !CHECK_NEAR(packed * 64, want[axis], slack + 40))
+                    return false;
+            }
+            int32_t vx = full.velocity[2 * (y * W + x)], vy = full.velocity[2 * (y * W + x) + 1];
+            if (!CHECK(vx * vx + vy * vy <= (15 * 8 + 1) * (15 * 8 + 1)))
+                return false;
+        }
+    return true;
+}
+
+static void test_velocities_of_unchanging_depth_are_planes(void)
+{
+    random_state = 18;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], motion[2][3][3];
+        if (!fat_triangle(p, 64, -1000, W * 256 + 1000, H * 256 + 1000))
+            continue;
+        int32_t size = 16 << n % 8;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-size, size);
+                motion[pose][i][1] = between(-size, size);
+                motion[pose][i][2] = 1 << 20;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 8))
+            return;
+    }
+}
+
+static void test_velocities_of_changing_depth_are_quotients(void)
+{
+    random_state = 19;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], motion[2][3][3];
+        if (!fat_triangle(p, 400, -1000, W * 256 + 1000, H * 256 + 1000))
+            continue;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-2000, 2000);
+                motion[pose][i][1] = between(-2000, 2000);
+                motion[pose][i][2] = between(3500, 4800) << 8;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 48))
+            return;
+    }
+}
+
+static void test_long_velocities_keep_their_direction_and_end_at_the_reach(void)
+{
+    random_state = 20;
+    for (int n = 0; n < 80; n++) {
+        list_begin();
+        set_layout(0, false, false, 1, SHADE_FLAT);
+        int32_t scale = 1 << n % 10, dx = between(-1500, 1500) * scale, dy = between(-1500, 1500) * scale;
+        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 28);
+            set_motion(0, v[i], 0, -dx, -dy, 1 << 20);
+        }
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        int64_t vx = full.velocity[2 * (3 * W + 3)], vy = full.velocity[2 * (3 * W + 3) + 1];
+        int64_t square = vx * vx + vy * vy, want = ((int64_t)dx * dx + (int64_t)dy * dy) / (64 * 64);
+        if (want > (15 * 8) * (15 * 8))
+            want = (15 * 8) * (15 * 8);
+        /* Lengths within 1/8 px or a fortieth: squares within a twentieth. */
+        CHECK_NEAR(square, want, want / 20 + 3 * 120);
+        /* |v x d| / |v||d| is the sine: the two parts are rounded to 1/16 px. */
+        int64_t cross = vx * dy - vy * dx, dot = vx * dx + vy * dy;
+        int64_t bound = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+        if (!CHECK(cross <= bound && cross >= -bound) || !CHECK(dot >= 0))
+            return;
+    }
+}
+
+static void test_a_still_triangle_stops_what_it_hides_and_nothing_else(void)
+{
+    for (int order = 0; order < 2; order++) {
+        list_begin();
+        set_layout(1, false, false, 1, SHADE_FLAT);
+        uint16_t still[3], moves[3];
+        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
+        for (int i = 0; i < 3; i++) {
+            still[i] = add_vertex(0, corner[i][0] / 2, corner[i][1] / 2, 1 << 27);
+            moves[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(1, moves[i], 0, -1024, 512, 1 << 20);
+        }
+        if (order == 0)
+            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
+        add_triangle(0, still[0], still[1], still[2], 0xff808080u);
+        if (order == 1)
+            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
+        planes_clear(&full);
+        for (int i = 0; i < W / 8; i++)
+            moving[i] = 0;
+        draw_list(&full);
+        for (int y = 0; y < H; y++)
+            for (int x = 0; x < W; x++) {
+                uint32_t c = full.color[y * W + x];
+                int want = c == 0xffffffu ? 16 : 0;
+                if (!CHECK_EQ(full.velocity[2 * (y * W + x)], want)
+                    || !CHECK_EQ(full.velocity[2 * (y * W + x) + 1], -want / 2)
+                    || !CHECK_EQ(full.inspect[2 * (y * W + x)], want * 64))
+                    return;
+            }
+        for (int i = 0; i < W / 8; i++)
+            CHECK_EQ(moving[i], 1);
+    }
+}
+
+static void test_only_columns_of_tiles_with_motion_are_marked(void)
+{
+    list_begin();
+    set_layout(0, false, false, 1, SHADE_FLAT);
+    uint16_t v[3];
+    static const int32_t corner[3][2] = { { 17 * 256, 0 }, { 31 * 256, 0 }, { 17 * 256, H * 256 } };
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
+        set_motion(0, v[i], 0, 1024, 0, 1 << 20);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    for (int i = 0; i < W / 8; i++)
+        moving[i] = 0;
+    draw_list(&full);
+    for (int i = 0; i < W / 8; i++)
+        CHECK_EQ(moving[i], i == 2 || i == 3);
+}
+
+/* ------------------------------------------------------------------ which pixel wins */
+
+static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
+{
+    random_state = 21;
+    enum { N = 24 };
+    int32_t p[N][3][2];
+    for (int equal = 0; equal < 2; equal++) {
+        for (int i = 0; i < N; i++)
+            fat_triangle(p[i], 64, -500, W * 256, H * 256);
+        for (int turn = 0; turn < 3; turn++) {
+            list_begin();
+            for (int k = 0; k < N; k++) {
+                int i = equal || turn == 0 ? k : turn == 1 ? N - 1 - k : k * 7 % N;
+                uint16_t v[3];
+                for (int c = 0; c < 3; c++)
+                    v[c] = add_vertex(0, p[i][c][0], p[i][c][1], equal ? 1 << 27 : (i * 5 % N + 10) << 22);
+                add_triangle(0, v[0], v[1], v[2], 0xff000000u | (uint32_t)(i + 1));
+            }
+            planes_clear(&full);
+            draw_list(&full);
+            for (int32_t y = 0; y < H; y++)
+                for (int32_t x = 0; x < W; x++) {
+                    uint32_t want = 0x123456u;
+                    int best = -1;
+                    for (int i = 0; i < N; i++)
+                        if (covers(p[i], x, y) && (best < 0 || (!equal && i * 5 % N > best * 5 % N)))
+                            best = i;
+                    if (best >= 0)
+                        want = (uint32_t)best + 1;
+                    if (!CHECK_EQ(full.color[y * W + x], want))
+                        return;
+                }
+        }
+    }
+}
+
+static void test_cutouts_leave_what_lies_behind_their_holes(void)
+{
+    static const uint8_t cutoffs[] = { 1, 60, 255 };
+    for (int k = 0; k < 3; k++) {
+        int cutoff = cutoffs[k];
+        list_begin();
+        set_layout(0, false, false, 1, SHADE_FLAT);
+        set_layout(1, true, false, 0, SHADE_NONE);
+        set_texture(1, 16, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
+        for (uint32_t i = 0; i < 256; i++)
+            texels[i] = i << 24 | 0x405060u;        /* every alpha there is */
+        draw[1].alpha = SMEAR_CUTOUT;
+        draw[1].cutoff = (uint8_t)cutoff;
+        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
+        uint16_t back[3], front[3];
+        for (int i = 0; i < 3; i++) {
+            back[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(0, back[i], 0, -1024, 0, 1 << 20);
+            front[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 27);
+            set_uv(1, front[i], corner[i][0] != 0 ? 32767 : 0, corner[i][1] != 0 ? 32767 : 0);
+        }
+        add_triangle(0, back[0], back[1], back[2], 0xff00ff00u);
+        add_triangle(1, front[0], front[1], front[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        int holes = 0, solid = 0;
+        for (int i = 0; i < W * H; i++) {
+            bool hole = full.color[i] == 0x00ff00u;
+            CHECK(hole || full.color[i] == 0x405060u);
+            CHECK_EQ(full.depth[i], hole ? 1 << 15 : code_of(1 << 27));
+            CHECK_EQ(full.velocity[2 * i], hole ? 16 : 0);
+            holes += hole;
+            solid += !hole;
+        }
+        /* The quarter of the texture that is seen has alphas from 0 to 119. */
+        CHECK(cutoff == 1 ? holes > 0 && holes < W * H / 16
+              : cutoff == 60 ? holes > W * H / 4 && solid > W * H / 4 : solid == 0);
+    }
+}
+
+static void test_blended_triangles_only_change_colour(void)
+{
+    for (int linear = 0; linear < 2; linear++) {
+        list_begin();
+        frame.linear = linear;
+        draw[1].alpha = SMEAR_BLEND;
+        set_layout(2, false, false, 1, SHADE_FLAT);
+        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
+        uint16_t solid[3], glass[3], behind[3];
+        for (int i = 0; i < 3; i++) {
+            solid[i] = add_vertex(2, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(2, solid[i], 0, -1024, 0, 1 << 20);
+            glass[i] = add_vertex(1, corner[i][0] / 3, corner[i][1], 1 << 27);
+            behind[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 25);
+        }
+        add_triangle(2, solid[0], solid[1], solid[2], 0xff204060u);
+        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);
+        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);     /* the same depth again: still over it */
+        add_triangle(1, behind[0], behind[1], behind[2], 0xc0ffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        uint32_t once = pixel_blend(0x204060u, 0x60ff8000u, 0x60, linear);
+        uint32_t twice = pixel_blend(once, 0x60ff8000u, 0x60, linear);
+        int blended = 0;
+        for (int i = 0; i < W * H; i++) {
+            CHECK(full.color[i] == 0x204060u || full.color[i] == twice);
+            CHECK_EQ(full.depth[i], 1 << 15);
+            CHECK_EQ(full.velocity[2 * i], 16);
+            blended += full.color[i] == twice;
+        }
+        CHECK(blended > W * H / 4 && blended < W * H);
+    }
+    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, false), 0x123456u);
+    CHECK_EQ(pixel_blend(0x123456u, 0xabcdefu, 255, false), 0xabcdefu);
+    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, true), 0x123456u);
+    CHECK_EQ(pixel_blend(0x123456u, 0xffabcdefu, 255, true), 0xabcdefu);
+}
+
+/* ------------------------------------------------------------------ cuts of the frame */
+
+/* A list of everything there is: all kinds of vertices, poses, textures, alpha; large, small and huge. */
+static void random_list(void)
+{
+    list_begin();
+    frame.linear = chance(2);
+    set_texture(0, 32, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
+    for (int i = 0; i < SEGMENTS; i++) {
+        bool uv = i & 1, color = i & 2;
+        set_layout(i, uv, color, between(0, 2), color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
+        segment[i].flat_depth = chance(4);
+        draw[i].alpha = (uint8_t)(chance(2) ? SMEAR_OPAQUE : chance(2) ? SMEAR_CUTOUT : SMEAR_BLEND);
+        if (draw[i].alpha == SMEAR_BLEND)
+            set_layout(i, uv, color, 0, (enum smear_shade_mode)segment[i].shade);
+        const smear_texture texture = {
+            .texels = texels, .width = chance(2) ? 32 : 23, .height = 16,
+            .wrap_u = (uint8_t)between(0, 2), .wrap_v = (uint8_t)between(0, 2)
+        };
+        smear_sampler_make(&draw[i].sampler, &texture, between(12, 15), chance(4), frame.linear);
+    }
+    for (uint32_t i = 0; i < 32 * 16; i++)
+        texels[i] = random_u32();
+    for (int n = 0; n < 40 && list_has_room(); n++) {
+        int at = between(0, SEGMENTS - 1);
+        int32_t size = chance(4) ? SMEAR_GUARD_PX << 8 : 256 << between(0, 6), p[3][2];
+        int32_t x = size > 1 << 16 ? W << 7 : between(0, W * 256), y = size > 1 << 16 ? H << 7 : between(0, H * 256);
+        int32_t level = between(0, 8);
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            int32_t depth = SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
+            v[i] = add_vertex(at, p[i][0], p[i][1], depth);
+            if (segment[at].uv != 0)
+                set_uv(at, v[i], between(-32768, 32767), between(-32768, 32767));
+            if (segment[at].color != 0) {
+                const uint16_t channel[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(),
+                                              (uint16_t)random_u32(), (uint16_t)random_u32() };
+                set_color(at, v[i], channel);
+            }
+            for (int pose = 0; pose < segment[at].moves; pose++) {
+                int32_t reach = 16 << between(0, 12);
+                set_motion(at, v[i], pose, between(-reach, reach), between(-reach, reach),
+                           n & 1 ? 1 << 20 : between(1 << 14, 1 << 22));
+            }
+        }
+        add_triangle(at, v[0], v[1], v[2], random_u32());
+    }
+}
+
+static bool same_planes(const struct planes *a, const struct planes *b)
+{
+    for (int i = 0; i < W * H; i++) {
+        bool same = a->color[i] == b->color[i] && a->depth[i] == b->depth[i];
+        for (int axis = 0; axis < 2; axis++)
+            same = same && a->velocity[2 * i + axis] == b->velocity[2 * i + axis]
+                && a->inspect[2 * i + axis] == b->inspect[2 * i + axis];
+        if (!same) {
+            CHECK_EQ(i % W, -1);
+            CHECK_EQ(i / W, -1);
+            CHECK_EQ(a->color[i], b->color[i]);
+            CHECK_EQ(a->depth[i], b->depth[i]);
+            CHECK_EQ(a->velocity[2 * i], b->velocity[2 * i]);
+            return CHECK_EQ(a->inspect[2 * i], b->inspect[2 * i]);
+        }
+    }
+    return true;
+}
+
+static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
+{
+    random_state = 22;
+    for (int n = 0; n < 60; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        planes_clear(&cut);
+        int32_t column = 16 * between(1, 4), band = chance(3) ? 8 : between(1, H);
+        for (int32_t y = 0; y < H; y += band)
+            for (int32_t x = 0; x < W; x += column) {
+                struct smear_raster_target t = target_of(&cut);
+                t.x0 = x;
+                t.x1 = x + column < W ? x + column : W;
+                t.y0 = y;
+                t.y1 = y + band < H ? y + band : H;
+                t.color_rows.slot0 = t.window_rows.slot0 = y;
+                smear_raster_list(&frame, &t, 0);
+            }
+        if (!same_planes(&full, &cut))
+            return;
+    }
+}
+
+/* A ring of rows that is shorter than the frame, and a tile of its own for the colours. */
+enum { RING = 12, BAND = 8, TILE = 16 };
+static uint32_t tile_color[TILE * BAND];
+static struct {
+    uint32_t color[W * RING];
+    uint16_t depth[W * RING];
+    int8_t velocity[W * RING * 2];
+    int32_t inspect[W * RING * 2];
+} ring;
+
+static void ring_clear(int32_t x0, int32_t y0, int32_t x1, int32_t y1, uint16_t depth)
+{
+    for (int32_t y = y0; y < y1; y++)
+        for (int32_t x = x0; x < x1; x++) {
+            int32_t at = y % RING * W + x;
+            ring.color[at] = 0x123456u;
+            ring.depth[at] = depth;
+            for (int axis = 0; axis < 2; axis++)
+                ring.velocity[2 * at + axis] = 0;
+            ring.inspect[2 * at] = ring.inspect[2 * at + 1] = 0;
+        }
+}
+
+static void test_rings_of_rows_change_nothing(void)
+{
+    random_state = 23;
+    for (int n = 0; n < 30; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        planes_clear(&cut);
+        for (int32_t y0 = 0; y0 < H; y0 += BAND) {
+            struct smear_raster_target t = target_of(&cut);
+            t.y0 = y0;
+            t.y1 = y0 + BAND;
+            t.color = ring.color;
+            t.depth = ring.depth;
+            t.velocity8 = ring.velocity;
+            t.inspect = ring.inspect;
+            t.color_rows = t.window_rows = (struct smear_plane_rows){ W, y0 % RING, RING, 0 };
+            ring_clear(0, y0, W, y0 + BAND, 0);
+            smear_raster_list(&frame, &t, 0);
+            for (int32_t y = y0; y < y0 + BAND; y++)
+                for (int32_t x = 0; x < W; x++) {
+                    int32_t at = y % RING * W + x, to = y * W + x;
+                    cut.color[to] = ring.color[at];
+                    cut.depth[to] = ring.depth[at];
+                    for (int axis = 0; axis < 2; axis++) {
+                        cut.velocity[2 * to + axis] = ring.velocity[2 * at + axis];
+                        cut.inspect[2 * to + axis] = ring.inspect[2 * at + axis];
+                    }
+                }
+        }
+        if (!same_planes(&full, &cut))
+            return;
+    }
+}
+
+static void test_blending_into_tiles_of_their_own_changes_nothing(void)
+{
+    random_state = 24;
+    for (int n = 0; n < 30; n++) {
+        random_list();
+        for (int i = 0; i < SEGMENTS; i++) {
+            draw[i].alpha = SMEAR_BLEND;
+            segment[i].moves = 0;
+        }
+        planes_clear(&full);
+        for (int i = 0; i < W * H; i++)
+            full.depth[i] = 1 << 12;
+        draw_list(&full);
+        for (int32_t y0 = 0; y0 < H; y0 += BAND)
+            for (int32_t x0 = 0; x0 < W; x0 += TILE) {
+                struct smear_raster_target t = target_of(&cut);
+                t.x0 = x0;
+                t.x1 = x0 + TILE;
+                t.y0 = y0;
+                t.y1 = y0 + BAND;
+                t.color = tile_color;
+                t.color_rows = (struct smear_plane_rows){ TILE, 0, BAND, x0 };
+                t.depth = ring.depth;
+                t.velocity8 = NULL;
+                t.inspect = NULL;
+                t.window_rows = (struct smear_plane_rows){ W, y0 % RING, RING, 0 };
+                for (int32_t i = 0; i < TILE * BAND; i++)
+                    tile_color[i] = 0x123456u;
+                ring_clear(x0, y0, x0 + TILE, y0 + BAND, 1 << 12);
+                smear_raster_list(&frame, &t, 0);
+                for (int32_t y = y0; y < y0 + BAND; y++)
+                    for (int32_t x = x0; x < x0 + TILE; x++)
+                        if (!CHECK_EQ(tile_color[(y - y0) * TILE + x - x0], full.color[y * W + x])
+                            || !CHECK_EQ(ring.depth[y % RING * W + x], 1 << 12))
+                            return;
+            }
+    }
+}
+
+static int16_t wide_velocity[W * H * 2];
+
+static void test_wide_velocities_are_the_narrow_ones_where_those_suffice(void)
+{
+    random_state = 24;
+    for (int n = 0; n < 10; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        for (int i = 0; i < W * H * 2; i++)
+            wide_velocity[i] = 0;
+        struct smear_raster_target t = target_of(&full);
+        for (int i = 0; i < W * H; i++)
+            full.depth[i] = 0;
+        t.velocity8 = NULL;
+        t.velocity16 = wide_velocity;
+        smear_raster_list(&frame, &t, 0);
+        for (int i = 0; i < W * H * 2; i++)
+            if (!CHECK_EQ(full.velocity[i], wide_velocity[i]))
+                return;
+    }
+}
+
 void suite_raster(void)
 {
     RUN(test_corners_on_pixel_centres_follow_the_top_left_rule);
@@ -586,4 +1522,25 @@ void suite_raster(void)
     RUN(test_meshes_of_slivers_cover_every_pixel_once);
     RUN(test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once);
     RUN(test_fans_to_the_guard_band_cover_every_pixel_once);
+    RUN(test_depth_is_the_plane_through_the_corners);
+    RUN(test_depth_stays_between_the_corners_even_of_slivers);
+    RUN(test_depth_codes_grow_over_the_bend);
+    RUN(test_tiny_and_small_triangles_have_the_depth_of_large_ones);
+    RUN(test_colors_are_interpolated_within_a_code);
+    RUN(test_colors_are_right_in_perspective);
+    RUN(test_colors_of_small_triangles_are_interpolated_within_a_code);
+    RUN(test_texels_in_perspective_are_within_half_a_texel);
+    RUN(test_texels_of_a_flat_plane_are_exact_away_from_borders);
+    RUN(test_velocities_of_unchanging_depth_are_planes);
+    RUN(test_velocities_of_changing_depth_are_quotients);
+    RUN(test_long_velocities_keep_their_direction_and_end_at_the_reach);
+    RUN(test_a_still_triangle_stops_what_it_hides_and_nothing_else);
+    RUN(test_only_columns_of_tiles_with_motion_are_marked);
+    RUN(test_the_nearest_wins_in_any_order_and_the_first_of_equals);
+    RUN(test_cutouts_leave_what_lies_behind_their_holes);
+    RUN(test_blended_triangles_only_change_colour);
+    RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
+    RUN(test_rings_of_rows_change_nothing);
+    RUN(test_blending_into_tiles_of_their_own_changes_nothing);
+    RUN(test_wide_velocities_are_the_narrow_ones_where_those_suffice);
 }
