@@ -84,8 +84,11 @@ int main(int argc, char **argv)
     if (argc == 5 && strcmp(argv[1], "--draw") == 0)
         return serve(argv + 2);
     for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "targets") == 0)
+        if (strcmp(argv[i], "targets") == 0) {
+            if (i + 1 == argc)
+                return usage();
             break;
+        }
         if (strcmp(argv[i], "--strict") != 0 && find_report(argv[i]) == NULL)
             return usage();
     }

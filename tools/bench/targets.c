@@ -60,8 +60,8 @@ bool targets_report(struct sheet *sheet, const char *path, struct failure *f)
     const struct target *target = find_target(path);
     if (target == NULL)
         return fail(f, "no target is called like this file (%s)", path);
-    printf("== %s (%s):\n   million instructions per frame, 320x240, RGB565, an instruction a tick\n\n",
-           target->name, target->what);
+    printf("== %s (%s):\n   million instructions per frame, 320x240, RGB565\n\n", target->name,
+           target->what);
     printf("scene   whole   bands  ratio  bar<=%.1f    bar              best peer  ours/peer  "
            "/pixel\n", band_bar);
     for (int s = 0; s < SCENES; s++) {
