@@ -19,11 +19,17 @@ ifeq ($(CHECK),1)
 BUILD  := $(BUILD)-check
 CFLAGS += -DSMEAR_CHECK=1
 endif
+# EXR=1: tests keep their pictures as OpenEXR, too, and the suites that need it are there.
+ifeq ($(EXR),1)
+BUILD    := $(BUILD)-exr
+CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
+EXR_LIBS := -lOpenEXRCore
+endif
 
 include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
-LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry assemble texture target \
+LAYERS := base fixed tables fixmath pixel arena matrix transform light clip geometry tiny assemble texture target \
           setup span velocity raster window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
@@ -103,9 +109,6 @@ SAN_SUITES := $(filter api raster fixmath fixed matrix transform clip geometry t
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
-BUILD    := $(BUILD)-exr
-CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
-EXR_LIBS := -lOpenEXRCore
 endif
 
 TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)

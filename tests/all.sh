@@ -68,6 +68,7 @@ for name in $($make -s print-suites); do
 done
 if exr; then
     suite exr $make -s run-suite SUITE=exr EXR=1
+    suite assets-as-exr $make -s run-suite SUITE=assets EXR=1
 else
     needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
 fi
