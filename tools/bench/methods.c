@@ -97,7 +97,7 @@ static bool measure_errors(int scene, const char *folder, struct measured out[SE
         ok = rig_open(&rig, &take, f);
         if (!ok)
             break;
-        ok = rig_picture(&rig, &picture, f);
+        ok = rig_picture(&rig, CLEAR_OF_SCENE, &picture, f);
         if (ok) {
             out[i].rmse = truth_rmse(&truth, &picture);
             image_free(&picture);

@@ -209,13 +209,19 @@ static void widen_8888(const uint8_t *in, uint8_t rgba[4])
     rgba[2] = (uint8_t)p;
 }
 
-bool rig_picture(struct rig *rig, struct image *out, struct failure *f)
+bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failure *f)
 {
     size_t pixels = (size_t)rig->take.width * (size_t)rig->take.height;
+    const struct presented *kept = rig->frame;
+    struct presented frame = *kept;
+    if (clear != CLEAR_OF_SCENE)
+        frame.frame.clear = (uint32_t)clear;
     if (!image_alloc(out, rig->take.width, rig->take.height, f))
         return false;
+    rig->frame = &frame;
     rig->display = malloc(pixels * 4);
     bool ok = rig->display != NULL ? rig_draw(rig, f) : fail(f, "no memory for a picture");
+    rig->frame = kept;
     for (size_t i = 0; i < pixels && ok; i++) {
         if (rig->take.format == SMEAR_RGB565)
             widen_565(rig->display + 2 * i, out->rgba + 4 * i);

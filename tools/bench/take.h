@@ -45,6 +45,8 @@ struct rig {
     uint8_t *display;           /* where flush copies to, rows without padding; null: nowhere */
 };
 
+enum { CLEAR_OF_SCENE = -1 };
+
 /* The whole frame as one band: the height in rows of 8. */
 int take_whole(int height);
 
@@ -60,8 +62,8 @@ bool rig_seek(struct rig *rig, int frame, struct failure *f);
  * nowhere else: both names are looked for by the counter. */
 bool rig_draw(struct rig *rig, struct failure *f);
 
-/* Draws into a picture of 8-bit codes; RGB565 is widened by repeating its upper bits. *out is
- * allocated here, and empty on failure. */
-bool rig_picture(struct rig *rig, struct image *out, struct failure *f);
+/* Draws into a picture of 8-bit codes, on a colour 0xRRGGBB or CLEAR_OF_SCENE; RGB565 is widened by
+ * repeating its upper bits. *out is allocated here, and empty on failure. */
+bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failure *f);
 
 #endif
