@@ -19,7 +19,7 @@ enum film_look {
     FILM_EXACT                  /* the mean of FILM_INSTANTS instants, each posed on its own: the truth */
 };
 
-enum { FILM_INSTANTS = 64, FILM_THREADS = 2 };
+enum { FILM_INSTANTS = 64, FILM_TAPS = 32, FILM_SMALL_REACH = 8, FILM_THREADS = 2 };
 
 struct film {
     struct scene *scene;

@@ -48,21 +48,20 @@ static bool path_of(const struct gallery *gallery, const char *name, char path[M
     return (length > 0 && length < MAX_PATH) || fail(f, "the path is too long");
 }
 
-static void tell(struct gallery *gallery, const char *path, const char *what)
+static void tell(const char *path, const char *what)
 {
     say_progress_end();
     printf("%-34s %s\n", path, what);
     fflush(stdout);
-    gallery->pictures++;
 }
 
-bool gallery_hang(struct gallery *gallery, const char *name, const char *what,
+bool gallery_hang(const struct gallery *gallery, const char *name, const char *what,
                   const struct image *picture, struct failure *f)
 {
     char path[MAX_PATH];
     if (!path_of(gallery, name, path, f) || !png_save(path, picture, f))
         return false;
-    tell(gallery, path, what);
+    tell(path, what);
     return true;
 }
 
@@ -72,39 +71,40 @@ static bool is_gif(const char *name)
     return length > 4 && strcmp(name + length - 4, ".gif") == 0;
 }
 
-/* GIF counts in hundredths: delays are spread so that no frame is late by more than half of one. */
-static int delay_of(const struct gallery_reel *reel, int frame)
+/* GIF counts in hundredths of a second: frames begin at the nearest, so that the whole keeps its
+ * length. Milliseconds. */
+static int delay_of(double fps, int frame, double unit)
 {
-    double unit = is_gif(reel->name) ? 10 : 1;
-    double begin = floor(frame * 1000.0 / reel->fps / unit + 0.5);
-    double end = floor((frame + 1) * 1000.0 / reel->fps / unit + 0.5);
+    double begin = floor(frame * 1000.0 / fps / unit + 0.5);
+    double end = floor((frame + 1) * 1000.0 / fps / unit + 0.5);
     return (int)((end - begin) * unit);
 }
 
-bool gallery_show(struct gallery *gallery, struct film *film, const struct gallery_reel *reel,
-                  struct failure *f)
+bool gallery_show(const struct gallery *gallery, const char *name, const char *what,
+                  struct film *film, int count, struct failure *f)
 {
     char path[MAX_PATH];
-    if (!path_of(gallery, reel->name, path, f))
-        return false;
+    double fps = film->scene->fps, unit = is_gif(name) ? 10 : 1;
     int width = film->device.setup.width, height = film->device.setup.height;
-    struct animation_writer *writer = is_gif(reel->name) ? gif_begin(path, width, height, f)
-                                                         : apng_begin(path, width, height, f);
+    if (!path_of(gallery, name, path, f))
+        return false;
+    struct animation_writer *writer = is_gif(name) ? gif_begin(path, width, height, f)
+                                                   : apng_begin(path, width, height, f);
     if (writer == NULL)
         return false;
-    for (int i = 0; i < reel->count; i++) {
+    for (int i = 0; i < count; i++) {
         struct image frame;
-        bool ok = film_take(film, (reel->first + i) / reel->fps, reel->look, &frame, f) &&
-                  animation_add(writer, &frame, delay_of(reel, i), f);
+        bool ok = film_take(film, i / fps, FILM_BLURRED, &frame, f) &&
+                  animation_add(writer, &frame, delay_of(fps, i, unit), f);
         image_free(&frame);
         if (!ok) {
             animation_cancel(writer);
             return false;
         }
-        say_progress(i + 1, reel->count, "frame");
+        say_progress(i + 1, count, "frame");
     }
     if (!animation_end(writer, f))
         return false;
-    tell(gallery, path, reel->what);
+    tell(path, what);
     return true;
 }

@@ -12,25 +12,18 @@
 
 struct gallery {
     const char *folder;
-    int pictures, failures;     /* written; missing */
 };
 
-/* Makes the folder and those above it. */
+/* Makes the folder and those above it. `folder` must outlive the gallery. */
 bool gallery_open(struct gallery *gallery, const char *folder, struct failure *f);
 
-/* Writes FOLDER/NAME, a PNG. */
-bool gallery_hang(struct gallery *gallery, const char *name, const char *what,
+/* Writes the picture as FOLDER/NAME, a PNG. */
+bool gallery_hang(const struct gallery *gallery, const char *name, const char *what,
                   const struct image *picture, struct failure *f);
 
-/* A film of `count` frames from frame `first` on, at `fps`; GIF or APNG by the end of the name. It
- * loops for ever. */
-struct gallery_reel {
-    const char *name, *what;
-    enum film_look look;
-    double fps;
-    int first, count;           /* frames */
-};
-bool gallery_show(struct gallery *gallery, struct film *film, const struct gallery_reel *reel,
-                  struct failure *f);
+/* Writes `count` blurred frames from time 0 on at the scene's pace, for ever repeated: a GIF or, when
+ * the name does not end so, an APNG. */
+bool gallery_show(const struct gallery *gallery, const char *name, const char *what,
+                  struct film *film, int count, struct failure *f);
 
 #endif

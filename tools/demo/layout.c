@@ -20,6 +20,7 @@ bool layout_row(const struct image *pictures, int count, int gap, struct image *
                 struct failure *f)
 {
     int width = pictures[0].width, height = pictures[0].height;
+    *out = (struct image){ .rgba = NULL };
     for (int i = 1; i < count; i++)
         if (!image_check_same_size(&pictures[0], &pictures[i], f))
             return false;
@@ -30,6 +31,37 @@ bool layout_row(const struct image *pictures, int count, int gap, struct image *
         for (int y = 0; y < height; y++)
             memcpy(pixel_at(out, i * (width + gap), y), pixel_at(&pictures[i], 0, y),
                    4 * (size_t)width);
+    return true;
+}
+
+bool layout_column(const struct image *pictures, int count, int gap, struct image *out,
+                   struct failure *f)
+{
+    int width = pictures[0].width, height = pictures[0].height;
+    *out = (struct image){ .rgba = NULL };
+    for (int i = 1; i < count; i++)
+        if (!image_check_same_size(&pictures[0], &pictures[i], f))
+            return false;
+    if (!image_alloc(out, width, count * height + (count - 1) * gap, f))
+        return false;
+    for (int i = 0; i < count; i++)
+        memcpy(pixel_at(out, 0, i * (height + gap)), pictures[i].rgba,
+               4 * (size_t)width * (size_t)height);
+    return true;
+}
+
+bool layout_split(const struct image *left, const struct image *right, int gap, struct image *out,
+                  struct failure *f)
+{
+    *out = (struct image){ .rgba = NULL };
+    if (!image_check_same_size(left, right, f) || !image_alloc(out, left->width, left->height, f))
+        return false;
+    fill(out, 255, 255, 255);
+    int end = (left->width - gap) / 2, start = end + gap;
+    for (int y = 0; y < left->height; y++) {
+        memcpy(pixel_at(out, 0, y), pixel_at(left, 0, y), 4 * (size_t)end);
+        memcpy(pixel_at(out, start, y), pixel_at(right, start, y), 4 * (size_t)(left->width - start));
+    }
     return true;
 }
 
@@ -56,8 +88,8 @@ bool layout_lamps(const struct image *picture, int scale, unsigned color, struct
             const unsigned grey = pixel_at(picture, x / scale, y / scale)[0];
             for (int k = 0; k < 3; k++) {
                 unsigned full = color >> (16 - 8 * k) & 255u;
-                unsigned lit = glass[k] + (full - glass[k]) * grey / 255u;
-                to[k] = is_seam ? glass[k] : (uint8_t)lit;
+                unsigned lit = (full - glass[k]) * grey / 255u;
+                to[k] = (uint8_t)(glass[k] + (is_seam ? lit / 4u : lit));
             }
             to[3] = 255;
         }

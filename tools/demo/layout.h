@@ -10,11 +10,19 @@
 bool layout_row(const struct image *pictures, int count, int gap, struct image *out,
                 struct failure *f);
 
+/* One above the other, with a black line between. */
+bool layout_column(const struct image *pictures, int count, int gap, struct image *out,
+                   struct failure *f);
+
+/* The left half of one and the right half of the other, with a white line of `gap` pixels on the seam. */
+bool layout_split(const struct image *left, const struct image *right, int gap, struct image *out,
+                  struct failure *f);
+
 /* Every pixel a square of scale x scale. */
 bool layout_zoom(const struct image *picture, int scale, struct image *out, struct failure *f);
 
-/* The same as lamps on dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with dark
- * seams. */
+/* The same as lamps behind dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with seams
+ * between them. */
 bool layout_lamps(const struct image *picture, int scale, unsigned color, struct image *out,
                   struct failure *f);
 

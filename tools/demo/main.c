@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* main.c - the program behind `make demo`: a folder full of pictures, sharp and motion-blurred, all
- * drawn by the library.
+/* main.c - the program behind `make demo`: a folder of pictures, sharp and motion-blurred, all drawn
+ * by the library.
  *
  *     smear-demo [--readme] ASSETS|- FOLDER
  *
- * ASSETS is a folder of models; with `-`, and wherever a model is missing or broken, only the
- * built-in scenes are shown. --readme writes the few pictures the README shows instead. */
+ * ASSETS is a folder of models. With `-` only the built-in scenes are shown, and a scene whose models
+ * are missing or broken is named and left out. --readme writes the pictures of the README instead. */
 #include "dioramas.h"
 #include "film.h"
 #include "gallery.h"
 #include "layout.h"
+#include "night.h"
 
 #include "../cli/say.h"
 
@@ -18,97 +19,188 @@
 
 /* ------------------------------------------------------------------ exhibits */
 
-/* What is made of a scene's picture. */
+/* What is made of a scene. */
 enum exhibit_kind {
     LONE,                       /* one look */
     PAIR,                       /* sharp | blurred */
     TRIPLE,                     /* sharp | blurred | exact */
+    SPLIT,                      /* one picture: sharp on the left, blurred on the right */
     SCREEN,                     /* blurred, RGB565, enlarged */
-    OLED,                       /* blurred, 16 greys, enlarged */
+    OLED,                       /* sharp above blurred, 16 greys, enlarged */
     REEL                        /* blurred, moving */
 };
 
 struct exhibit {
-    const char *scene;          /* of the catalog; null: `diorama` */
-    const struct diorama_kind *diorama;
     const char *name, *what;
     enum exhibit_kind kind;
     enum film_look look;        /* of LONE */
     int width, height;          /* 0: the scene's */
     int zoom;                   /* of SCREEN and OLED */
-    double time;                /* 0: the scene's */
     int frames;                 /* of REEL */
+    double time;                /* 0: the scene's */
 };
 
-static const struct exhibit gallery_exhibits[] = {
-    { "demo/race", NULL, "race-sharp.png", "racing car and drone, the sharp instant", LONE, FILM_SHARP },
-    { "demo/race", NULL, "race-blurred.png", "the same instant, blurred by the filter", LONE,
-      FILM_BLURRED },
-    { "demo/race", NULL, "race-exact.png", "the mean of 64 instants: what the filter aims at", LONE,
-      FILM_EXACT },
-    { "demo/race", NULL, "race-pair.png", "sharp | blurred", PAIR },
-    { "demo/race", NULL, "race-triple.png", "sharp | blurred | mean of 64 instants", TRIPLE },
-    { "demo/race", NULL, "race-640.png", "640x480", LONE, FILM_BLURRED, 640, 480 },
-    { "demo/drone", NULL, "drone-pair.png", "drone and passing car: sharp | blurred", PAIR },
-    { "demo/drone", NULL, "screen-240.png", "a 240x240 display in RGB565, three times as large", SCREEN,
-      .zoom = 3, .width = 240, .height = 240 },
-    { "demo/drone", NULL, "oled-128.png", "a 128x64 OLED in 16 greys, four times as large", OLED,
-      .zoom = 4, .width = 128, .height = 64 },
-    { "demo/race", NULL, "race.gif", "a loop of two seconds", REEL, .width = 240, .height = 180,
-      .frames = 60 },
-    { "demo/drone", NULL, "drone.apng", "a loop of two seconds in true colour", REEL, .frames = 60 },
-    { NULL, &diorama_rally, "rally-sharp.png", "trucks on a forest track, the sharp instant", LONE,
-      FILM_SHARP },
-    { NULL, &diorama_rally, "rally-blurred.png", "blurred: the camera drives along, wheels spin", LONE,
-      FILM_BLURRED },
-    { NULL, &diorama_rally, "rally-triple.png", "sharp | blurred | mean of 64 instants", TRIPLE },
-    { NULL, &diorama_rally, "rally-640.png", "640x480", LONE, FILM_BLURRED, 640, 480 },
-    { NULL, &diorama_rally, "rally.gif", "a loop of two seconds", REEL, .width = 240, .height = 180,
-      .frames = RALLY_LOOP_FRAMES },
-    { NULL, &diorama_pass, "pass-pair.png", "trucks rush past: sharp | blurred", PAIR },
-    { NULL, &diorama_chase, "chase-pair.png", "robot and fox run: sharp | blurred", PAIR },
-    { NULL, &diorama_dance, "dance-pair.png", "robot dances before fans: sharp | blurred", PAIR },
-    { NULL, &diorama_wind, "wind-pair.png", "fans: sharp | blurred", PAIR },
-    { NULL, &diorama_coins, "coins-pair.png", "a jump through turning coins: sharp | blurred", PAIR },
+/* A scene and what is shown of it. */
+struct room {
+    const char *builtin;        /* a name of the catalog, or */
+    bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo, or */
+    const struct diorama_kind *diorama;                     /* one made of assets */
+    const struct exhibit *exhibit;
+    int count;
 };
 
-/* ------------------------------------------------------------------ making them */
+#define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
-static bool make_row(struct film *film, double time, int count, struct image *out, struct failure *f)
+static const struct exhibit race[] = {
+    { .name = "race-sharp.png", .kind = LONE, .look = FILM_SHARP,
+      .what = "racing car and drone, the sharp instant" },
+    { .name = "race-blurred.png", .kind = LONE, .look = FILM_BLURRED,
+      .what = "the same through the reconstruction filter" },
+    { .name = "race-exact.png", .kind = LONE, .look = FILM_EXACT,
+      .what = "the mean of 64 instants: what the filter aims at" },
+    { .name = "race-pair.png", .kind = PAIR, .what = "sharp | blurred" },
+    { .name = "race-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
+    { .name = "race-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+      .what = "blurred, 640x480" },
+    { .name = "race.gif", .kind = REEL, .width = 240, .height = 180, .frames = 60,
+      .what = "blurred, a loop of two seconds" },
+};
+
+static const struct exhibit drone[] = {
+    { .name = "drone-pair.png", .kind = PAIR, .width = 320, .height = 240, .time = 1.95,
+      .what = "a car rushes by below a drone: sharp | blurred" },
+    { .name = "screen-240.png", .kind = SCREEN, .zoom = 3, .time = 1.95,
+      .what = "a display of 240x240 in RGB565, blurred, three times as large" },
+    { .name = "drone.apng", .kind = REEL, .frames = 60,
+      .what = "blurred, a loop of two seconds, true colour" },
+};
+
+static const struct exhibit night[] = {
+    { .name = "oled-128x64.png", .kind = OLED, .zoom = 5,
+      .what = "a display of 128x64 in 16 greys, sharp above blurred, five times as large" },
+};
+
+static const struct exhibit rally[] = {
+    { .name = "rally-sharp.png", .kind = LONE, .look = FILM_SHARP,
+      .what = "trucks on a forest track, the sharp instant" },
+    { .name = "rally-blurred.png", .kind = LONE, .look = FILM_BLURRED,
+      .what = "the same blurred: the camera drives along, wheels spin" },
+    { .name = "rally-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
+    { .name = "rally-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+      .what = "blurred, 640x480" },
+    { .name = "rally.gif", .kind = REEL, .width = 240, .height = 180, .frames = RALLY_LOOP_FRAMES,
+      .what = "blurred, a loop of two seconds" },
+};
+
+static const struct exhibit pass[] = {
+    { .name = "pass-pair.png", .kind = PAIR, .what = "trucks rush past: sharp | blurred" },
+    { .name = "pass-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+      .what = "blurred, 640x480" },
+};
+
+static const struct exhibit chase[] = {
+    { .name = "chase-pair.png", .kind = PAIR, .what = "robot and fox run: sharp | blurred" },
+};
+
+static const struct exhibit dance[] = {
+    { .name = "dance-pair.png", .kind = PAIR, .what = "a robot dances before fans: sharp | blurred" },
+};
+
+static const struct exhibit wind[] = {
+    { .name = "wind-pair.png", .kind = PAIR, .what = "fans in the wind: sharp | blurred" },
+};
+
+static const struct exhibit coins[] = {
+    { .name = "coins-pair.png", .kind = PAIR, .what = "a jump for turning coins: sharp | blurred" },
+};
+
+static const struct room demo_rooms[] = {
+    { .builtin = "demo/race", .exhibit = race, .count = COUNT_OF(race) },
+    { .builtin = "demo/drone", .exhibit = drone, .count = COUNT_OF(drone) },
+    { .open = night_open, .exhibit = night, .count = COUNT_OF(night) },
+    { .diorama = &diorama_rally, .exhibit = rally, .count = COUNT_OF(rally) },
+    { .diorama = &diorama_pass, .exhibit = pass, .count = COUNT_OF(pass) },
+    { .diorama = &diorama_chase, .exhibit = chase, .count = COUNT_OF(chase) },
+    { .diorama = &diorama_dance, .exhibit = dance, .count = COUNT_OF(dance) },
+    { .diorama = &diorama_wind, .exhibit = wind, .count = COUNT_OF(wind) },
+    { .diorama = &diorama_coins, .exhibit = coins, .count = COUNT_OF(coins) },
+};
+
+/* ------------------------------------------------------------------ of the README */
+
+static const struct exhibit readme_race[] = {
+    { .name = "race.png", .kind = PAIR, .what = "racing car and drone: sharp | blurred" },
+    { .name = "race.gif", .kind = REEL, .width = 176, .height = 132, .frames = 60,
+      .what = "the same as a loop" },
+};
+
+static const struct exhibit readme_drone[] = {
+    { .name = "drone.png", .kind = PAIR, .width = 320, .height = 240, .time = 1.95,
+      .what = "a car rushes by below a drone: sharp | blurred" },
+};
+
+static const struct exhibit readme_night[] = {
+    { .name = "oled.png", .kind = OLED, .zoom = 5, .what = "128x64 in 16 greys: sharp above blurred" },
+};
+
+static const struct exhibit readme_pass[] = {
+    { .name = "trucks.png", .kind = PAIR, .what = "trucks rush past: sharp | blurred" },
+};
+
+static const struct room readme_rooms[] = {
+    { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
+    { .builtin = "demo/drone", .exhibit = readme_drone, .count = COUNT_OF(readme_drone) },
+    { .open = night_open, .exhibit = readme_night, .count = COUNT_OF(readme_night) },
+    { .diorama = &diorama_pass, .exhibit = readme_pass, .count = COUNT_OF(readme_pass) },
+};
+
+/* ------------------------------------------------------------------ making pictures */
+
+enum { SEAM = 2 };              /* pixels between pictures side by side */
+
+/* The first `count` looks of the same instant. */
+static bool take_looks(struct film *film, double time, int count, struct image *picture,
+                       struct failure *f)
 {
     static const enum film_look look[3] = { FILM_SHARP, FILM_BLURRED, FILM_EXACT };
-    struct image picture[3] = { { 0 } };
-    bool ok = true;
-    for (int i = 0; i < count && ok; i++)
-        ok = film_take(film, time, look[i], &picture[i], f);
-    ok = ok && layout_row(picture, count, 2, out, f);
     for (int i = 0; i < count; i++)
-        image_free(&picture[i]);
-    return ok;
+        if (!film_take(film, time, look[i], &picture[i], f))
+            return false;
+    return true;
 }
 
-static bool make_screen(struct film *film, const struct exhibit *e, double time, struct image *out,
-                        struct failure *f)
+static bool make_oled(const struct image *picture, int zoom, struct image *out, struct failure *f)
 {
-    enum { OLED_COLOR = 0xcfeaff };
-    struct image picture;
-    bool ok = film_take(film, time, FILM_BLURRED, &picture, f) &&
-              (e->kind == OLED ? layout_lamps(&picture, e->zoom, OLED_COLOR, out, f)
-                               : layout_zoom(&picture, e->zoom, out, f));
-    image_free(&picture);
+    enum { LAMP_COLOR = 0xcfeaff };
+    struct image column;
+    bool ok = layout_column(picture, 2, SEAM, &column, f) &&
+              layout_lamps(&column, zoom, LAMP_COLOR, out, f);
+    image_free(&column);
     return ok;
 }
 
 static bool make_picture(struct film *film, const struct exhibit *e, double time, struct image *out,
                          struct failure *f)
 {
-    switch (e->kind) {
-    case PAIR: return make_row(film, time, 2, out, f);
-    case TRIPLE: return make_row(film, time, 3, out, f);
-    case SCREEN:
-    case OLED: return make_screen(film, e, time, out, f);
-    default: return film_take(film, time, e->look, out, f);
-    }
+    struct image picture[3] = { { .rgba = NULL } };
+    int count = e->kind == TRIPLE ? 3 : e->kind == LONE || e->kind == SCREEN ? 0 : 2;
+    bool ok = take_looks(film, time, count, picture, f);
+    if (!ok)
+        *out = (struct image){ .rgba = NULL };
+    else if (e->kind == LONE)
+        ok = film_take(film, time, e->look, out, f);
+    else if (e->kind == SCREEN)
+        ok = film_take(film, time, FILM_BLURRED, &picture[0], f) &&
+             layout_zoom(&picture[0], e->zoom, out, f);
+    else if (e->kind == SPLIT)
+        ok = layout_split(&picture[0], &picture[1], SEAM, out, f);
+    else if (e->kind == OLED)
+        ok = make_oled(picture, e->zoom, out, f);
+    else
+        ok = layout_row(picture, count, SEAM, out, f);
+    for (int i = 0; i < 3; i++)
+        image_free(&picture[i]);
+    return ok;
 }
 
 static smear_format format_of(const struct exhibit *e)
@@ -121,16 +213,13 @@ static bool make_exhibit(struct gallery *gallery, struct scene *scene, const str
 {
     int width = e->width > 0 ? e->width : scene->width;
     int height = e->height > 0 ? e->height : scene->height;
-    double time = e->time > 0 ? e->time : scene->time;
     struct image picture = { .rgba = NULL };
     struct film film;
     bool ok = film_open(&film, scene, width, height, format_of(e), f);
     if (ok && e->kind == REEL) {
-        const struct gallery_reel reel = { .name = e->name, .what = e->what, .look = FILM_BLURRED,
-                                           .fps = scene->fps, .count = e->frames };
-        ok = gallery_show(gallery, &film, &reel, f);
+        ok = gallery_show(gallery, e->name, e->what, &film, e->frames, f);
     } else if (ok) {
-        ok = make_picture(&film, e, time, &picture, f) &&
+        ok = make_picture(&film, e, e->time > 0 ? e->time : scene->time, &picture, f) &&
              gallery_hang(gallery, e->name, e->what, &picture, f);
     }
     image_free(&picture);
@@ -140,54 +229,55 @@ static bool make_exhibit(struct gallery *gallery, struct scene *scene, const str
 
 /* ------------------------------------------------------------------ all of them */
 
-struct demo {
-    const char *assets;         /* null: none */
-    struct gallery gallery;
-    int status;
-};
-
-static bool is_same_scene(const struct exhibit *a, const struct exhibit *b)
+static bool open_room(const struct room *room, const char *assets, struct scene *out,
+                      struct failure *f)
 {
-    return a->diorama == b->diorama && (a->diorama != NULL || strcmp(a->scene, b->scene) == 0);
+    if (room->diorama != NULL)
+        return diorama_open(room->diorama, assets, out, f);
+    return room->open != NULL ? room->open(out, f) : scene_builtin(room->builtin, out, f);
 }
 
-/* Exhibits of one scene stand together: it is opened once for all of them. Returns how many. */
-static int show_scene(struct demo *demo, const struct exhibit *e, int count)
+/* A status. Missing models are no error of the demo. */
+static int show_room(const struct room *room, const char *assets, struct gallery *gallery)
 {
-    struct scene scene = { 0 };
+    struct scene scene = { .data = NULL };
     struct failure f = { "" };
-    int same = 1;
-    while (same < count && is_same_scene(e, e + same))
-        same++;
-    if (e->diorama != NULL && demo->assets == NULL)
-        return same;
-    bool ok = e->diorama != NULL ? diorama_open(e->diorama, demo->assets, &scene, &f)
-                                 : scene_builtin(e->scene, &scene, &f);
-    if (!ok) {
-        say_warning(e->diorama != NULL ? e->diorama->stage->name : e->scene, f.text);
-        return same;
+    int status = STATUS_OK;
+    if (room->diorama != NULL && assets == NULL)
+        return STATUS_OK;
+    if (!open_room(room, assets, &scene, &f)) {
+        if (room->diorama == NULL)
+            return say_bad_input("built-in scene", &f);
+        say_warning(assets, f.text);
+        return STATUS_OK;
     }
-    for (int i = 0; i < same; i++) {
+    for (int i = 0; i < room->count; i++) {
         f = (struct failure){ "" };
-        if (!make_exhibit(&demo->gallery, &scene, &e[i], &f))
-            demo->status = say_bad_input(e[i].name, &f);
+        if (!make_exhibit(gallery, &scene, &room->exhibit[i], &f))
+            status = say_bad_input(room->exhibit[i].name, &f);
     }
     scene_free(&scene);
-    return same;
+    return status;
 }
 
 int main(int argc, char **argv)
 {
-    struct demo demo = { .status = STATUS_OK };
+    struct gallery gallery;
     struct failure f = { "" };
-    if (argc != 3)
-        return say_bad_usage("usage", "smear-demo ASSETS|- FOLDER");
-    demo.assets = strcmp(argv[1], "-") != 0 ? argv[1] : NULL;
-    if (!gallery_open(&demo.gallery, argv[2], &f))
-        return say_bad_input(argv[2], &f);
-    int count = sizeof gallery_exhibits / sizeof *gallery_exhibits;
-    for (int i = 0; i < count;)
-        i += show_scene(&demo, &gallery_exhibits[i], count - i);
-    printf("pictures in %s\n", argv[2]);
-    return demo.status;
+    int status = STATUS_OK;
+    bool is_readme = argc > 1 && strcmp(argv[1], "--readme") == 0;
+    if (argc != (is_readme ? 4 : 3) || argv[argc - 1][0] == '-')
+        return say_bad_usage("usage", "smear-demo [--readme] ASSETS|- FOLDER");
+    const char *assets = argv[argc - 2], *folder = argv[argc - 1];
+    if (!gallery_open(&gallery, folder, &f))
+        return say_bad_input(folder, &f);
+    const struct room *room = is_readme ? readme_rooms : demo_rooms;
+    int count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms);
+    for (int i = 0; i < count; i++) {
+        int result = show_room(&room[i], strcmp(assets, "-") == 0 ? NULL : assets, &gallery);
+        if (result != STATUS_OK)
+            status = result;
+    }
+    printf("pictures in %s\n", folder);
+    return status;
 }

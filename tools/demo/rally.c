@@ -63,8 +63,8 @@ static double loops_of(double time)
 static void drive_rally(double time, struct drive *drive)
 {
     static const struct { double x, z, sway, phase; } lane[VEHICLES] = {
-        { 0.0, -0.1, 0.10, 0.0 }, { -4.1, -1.75, 0.16, 1.9 }, { -7.6, 0.9, 0.20, 3.6 },
-        { -11.5, -1.2, 0.2, 5.0 }, { -2.9, 1.75, 0.22, 2.7 },
+        { 0.0, 0.1, 0.10, 0.0 }, { -3.7, -1.55, 0.16, 1.9 }, { -8.2, 0.7, 0.20, 3.6 },
+        { -11.5, -1.4, 0.20, 5.0 }, { -4.3, 1.15, 0.22, 2.7 },
     };
     double loops = loops_of(time), phase = 2 * PI * loops;
     for (int i = 0; i < VEHICLES; i++) {
@@ -78,7 +78,9 @@ static void drive_rally(double time, struct drive *drive)
     }
 }
 
-/* Past the origin once per loop, one after the other. */
+/* Past the camera once per loop, one after the other, midway between two arches. */
+#define PASS_X (LOOP_LENGTH / 2)
+
 static void drive_past(double time, struct drive *drive)
 {
     static const struct { double behind, z; } lane[VEHICLES] = {
@@ -87,7 +89,7 @@ static void drive_past(double time, struct drive *drive)
     double loops = loops_of(time);
     for (int i = 0; i < VEHICLES; i++) {
         double at = loops - lane[i].behind / LOOP_LENGTH, lap = floor(at + 0.5);
-        drive[i] = (struct drive){ .x = LOOP_LENGTH * (at - lap), .z = lane[i].z,
+        drive[i] = (struct drive){ .x = PASS_X + LOOP_LENGTH * (at - lap), .z = lane[i].z,
                                    .rolled = loops * WHEEL_TURNS * 2 * PI * WHEEL_RADIUS,
                                    .epoch = (int)fmod(lap, 1000) };
     }
@@ -216,25 +218,25 @@ static void camera(struct scene_instant *out, struct vec3 eye, struct vec3 look,
 static void rally_move(const struct stage *stage, double time, struct scene_instant *out)
 {
     double phase = 2 * PI * loops_of(time), x = LOOP_LENGTH * loops_of(time);
-    struct vec3 eye = vec3(x + 4.0 + 0.10 * sin(phase), 1.55 + 0.04 * sin(2 * phase), 3.3);
+    struct vec3 eye = vec3(x + 2.7 + 0.10 * sin(phase), 1.50 + 0.04 * sin(2 * phase), 4.3);
     struct drive drive[VEHICLES];
     drive_rally(time, drive);
-    camera(out, eye, vec3(x - 1.3, 1.0, -0.7), 44);
+    camera(out, eye, vec3(x - 1.5, 0.98, -0.4), 44);
     move_set(stage, drive, eye, out);
 }
 
 static void pass_move(const struct stage *stage, double time, struct scene_instant *out)
 {
-    struct vec3 eye = vec3(2.2, 1.9, 7.4);
+    struct vec3 eye = vec3(PASS_X + 1.8, 1.7, 6.6);
     struct drive drive[VEHICLES];
     drive_past(time, drive);
-    camera(out, eye, vec3(-0.6, 1.25, 0), 46);
+    camera(out, eye, vec3(PASS_X - 0.4, 1.2, 0), 46);
     move_set(stage, drive, eye, out);
 }
 
-static const struct stage_kind rally_stage = { "rally", 320, 240, 20 / 30.0, 0x9fd0ee, build_set,
+static const struct stage_kind rally_stage = { "rally", 320, 240, 42 / 30.0, 0x9fd0ee, build_set,
                                                rally_move };
-static const struct stage_kind pass_stage = { "pass", 320, 240, 2 / 30.0, 0x9fd0ee, build_set,
+static const struct stage_kind pass_stage = { "pass", 320, 240, 1 / 30.0, 0x9fd0ee, build_set,
                                               pass_move };
 
 const struct diorama_kind diorama_rally = { &rally_stage, files, FILES, CAST, file_of, rally_place };

@@ -31,7 +31,7 @@ static const struct diorama_file chase_files[CHASE_FILES] = {
 };
 
 /* Metres per second; the clips are played as much faster as feet need to keep up. */
-#define CHASE_SPEED 9.0
+#define CHASE_SPEED 12.0
 #define CHASE_LENGTH 20.0       /* of a piece of track */
 #define CHASE_LIFT 0.10         /* the paws reach this far below the fox's own ground */
 
@@ -39,11 +39,11 @@ static void chase_place(double time, struct diorama_place *place)
 {
     double x = CHASE_SPEED * time;
     struct xform ahead = xform_turn_y(PI / 2);
-    double fox = 1 / 62.0, robot = 0.42;
-    place[CHASE_FOX].world = xform_mul(xform_mul(xform_move(x + 1.35, CHASE_LIFT - 0.04, 0.75), ahead),
+    double fox = 1 / 66.0, robot = 0.50;
+    place[CHASE_FOX].world = xform_mul(xform_mul(xform_move(x + 1.15, CHASE_LIFT - 0.04, 0.85), ahead),
                                        xform_scale(fox, fox, fox));
     place[CHASE_FOX].clip_time = 2.1 * time;
-    place[CHASE_ROBOT].world = xform_mul(xform_mul(xform_move(x - 1.25, 0.05, -0.55), ahead),
+    place[CHASE_ROBOT].world = xform_mul(xform_mul(xform_move(x - 1.55, 0.05, -0.6), ahead),
                                          xform_scale(robot, robot, robot));
     place[CHASE_ROBOT].clip_time = 1.7 * time;
 }
@@ -87,8 +87,8 @@ static void chase_move(const struct stage *stage, double time, struct scene_inst
 {
     const struct chase_set *set = stage->extra;
     double x = CHASE_SPEED * time;
-    struct vec3 eye = vec3(x + 2.1, 1.25, 4.7);
-    stage_camera(out, xform_look(eye, vec3(x - 0.05, 1.05, 0), vec3(0, 1, 0)), 44);
+    struct vec3 eye = vec3(x + 1.2, 1.25, 5.6);
+    stage_camera(out, xform_look(eye, vec3(x - 0.1, 1.12, 0), vec3(0, 1, 0)), 44);
     out->camera.znear = 0.4;
     out->camera.zfar = 140;
     stage_place(out, set->backdrop, xform_move(eye.x, 0, eye.z));
@@ -97,7 +97,7 @@ static void chase_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, set->shadow + 1, xform_move(x - 1.45, 0.012, -0.75));
 }
 
-static const struct stage_kind chase_stage = { "chase", 320, 240, 1.12, 0x9fd0ee, chase_build,
+static const struct stage_kind chase_stage = { "chase", 320, 240, 0.7, 0x9fd0ee, chase_build,
                                                chase_move };
 const struct diorama_kind diorama_chase = { &chase_stage, chase_files, CHASE_FILES,
                                             CHASE_FILES, own_file, chase_place };
@@ -181,7 +181,7 @@ static void floor_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, set->meadow, xform_move(0, -0.06, 0));
 }
 
-static const struct stage_kind dance_stage = { "dance", 320, 240, 0.5, 0x9fd0ee, floor_build,
+static const struct stage_kind dance_stage = { "dance", 320, 240, 0.54, 0x9fd0ee, floor_build,
                                                floor_move };
 const struct diorama_kind diorama_dance = { &dance_stage, dance_files, DANCE_FILES, DANCE_CAST,
                                             dance_file_of, dance_place };
@@ -195,8 +195,8 @@ static const struct diorama_file wind_files[1] = { { "own/fan.glb", "spin" } };
 static void wind_place(double time, struct diorama_place *place)
 {
     static const struct { double x, z, size, rate, start; } fan[WIND_FANS] = {
-        { -0.75, 0.3, 1.0, 3.0, 0.00 }, { 1.55, -1.6, 1.0, 2.2, 0.03 }, { -3.1, -3.0, 1.0, 2.6, 0.06 },
-        { 3.9, -6.0, 1.15, 2.0, 0.01 }, { -0.6, -8.5, 1.15, 2.4, 0.04 },
+        { -0.75, 0.3, 1.0, 2.2, 0.00 }, { 1.75, -1.6, 1.0, 1.9, 0.03 }, { -3.7, -3.0, 1.0, 2.4, 0.06 },
+        { 4.6, -6.0, 1.15, 2.0, 0.01 }, { -0.1, -9.5, 1.15, 2.4, 0.04 },
     };
     for (int i = 0; i < WIND_FANS; i++)
         fan_at(&place[i], fan[i].x, 0, fan[i].z, fan[i].size, 0.2, fan[i].rate * time + fan[i].start);
