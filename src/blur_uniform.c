@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* blur_uniform.c - tiles in whose reach everything moves alike: an unweighted mean along each pixel's own velocity,
- * no depth, no weights; and tiles that nothing moves in: a copy. */
+/* blur_uniform.c - tiles in whose reach everything moves alike or changes without a step: an unweighted mean along
+ * each pixel's own velocity, no depth, no weights; and tiles that nothing moves in: a copy. */
 #include "blur.h"
 
 #include "fixmath.h"
@@ -17,70 +17,94 @@ void smear_blur_copy(uint32_t *out, const struct smear_window *w, int32_t row, i
     }
 }
 
-/* Means over n taps at the midpoints of n equal parts of [-v, v]. */
-SMEAR_INLINE uint32_t mean_along(const struct smear_window *w, const struct smear_row_table *rows,
-                                 int32_t x, int32_t y, int32_t vx, int32_t vy, int32_t n, uint32_t over,
-                                 bool linear)
+/* The taps of a pixel: n / 2 pairs at the midpoints of n equal parts of [-v, v], all in q16 px. */
+struct uniform_taps {
+    int32_t first_x, first_y;   /* of the innermost pair: v / n */
+    int32_t step_x, step_y;     /* from pair to pair: 2 v / n */
+};
+
+SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offset, int32_t x, int32_t y,
+                                 const struct uniform_taps *taps, int32_t n, uint32_t over, int32_t right,
+                                 bool linear, bool edge)
 {
-    /* Positions in q16, velocities in q3: the first tap lies half a part inside -v. */
-    int32_t step_x = vx * 16384 / n, step_y = vy * 16384 / n;
-    int32_t px = (x << 16) + 0x8000 - vx * 8192 + (step_x >> 1);
-    int32_t py = (y << 16) + 0x8000 - vy * 8192 + (step_y >> 1);
-    uint32_t r = 0, g = 0, b = 0;
-    int32_t right = w->width - 1;
-    for (int32_t i = 0; i < n; i++, px += step_x, py += step_y) {
-        uint32_t p = w->color[rows->offset[(py >> 16) - rows->first]
-                              + (uint32_t)clamp_i32(px >> 16, 0, right)];
+    int32_t dx = taps->first_x, dy = taps->first_y;
+    x = (x << 16) + 0x8000;
+    y = (y << 16) + 0x8000;
+    /* Encoded: both sums hold red and blue; the difference is green, 256 times. */
+    uint32_t r = 0, g = 0, b = 0, all = 0, red_blue = 0;
+    for (int32_t i = n; i > 0; i -= 2, dx += taps->step_x, dy += taps->step_y) {
+        int32_t left = (x - dx) >> 16, other = (x + dx) >> 16;
+        if (edge) {
+            left = clamp_i32(left, 0, right);
+            other = clamp_i32(other, 0, right);
+        }
+        uint32_t p = color[row_offset[(y - dy) >> 16] + (uint32_t)left];
+        uint32_t q = color[row_offset[(y + dy) >> 16] + (uint32_t)other];
         if (linear) {
-            r += smear_srgb_decode[pixel_red(p)];
-            g += smear_srgb_decode[pixel_green(p)];
-            b += smear_srgb_decode[pixel_blue(p)];
+            r += (uint32_t)smear_srgb_decode[pixel_red(p)] + smear_srgb_decode[pixel_red(q)];
+            g += (uint32_t)smear_srgb_decode[pixel_green(p)] + smear_srgb_decode[pixel_green(q)];
+            b += (uint32_t)smear_srgb_decode[pixel_blue(p)] + smear_srgb_decode[pixel_blue(q)];
         } else {
-            r += p & 0xff00ffu;
-            g += pixel_green(p);
+            all += p + q;
+            red_blue += (p & 0xff00ffu) + (q & 0xff00ffu);
         }
     }
-    /* `over` is 2^24 / n, rounded up: sums stay below 2^24 x n. */
+    /* `over` is 2^24 / n, rounded up: sums stay below 2^24 n, and equal values keep their mean. */
     if (linear)
         return pixel_make(0, smear_srgb_encode[mulh_u32(r << 8, over) >> 4],
                           smear_srgb_encode[mulh_u32(g << 8, over) >> 4],
                           smear_srgb_encode[mulh_u32(b << 8, over) >> 4]);
-    return pixel_make(0, mulh_u32((r >> 16 << 8) + ((uint32_t)n << 7), over),
-                      mulh_u32((g << 8) + ((uint32_t)n << 7), over),
-                      mulh_u32(((r & 0xffffu) << 8) + ((uint32_t)n << 7), over));
+    over >>= 8;
+    g = (all - red_blue) >> 8 & 0xffffu;
+    return pixel_make(0, ((red_blue >> 16) * over + 0x8000u) >> 16, (g * over + 0x8000u) >> 16,
+                      ((red_blue & 0xffffu) * over + 0x8000u) >> 16);
+}
+
+SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
+                                int32_t row, int32_t column, int32_t n, bool linear, bool edge)
+{
+    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
+    int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
+    uint32_t over = ((1u << 24) + (uint32_t)n - 1u) / (uint32_t)n, copied = 0, last_word = 0;
+    struct uniform_taps taps = { 0, 0, 0, 0 };
+    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+        uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
+        for (int32_t x = x0; x < x1; x++, at++) {
+            uint32_t word = window_velocity_word(w, at);
+            if (word != last_word) {
+                struct smear_pixel_velocity v = window_velocity(w, at);     /* q3 */
+                last_word = word;
+                taps.step_x = v.x * (int32_t)(over >> 8) >> 2;
+                taps.step_y = v.y * (int32_t)(over >> 8) >> 2;
+                taps.first_x = taps.step_x >> 1;
+                taps.first_y = taps.step_y >> 1;
+            }
+            if (word == 0) {
+                out[x - x0] = w->color[at];
+                copied++;
+            } else {
+                out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n, over,
+                                             w->width - 1, linear, edge);
+            }
+        }
+    }
+    return (uint32_t)n * ((uint32_t)((x1 - x0) * (y1 - y0)) - copied);
 }
 
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings)
 {
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
-    /* A tap per two pixels of travel says all there is to say; `samples` is the most. */
-    const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
-    int32_t travel = (max_i32(abs_i32(around->x), abs_i32(around->y)) >> 7) + 1;     /* px */
-    int32_t n = clamp_i32((travel + 1) / 2, 2, clamp_i32(settings->samples, 2, 128));
-    uint32_t over = (uint32_t)(((1u << 24) + (uint32_t)n - 1u) / (uint32_t)n);
-    uint32_t taps = 0;
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
-        uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
-        for (int32_t x = x0; x < x1; x++, at++) {
-            int32_t vx, vy;
-            if (w->velocity8 != NULL) {
-                vx = w->velocity8[2 * at];
-                vy = w->velocity8[2 * at + 1];
-            } else {
-                vx = w->velocity16[2 * at];
-                vy = w->velocity16[2 * at + 1];
-            }
-            if ((vx | vy) == 0) {
-                out[x - x0] = w->color[at];
-                continue;
-            }
-            out[x - x0] = settings->linear ? mean_along(w, rows, x, y, vx, vy, n, over, true)
-                                           : mean_along(w, rows, x, y, vx, vy, n, over, false);
-            taps += (uint32_t)n;
-        }
-    }
-    return taps;
+    /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In pairs. */
+    const struct smear_tile_motion *m = &window_motion(w, row)[column];
+    int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> 2;                       /* px */
+    int32_t n = min_i32(travel + 3, clamp_i32(settings->samples, 2, 128) * 2) >> 2 << 1;
+    n = max_i32(n, 2);
+    int32_t x0 = column << w->tile_shift;
+    bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
+    if (settings->linear)
+        return edge ? mean_tile(out, w, rows, row, column, n, true, true)
+                    : mean_tile(out, w, rows, row, column, n, true, false);
+    return edge ? mean_tile(out, w, rows, row, column, n, false, true)
+                : mean_tile(out, w, rows, row, column, n, false, false);
 }

@@ -4,36 +4,46 @@
 
 #include "fixmath.h"
 
+static int32_t change(struct smear_pixel_velocity a, struct smear_pixel_velocity b)
+{
+    return max_i32(abs_i32(a.x - b.x), abs_i32(a.y - b.y));
+}
+
 void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
 {
     struct smear_tile_motion m = { 0, 0, INT16_MAX, INT16_MIN, INT16_MAX, INT16_MIN };
-    int32_t longest = -1;
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
+    int32_t longest = -1, rough = 0;
+    int32_t x0 = column << w->tile_shift, n = min_i32(w->tile, w->width - x0);
     int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
     for (int32_t y = y0; y < y1; y++) {
-        int32_t at = window_slot(w, y) * w->width;
-        for (int32_t x = x0; x < x1; x++) {
-            int32_t vx, vy;
-            if (w->velocity8 != NULL) {
-                vx = w->velocity8[2 * (at + x)];
-                vy = w->velocity8[2 * (at + x) + 1];
-            } else {
-                vx = w->velocity16[2 * (at + x)];
-                vy = w->velocity16[2 * (at + x) + 1];
+        uint32_t at = (uint32_t)(window_slot(w, y) * w->width + x0), end = at + (uint32_t)n;
+        uint32_t above = (uint32_t)(window_slot(w, max_i32(y - 1, 0)) * w->width + x0);
+        struct smear_pixel_velocity last = window_velocity(w, x0 > 0 ? at - 1 : at);
+        uint32_t last_word = ~window_velocity_word(w, at);      /* the first of a row always counts */
+        for (; at < end; at++, above++) {
+            uint32_t word = window_velocity_word(w, at);
+            if (word != last_word) {
+                struct smear_pixel_velocity v = window_velocity(w, at);
+                int32_t square = v.x * v.x + v.y * v.y;
+                if (square > longest) {
+                    longest = square;
+                    m.x = (int16_t)v.x;
+                    m.y = (int16_t)v.y;
+                }
+                m.min_x = (int16_t)min_i32(m.min_x, v.x);
+                m.max_x = (int16_t)max_i32(m.max_x, v.x);
+                m.min_y = (int16_t)min_i32(m.min_y, v.y);
+                m.max_y = (int16_t)max_i32(m.max_y, v.y);
+                rough = max_i32(rough, change(v, last));
+                last = v;
+                last_word = word;
             }
-            int32_t square = vx * vx + vy * vy;
-            if (square > longest) {
-                longest = square;
-                m.x = (int16_t)vx;
-                m.y = (int16_t)vy;
-            }
-            m.min_x = (int16_t)min_i32(m.min_x, vx);
-            m.max_x = (int16_t)max_i32(m.max_x, vx);
-            m.min_y = (int16_t)min_i32(m.min_y, vy);
-            m.max_y = (int16_t)max_i32(m.max_y, vy);
+            if (window_velocity_word(w, above) != word)
+                rough = max_i32(rough, change(last, window_velocity(w, above)));
         }
     }
     window_motion(w, row)[column] = m;
+    window_around(w, row)[column].rough = (uint8_t)min_i32(rough, 255);
 }
 
 static int sign(int32_t a)
@@ -47,15 +57,31 @@ static bool points_here(const struct smear_tile_motion *m, int32_t dx, int32_t d
     return dx == 0 || dy == 0 || s == 2 || s == -2;
 }
 
-/* As in PPSv2: the centre's motion counts 1.01 times, and the winner is shortened by 1.01. */
-static void neighborhood(const struct smear_window *w, int32_t row, int32_t column, int32_t known,
-                         bool corner)
+static bool moves(const struct smear_tile_motion *m)
 {
-    struct smear_tile_neighborhood *out = &window_around(w, row)[column];
-    struct smear_tile_motion best = { 0, 0, 0, 0, 0, 0 };
-    int64_t longest = -1;
-    bool centre_wins = true;
-    int32_t min_x = INT16_MAX, max_x = INT16_MIN, min_y = INT16_MAX, max_y = INT16_MIN;
+    return (m->min_x | m->max_x | m->min_y | m->max_y) != 0;
+}
+
+/* How far two ranges of velocities lie apart. */
+static int32_t gap(const struct smear_tile_motion *a, const struct smear_tile_motion *b)
+{
+    int32_t x = max_i32(a->min_x - b->max_x, b->min_x - a->max_x);
+    int32_t y = max_i32(a->min_y - b->max_y, b->min_y - a->max_y);
+    return max_i32(max_i32(x, y), 0);
+}
+
+/* The tiles of the 3 x 3 that exist and are known, in row order. */
+struct neighbors {
+    const struct smear_tile_motion *motion[9];
+    int32_t rough[9];
+    int8_t dx[9], dy[9];
+    int count;
+};
+
+static void collect(struct neighbors *n, const struct smear_window *w, int32_t row, int32_t column,
+                    int32_t known)
+{
+    n->count = 0;
     for (int32_t dy = -1; dy <= 1; dy++) {
         if (row + dy < 0 || row + dy > known)
             continue;
@@ -63,27 +89,70 @@ static void neighborhood(const struct smear_window *w, int32_t row, int32_t colu
             if (column + dx < 0 || column + dx >= w->columns)
                 continue;
             const struct smear_tile_motion *m = &window_motion(w, row + dy)[column + dx];
-            min_x = min_i32(min_x, m->min_x);
-            max_x = max_i32(max_x, m->max_x);
-            min_y = min_i32(min_y, m->min_y);
-            max_y = max_i32(max_y, m->max_y);
-            int64_t square = (int64_t)(m->x * m->x + m->y * m->y) * (dx == 0 && dy == 0 ? 10201 : 10000);
-            if (square > longest && (!corner || points_here(m, dx, dy))) {
-                longest = square;
-                best = *m;
-                centre_wins = dx == 0 && dy == 0;
-            }
+            n->motion[n->count] = m;
+            n->rough[n->count] = moves(m) ? window_around(w, row + dy)[column + dx].rough : 0;
+            n->dx[n->count] = (int8_t)dx;
+            n->dy[n->count++] = (int8_t)dy;
         }
     }
-    /* 1/8 px to 1/256 px is 32; 32 / 1.01 = 31.6832, or 2076389 / 2^16. */
-    const int64_t centre_scale = 2097152, other_scale = 2076389;
-    int64_t scale = centre_wins ? centre_scale : other_scale;
-    out->x = (int16_t)((best.x * scale + 0x8000) >> 16);
-    out->y = (int16_t)((best.y * scale + 0x8000) >> 16);
-    int32_t spread = max_i32(max_x - min_x, max_y - min_y);
-    int32_t length = (int32_t)sqrt_q3((uint32_t)(best.x * best.x + best.y * best.y)) >> 3;
-    out->kind = (max_x | max_y | min_x | min_y) == 0 ? TILE_STILL
-              : spread <= max_i32(6, length >> 2) ? TILE_UNIFORM : TILE_COMPLEX;
+}
+
+/* A step of velocity that does not show: 1/8 px and 1/2^smooth_shift of the motion. */
+enum { smooth_step = 4, smooth_shift = 3 };
+
+/* Whether all motion that can carry anything into or out of the tile is alike or changes without a step. Along an
+ * axis on which nothing moves by a pixel, neighbours do not matter. */
+static bool is_uniform(const struct neighbors *n, const struct smear_tile_motion *here)
+{
+    struct smear_tile_motion all = *here;
+    for (int i = 0; i < n->count; i++) {
+        const struct smear_tile_motion *m = n->motion[i];
+        all.min_x = (int16_t)min_i32(all.min_x, m->min_x);
+        all.max_x = (int16_t)max_i32(all.max_x, m->max_x);
+        all.min_y = (int16_t)min_i32(all.min_y, m->min_y);
+        all.max_y = (int16_t)max_i32(all.max_y, m->max_y);
+    }
+    int32_t widest = max_i32(max_i32(all.max_x, -all.min_x), max_i32(all.max_y, -all.min_y));
+    int32_t spread = max_i32(all.max_x - all.min_x, all.max_y - all.min_y);
+    if (spread <= max_i32(6, widest >> 2))
+        return true;
+    bool sideways = max_i32(all.max_x, -all.min_x) >= 8, upright = max_i32(all.max_y, -all.min_y) >= 8;
+    int32_t step = max_i32(smooth_step, widest >> smooth_shift);
+    for (int i = 0; i < n->count; i++) {
+        if ((n->dx[i] != 0 && !sideways) || (n->dy[i] != 0 && !upright))
+            continue;
+        if (n->rough[i] > step || gap(n->motion[i], here) > step)
+            return false;
+    }
+    return true;
+}
+
+/* As in PPSv2: the centre's motion counts 1.01 times, and the winner is shortened by 1.01. */
+static void neighborhood(const struct smear_window *w, int32_t row, int32_t column, int32_t known,
+                         bool corner)
+{
+    struct smear_tile_neighborhood *out = &window_around(w, row)[column];
+    const struct smear_tile_motion *best = NULL, *here = &window_motion(w, row)[column];
+    struct neighbors n;
+    uint32_t longest = 0;
+    bool still = true;
+    collect(&n, w, row, column, known);
+    for (int i = 0; i < n.count; i++) {
+        const struct smear_tile_motion *m = n.motion[i];
+        bool centre = m == here;
+        /* Squares stay below 2^18 (64 px), 1.01^2 = 10201 / 10000 of them below 2^32. */
+        uint32_t square = (uint32_t)(m->x * m->x + m->y * m->y) * (centre ? 10201u : 10000u);
+        still = still && !moves(m);
+        if ((best == NULL || square > longest) && (!corner || points_here(m, n.dx[i], n.dy[i]))) {
+            longest = square;
+            best = m;
+        }
+    }
+    /* 1/8 px to 1/256 px is 32; 32 / 1.01 = 31.6832, or 64887 / 2^11. */
+    int32_t scale = best == here ? 65536 : 64887;
+    out->x = (int16_t)((best->x * scale + 0x400) >> 11);
+    out->y = (int16_t)((best->y * scale + 0x400) >> 11);
+    out->kind = still ? TILE_STILL : is_uniform(&n, here) ? TILE_UNIFORM : TILE_COMPLEX;
 }
 
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)

@@ -25,6 +25,8 @@ struct smear_tile_motion {
 struct smear_tile_neighborhood {
     int16_t x, y;                   /* longest of the 3 x 3 tiles, in 1/256 px */
     uint8_t kind;                   /* smear_tile_class */
+    uint8_t rough;                  /* of the tile itself: largest change of velocity from a pixel to the next,
+                                     * in 1/8 px; means nothing where nothing moves */
 };
 
 struct smear_window {
@@ -55,6 +57,31 @@ static inline struct smear_tile_motion *window_motion(const struct smear_window 
 static inline struct smear_tile_neighborhood *window_around(const struct smear_window *w, int32_t row)
 {
     return w->around + (uint32_t)row % 3u * (uint32_t)w->columns;
+}
+
+/* Velocity of a pixel in 1/8 px. */
+struct smear_pixel_velocity {
+    int32_t x, y;
+};
+
+static inline struct smear_pixel_velocity window_velocity(const struct smear_window *w, uint32_t at)
+{
+    if (w->velocity8 != NULL)
+        return (struct smear_pixel_velocity){ w->velocity8[2 * at], w->velocity8[2 * at + 1] };
+    return (struct smear_pixel_velocity){ w->velocity16[2 * at], w->velocity16[2 * at + 1] };
+}
+
+/* The same in one word that is only good for comparing: most pixels move like the one before. */
+static inline uint32_t window_velocity_word(const struct smear_window *w, uint32_t at)
+{
+    if (w->velocity8 != NULL) {
+        uint16_t word;
+        __builtin_memcpy(&word, __builtin_assume_aligned(w->velocity8 + 2 * at, 2), sizeof word);
+        return word;
+    }
+    uint32_t word;
+    __builtin_memcpy(&word, __builtin_assume_aligned(w->velocity16 + 2 * at, 4), sizeof word);
+    return word;
 }
 
 #endif
