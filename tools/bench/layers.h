@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* layers.h - counts how often each pixel is drawn.
  *
- * A layer scene is a scene in which every triangle is black glass that lets LAYER_CLEAR_SHARE of
- * the light through, on white, with nothing opaque: no triangle hides another, so a pixel's code
- * tells how many triangles covered it. Where neighbours share an edge, one pixel too dark was drawn
- * twice and one too light was missed. */
+ * A layer scene is a scene in which every triangle is black glass that lets four fifths of the
+ * light through, on white, with nothing opaque: no triangle hides another, so a pixel's code tells
+ * how many triangles covered it. Where neighbours share an edge, a pixel too dark was drawn twice
+ * and one too light was missed. Glass takes the general path of the raster; that opaque triangles
+ * cover the same pixels is for its unit tests to say. */
 #ifndef SMEAR_BENCH_LAYERS_H
 #define SMEAR_BENCH_LAYERS_H
 
