@@ -126,7 +126,8 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->windowed == b->windowed && a->accumulate == b->accumulate
         && a->band_rows == b->band_rows && a->format == b->format && a->method == b->method
         && a->samples == b->samples && a->reconstruct == b->reconstruct
-        && a->shutter_poses == b->shutter_poses && a->workers == b->workers;
+        && a->shutter_poses == b->shutter_poses && a->workers == b->workers
+        && a->change == b->change;
 }
 
 bool count_serve(const char *group, int first, int frames, struct failure *f)
