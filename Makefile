@@ -38,15 +38,19 @@ MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(filter-out tools/cli/main.c,$(CLI_SRC))
+REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
 
 LIB := $(BUILD)/libsmear.a
+# Programs for people lie in build/; those with sanitizers or checks beside their objects.
+BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
 .PHONY: all help demo test bench layers tables clean
 ## the program build/smear and the library (build/host/libsmear.a)
-all: build/smear
+all: $(BIN)/smear
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -56,22 +60,25 @@ $(LIB): $(call objects,$(LIB_SRC))
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-build/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures of real models, in build/demo
-demo: build/smear build/smear-demo
-	build/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
+demo: $(BIN)/smear $(BIN)/smear-demo
+	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
 
 ## every suite; names what it needs
 test:
 	MAKE="$(MAKE)" sh tests/all.sh
 
 ## instructions per frame against other rasterizers (needs valgrind)
-bench: build/smear-bench
-	MAKE="$(MAKE)" sh tools/bench/bench.sh build/smear-bench $(REPORTS)
+bench: $(BIN)/smear-bench
+	MAKE="$(MAKE)" sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
 
-build/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
+$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+$(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## files of src/ include only what lies above them
@@ -97,7 +104,6 @@ help:
 
 # ---------------------------------------------------------------------- tests
 
-REF_SRC    := $(wildcard tests/ref_*.c) tests/filter_ref.c
 EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
