@@ -38,7 +38,7 @@ MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(filter-out tools/cli/main.c,$(CLI_SRC))
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(patsubst %,tools/cli/%.c,device crew picture say planes sink memory)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
 
