@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [accuracy] [methods] [threads] [targets FILE...]
+ *     bench [peers] [accuracy] [methods] [threads] [memory] [targets FILE...]
  *
- * Without arguments, the first four. `targets` reads what target_bench printed, from files named
+ * Without arguments, the first five. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "count.h"
@@ -31,14 +31,14 @@ struct report {
 
 static const struct report reports[] = {
     { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
-    { "threads", threads_report },
+    { "threads", threads_report }, { "memory", memory_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 
 static int usage(void)
 {
     fprintf(stderr, "usage: bench [--strict] [peers] [accuracy] [methods] [threads] "
-                    "[targets FILE...]\n");
+                    "[memory] [targets FILE...]\n");
     return 2;
 }
 

@@ -33,6 +33,7 @@ bool peers_report(struct sheet *sheet, struct failure *f);      /* instructions,
 bool accuracy_report(struct sheet *sheet, struct failure *f);   /* against the double reference */
 bool methods_report(struct sheet *sheet, struct failure *f);    /* cost and error of blur */
 bool threads_report(struct sheet *sheet, struct failure *f);
+bool memory_report(struct sheet *sheet, struct failure *f);      /* arenas of small displays */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);
 
 #endif
