@@ -488,12 +488,13 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
     }
 }
 
-/* A triangle that lies within the guard band, clockwise on the screen. False when there is no room. */
-static inline bool add_whole(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
-                             bool back, int64_t area, bool cut)
+/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of the frame
+ * that is being filled. False when there is no room. */
+static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
+                                     struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
+                                     uint32_t triangle, bool back, bool cut)
 {
-    struct smear_geometry *g = b->a->geometry;
-    struct box box = box_of(&v[0]->screen, &v[1]->screen, &v[2]->screen);
+    struct box box = box_of(&v0->screen, &v1->screen, &v2->screen);
     bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
     if (cut)
         box_cut(&box, b->a);
@@ -501,11 +502,13 @@ static inline bool add_whole(struct batch *b, struct smear_cached_vertex *const 
         return true;
     struct covered covered[POINTS_MAX];
     int count = POINTS_MAX + 1;
+    int32_t area = 0;
     if (tiny) {
-        const struct smear_screen *p = &v[0]->screen;
+        int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
+        int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
         struct tiny_edges e;
-        tiny_start(&e, p->x, p->y, v[1]->screen.x - p->x, v[1]->screen.y - p->y, v[2]->screen.x - p->x,
-                   v[2]->screen.y - p->y, (int32_t)area, box.x0, box.y0);
+        area = x1 * y2 - x2 * y1;
+        tiny_start(&e, v0->screen.x, v0->screen.y, x1, y1, x2, y2, area, box.x0, box.y0);
         count = cover(covered, &e, &box);
         if (count == 0)
             return true;
@@ -515,23 +518,28 @@ static inline bool add_whole(struct batch *b, struct smear_cached_vertex *const 
         return false;
     b->segment = s;
     b->a->triangles_drawn++;
-    if (count <= POINTS_MAX && b->points) {
-        add_points(b, v, triangle, back, covered, count, (int32_t)area);
+    if (count <= POINTS_MAX && b->points
+        && (s->color == 0 || s->flat_depth
+            || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
+        struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
+        add_points(b, v, triangle, back, covered, count, area);
         return true;
     }
+    struct smear_geometry *g = b->a->geometry;
     uint32_t base = s->base;
-    uint16_t offset[3];
-    for (int i = 0; i < 3; i++)
-        offset[i] = (uint16_t)(stored_vertex(b, v[i], triangle, back) - base);
+    uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
     struct smear_triangle *t = geometry_add(g, row_list(g, b->d, geometry_row(g, box.y0)));
-    t->vertex[0] = offset[0];
-    t->vertex[1] = offset[1];
-    t->vertex[2] = offset[2];
+    t->vertex[0] = offset0;
+    t->vertex[1] = offset1;
+    t->vertex[2] = offset2;
     t->segment = (uint16_t)(s - g->segment);
     t->color = color_of_face(b, triangle, back);
     return true;
 }
 
+/* Transforms a vertex that is not remembered. An index the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
                                                       const struct smear_assembly *d, uint32_t tag,
                                                       const struct smear_cached_vertex *in_use1,
@@ -539,25 +547,16 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
                                                       struct smear_cached_vertex *spare)
 {
     struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
-    if ((tag & 0xffffu) >= d->mesh->vertex_count)
-        return NULL;
+    if ((tag & 0xffffu) >= d->mesh->vertex_count) {
+        spare->outcode = OUT_UNKNOWN;
+        return spare;
+    }
     /* A slot that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
     v->tag = tag;
     fill_cached(v, a, d, tag & 0xffffu);
     return v;
-}
-
-/* The transformed vertex: remembered, or made now. Null when the mesh has no such vertex. */
-static inline struct smear_cached_vertex *look_up(const struct smear_assembler *a,
-                                                  const struct smear_assembly *d, uint32_t tag,
-                                                  const struct smear_cached_vertex *in_use1,
-                                                  const struct smear_cached_vertex *in_use2,
-                                                  struct smear_cached_vertex *spare)
-{
-    struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
-    return v->tag == tag ? v : miss(a, d, tag, in_use1, in_use2, spare);
 }
 
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
@@ -576,40 +575,45 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
     uint32_t tag = ++a->serial << 16;
-    const uint16_t *index = mesh->index;
     struct smear_cached_vertex spare[3];
+    struct smear_cached_vertex *const cache = a->cache;
+    const uint32_t mask = a->cache_mask;
     const bool double_sided = d->material->double_sided;
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
     const int second = d->mirrored ? 1 : 2, third = 3 - second;
+    const uint16_t *index = mesh->index;
 
     for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
-        struct smear_cached_vertex *v[3];
-        v[0] = look_up(a, d, tag | index[0], NULL, NULL, &spare[0]);
-        v[1] = look_up(a, d, tag | index[second], v[0], NULL, &spare[1]);
-        v[2] = look_up(a, d, tag | index[third], v[0], v[1], &spare[2]);
-        if (v[0] == NULL || v[1] == NULL || v[2] == NULL) {
-            a->triangles_dropped++;
-            continue;
-        }
-        int any = v[0]->outcode | v[1]->outcode | v[2]->outcode;
-        if (any != 0 && (v[0]->outcode & v[1]->outcode & v[2]->outcode & OUT_REJECT) != 0)
-            continue;
+        uint32_t tag0 = tag | index[0], tag1 = tag | index[second], tag2 = tag | index[third];
+        struct smear_cached_vertex *v0 = cache + (tag0 & mask), *v1 = cache + (tag1 & mask);
+        struct smear_cached_vertex *v2 = cache + (tag2 & mask);
+        if (v0->tag != tag0)
+            v0 = miss(a, d, tag0, NULL, NULL, &spare[0]);
+        if (v1->tag != tag1)
+            v1 = miss(a, d, tag1, v0, NULL, &spare[1]);
+        if (v2->tag != tag2)
+            v2 = miss(a, d, tag2, v0, v1, &spare[2]);
+        int any = v0->outcode | v1->outcode | v2->outcode;
         bool added;
+        if (any != 0) {
+            if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
+                continue;
+            if ((any & OUT_UNKNOWN) != 0) {
+                a->triangles_dropped++;
+                continue;
+            }
+        }
         if ((any & OUT_CLIP) != 0) {
-            const struct smear_cached_vertex *corner[3] = { v[0], v[second], v[third] };
+            const struct smear_cached_vertex *corner[3] = { v0, d->mirrored ? v1 : v2, d->mirrored ? v2 : v1 };
             added = add_clipped(a, d, &b.segment, i, corner);
         } else {
-            int64_t area = area_of(&v[0]->screen, &v[1]->screen, &v[2]->screen);
-            bool back = area < 0;
-            if (area <= 0) {
-                if (area == 0 || !double_sided)
-                    continue;
-                struct smear_cached_vertex *swap = v[1];
-                v[1] = v[2];
-                v[2] = swap;
-                area = -area;
-            }
-            added = add_whole(&b, v, i, back, area, any != 0 || b.cut);
+            int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
+            if (area > 0)
+                added = add_whole(&b, v0, v1, v2, i, false, any != 0 || b.cut);
+            else if (area == 0 || !double_sided)
+                continue;
+            else
+                added = add_whole(&b, v0, v2, v1, i, true, any != 0 || b.cut);
         }
         if (!added) {
             if (!drop)

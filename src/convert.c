@@ -62,33 +62,69 @@ static inline uint32_t rgb565_nearest(uint32_t p)
 }
 
 static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, uint32_t out[3],
-                           const uint32_t levels[3])
+                       const uint32_t levels[3])
 {
     const uint32_t code[3] = { pixel_red(p), pixel_green(p), pixel_blue(p) };
     uint32_t t = dither != SMEAR_DITHER_NONE ? threshold_at(x, y, dither) : 0;
     for (int i = 0; i < 3; i++)
         out[i] = dither == SMEAR_DITHER_NONE ? level_nearest(code[i], levels[i])
                                              : level_dithered(code[i], levels[i], t);
-
 }
 
-static void row_rgb565(uint8_t *row, const uint32_t *in, int32_t n, bool swapped)
+static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
+{
+    uint32_t packed = rgb565_nearest(p);
+    return swapped ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
+}
+
+/* Two pixels of 16 bits as they lie in memory. */
+static inline uint32_t pair_of(uint32_t first, uint32_t second)
 {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    swapped = !swapped;
+    return first << 16 | second;
+#else
+    return first | second << 16;
 #endif
-    uint16_t *out = (uint16_t *)(void *)row;        /* rows of 16-bit pixels are aligned */
-    uint32_t last = ~*in, packed = 0;
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t p = in[i];
-        if (p != last) {            /* flat areas are long: convert only what changes */
-            packed = rgb565_nearest(p);
-            if (swapped)
-                packed = packed >> 8 | packed << 8;
-            last = p;
-        }
-        out[i] = (uint16_t)packed;
+}
+
+static inline void store_pair(uint16_t *out, uint32_t pair)
+{
+    __builtin_memcpy(__builtin_assume_aligned(out, 4), &pair, 4);
+}
+
+/* Flat areas are long: pairs of pixels that stay as they were cost a comparison. Rows are aligned to a pixel. */
+SMEAR_INLINE void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+{
+    if (((uintptr_t)out & 2u) != 0 && n > 0) {
+        *out++ = (uint16_t)rgb565_bytes(*in++, swapped);
+        n--;
     }
+    if (n <= 0)
+        return;
+    uint32_t last = *in, packed = rgb565_bytes(last, swapped), pair = pair_of(packed, packed);
+    const uint32_t *end = in + n, *end_of_pairs = end - 1, *end_of_sixes = end - 5;
+    for (; in < end_of_pairs; in += 2, out += 2) {
+        uint32_t a = in[0], b = in[1], first = packed;
+        if (a != last) {
+            first = rgb565_bytes(a, swapped);
+            packed = b == a ? first : rgb565_bytes(b, swapped);
+        } else if (b != last) {
+            packed = rgb565_bytes(b, swapped);
+        } else {
+            store_pair(out, pair);
+            for (; in < end_of_sixes && in[2] == last && in[3] == last && in[4] == last && in[5] == last;
+                 in += 4, out += 4) {
+                store_pair(out + 2, pair);
+                store_pair(out + 4, pair);
+            }
+            continue;
+        }
+        last = b;
+        pair = pair_of(packed, packed);
+        store_pair(out, pair_of(first, packed));
+    }
+    if (in < end)
+        *out = (uint16_t)rgb565_bytes(*in, swapped);
 }
 
 static void row_16bit_dithered(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
@@ -131,7 +167,12 @@ void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     case SMEAR_RGB565:
     case SMEAR_RGB565_SWAPPED:
         if (dither == SMEAR_DITHER_NONE) {
-            row_rgb565(row + 2 * x, in, n, format == SMEAR_RGB565_SWAPPED);
+            const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+            uint16_t *out = (uint16_t *)(void *)row + x;
+            if ((format == SMEAR_RGB565_SWAPPED) != big)
+                row_rgb565(out, in, n, true);
+            else
+                row_rgb565(out, in, n, false);
             break;
         }
         row_16bit_dithered(row + 2 * x, in, n, x, y, format, dither);

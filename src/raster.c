@@ -10,6 +10,7 @@
 #include "pixel.h"
 #include "setup.h"
 #include "span.h"
+#include "tiny.h"
 
 /* ------------------------------------------------------------------ rows */
 
@@ -131,8 +132,8 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
 
 /* First pixel at or right of an edge, row by row: ceil((x - 1/2 px) / 1 px) of the exact fraction. */
 struct edge_walk {
-    int32_t x;              /* q8, floor of the edge's place at this row's centres */
-    int32_t rest;           /* and what is left of it, in 1/dy: 0 <= rest < dy */
+    int32_t x;              /* q8: the edge's place at this row's centres, rounded up; 127 more for edge_pixel */
+    int32_t rest;           /* what was added by rounding, in 1/dy: -dy < rest <= 0 */
     int32_t step, step_rest;
     int32_t dy;
 };
@@ -145,25 +146,29 @@ static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, 
     e->step = divide_floor(dx * 256, e->dy, &e->step_rest);     /* |dx| <= 2^20 */
     int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
     int32_t down = first * 256 + 128 - a[VERTEX_Y];             /* 0 .. 255 */
-    e->x = a[VERTEX_X] + divide_floor(dx * down, e->dy, &e->rest);
+    e->x = a[VERTEX_X] + 127 + divide_floor(dx * down, e->dy, &e->rest);
     uint32_t rows = (uint32_t)(y - first);
     if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
         uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
         e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)e->dy);
         e->rest = (int32_t)(rest % (uint32_t)e->dy);
     }
+    if (e->rest > 0) {
+        e->rest -= e->dy;
+        e->x++;
+    }
 }
 
 static inline int32_t edge_pixel(const struct edge_walk *e)
 {
-    return (e->x + 127 + (e->rest > 0)) >> 8;
+    return e->x >> 8;
 }
 
 static inline void edge_step(struct edge_walk *e)
 {
     e->x += e->step;
     e->rest += e->step_rest;
-    if (e->rest >= e->dy) {
+    if (e->rest > 0) {
         e->rest -= e->dy;
         e->x++;
     }
@@ -228,99 +233,110 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
     }
 }
 
-/* One colour, no motion, one slope of depth: the plainest rows, without a call for each. */
+/* Depth test and write for one pixel of a run. */
+SMEAR_INLINE void put_flat(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t color)
+{
+    uint16_t code = (uint16_t)(z >> 16);
+    if (code > *depth) {
+        *depth = code;
+        *pixel = color;
+    }
+}
+
+/* n pixels of one colour, depth codes from z on in 16.16. */
+SMEAR_INLINE void run_flat(uint32_t *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color)
+{
+    if (n & 1) {
+        put_flat(pixel++, depth++, z, color);
+        z += dz;
+    }
+    if (n & 2) {
+        put_flat(pixel++, depth++, z, color);
+        z += dz;
+        put_flat(pixel++, depth++, z, color);
+        z += dz;
+    }
+    for (n >>= 2; n > 0; n--, pixel += 4, depth += 4) {
+        put_flat(pixel, depth, z, color);
+        z += dz;
+        put_flat(pixel + 1, depth + 1, z, color);
+        z += dz;
+        put_flat(pixel + 2, depth + 2, z, color);
+        z += dz;
+        put_flat(pixel + 3, depth + 3, z, color);
+        z += dz;
+    }
+}
+
+/* One colour, no motion, one slope of depth: the plainest rows, without a call for each. Colour and depth of opaque
+ * draws lie in the window's rows alike. */
 static void cover_flat(const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
-    struct row r;
     if (!sides_start(&d, s))
         return;
-    row_start(&r, s, d.y);
     const uint32_t color = s->color & 0xffffffu, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    const int32_t x0 = t->x0, x1 = t->x1;
-    int32_t y = d.y;
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    const int32_t x0 = t->x0, x1 = t->x1, stride = t->window_rows.stride;
+    uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
+    int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
+    if (slot >= t->window_rows.ring)
+        slot -= t->window_rows.ring;
+    int32_t knee = y;
     while (y < d.end) {
-        int32_t stop = sides_part(&d, y);
+        if (y == knee)
+            knee = sides_part(&d, y);
+        /* Rows up to the middle vertex, or to the end of the ring. */
+        int32_t n = min_i32(knee - y, t->window_rows.ring - slot), at = slot * stride - t->window_rows.x0;
         struct edge_walk left = d.whole_is_left ? d.whole : d.part;
         struct edge_walk right = d.whole_is_left ? d.part : d.whole;
-        for (; y < stop; y++) {
+        y += n;
+        slot += n;
+        if (slot == t->window_rows.ring)
+            slot = 0;
+        for (; n > 0; n--, at += stride, z += dz_down) {
             int32_t a = max_i32(edge_pixel(&left), x0), b = min_i32(edge_pixel(&right), x1);
-            if (a < b) {
-                uint32_t z = code_from_units(add_wrap(r.units, mul_wrap(s->depth.dx, a)), s->slope);
-                uint32_t *pixel = t->color + (r.color + a);
-                uint16_t *depth = t->depth + (r.window + a);
-                int32_t n = b - a, i = 0;
-                do {
-                    uint32_t code = z >> 16;
-                    if (code > depth[i]) {
-                        depth[i] = (uint16_t)code;
-                        pixel[i] = color;
-                    }
-                    z += dz;
-                } while (++i < n);
-            }
             edge_step(&left);
             edge_step(&right);
-            row_next(&r, s);
+            if (a < b)
+                run_flat(t->color + (at + a), t->depth + (at + a), b - a, z + dz * (uint32_t)a, dz, color);
         }
         d.whole = d.whole_is_left ? left : right;
+        d.part = d.whole_is_left ? right : left;
     }
 }
 
 /* ------------------------------------------------------------------ small triangles */
 
-/* Edge functions at the centre of a pixel, q16, and their steps; inside is >= 0. value[i] belongs to the edge opposite
- * to v[i]. Exact in 32 bits: boxes are at most SMALL_PX wide and high, no edge is longer than 9 px. */
+/* Boxes of at most this many pixels are walked with edge functions (tiny.h), which fit 32 bits there. */
 enum { SMALL_PX = 8 };
 
-struct edges {
-    int32_t value[3], step_x[3], step_y[3];
-};
-
-/* A centre on an edge counts for left edges (going up) and top edges (going right). */
-static inline int32_t edge_bias(int32_t dx, int32_t dy)
+static inline void edges_start(struct tiny_edges *e, const struct setup *s, int32_t area, int32_t x, int32_t y)
 {
-    return !(dy < 0 || (dy == 0 && dx > 0));
-}
-
-static inline void edges_start(struct edges *e, const struct setup *s, int32_t area, int32_t x, int32_t y)
-{
-    int32_t cx = x * 256 + 128 - s->v[0][VERTEX_X], cy = y * 256 + 128 - s->v[0][VERTEX_Y];
-    int32_t x1 = s->x1, y1 = s->y1, x2 = s->x2, y2 = s->y2;
-    e->value[2] = x1 * cy - y1 * cx;
-    e->value[1] = y2 * cx - x2 * cy;
-    e->value[0] = area - e->value[1] - e->value[2] - edge_bias(x2 - x1, y2 - y1);
-    e->value[1] -= edge_bias(-x2, -y2);
-    e->value[2] -= edge_bias(x1, y1);
-    e->step_x[2] = -y1 * 256;
-    e->step_y[2] = x1 * 256;
-    e->step_x[1] = y2 * 256;
-    e->step_y[1] = -x2 * 256;
-    e->step_x[0] = -e->step_x[1] - e->step_x[2];
-    e->step_y[0] = -e->step_y[1] - e->step_y[2];
+    tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, area, x, y);
 }
 
 static void cover_small(const struct setup *s, int32_t area, int32_t left, int32_t right, int32_t top,
                         int32_t bottom, smear_span_fn *write)
 {
-    struct edges e;
+    struct tiny_edges e;
     struct row r;
     edges_start(&e, s, area, left, top);
     row_start(&r, s, top);
     for (;;) {
-        int32_t e0 = e.value[0], e1 = e.value[1], e2 = e.value[2], x = left;
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;
         while (x < right && (e0 | e1 | e2) < 0) {
-            e0 += e.step_x[0];
-            e1 += e.step_x[1];
-            e2 += e.step_x[2];
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
             x++;
         }
         int32_t first = x;
         while (x < right && (e0 | e1 | e2) >= 0) {
-            e0 += e.step_x[0];
-            e1 += e.step_x[1];
-            e2 += e.step_x[2];
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
             x++;
         }
         if (x > first)
@@ -328,8 +344,9 @@ static void cover_small(const struct setup *s, int32_t area, int32_t left, int32
         if (r.y + 1 >= bottom)
             return;
         row_next(&r, s);
-        for (int i = 0; i < 3; i++)
-            e.value[i] += e.step_y[i];
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
     }
 }
 
@@ -337,86 +354,80 @@ static void cover_small(const struct setup *s, int32_t area, int32_t left, int32
 
 /* Boxes of a few pixels: attributes are weighed at each pixel by the edge functions themselves, which costs less than
  * their gradients. Untextured, opaque, no motion. */
-enum { TINY_PIXELS = 12 };
+enum { TINY_PIXELS = 32 };
 
 static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
 {
     return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
-        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE;
+        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
+        && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
+            || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 
-/* What the covered pixels of a tiny triangle need; made when the first is met. */
-struct tiny {
-    int32_t depth, depth1, depth2;          /* at v[0], and how v[1] and v[2] differ */
-    int32_t color[3], color1[3], color2[3]; /* r g b: q16; differences q8 */
-    bool gouraud;
+/* Red, green and blue of v[0], 16 bits, and how those of v[1] and v[2] differ. */
+struct tiny_channels {
+    int32_t value[3], to1[3], to2[3];
 };
 
-static void tiny_start(struct tiny *t, struct setup *s, int32_t area)
+static inline uint32_t channels_mix(const struct tiny_channels *c, uint32_t w1, uint32_t w2, bool linear)
 {
-    smear_setup_area(s, (uint64_t)area);
-    t->depth = s->v[0][VERTEX_DEPTH];
-    t->depth1 = s->v[1][VERTEX_DEPTH] - t->depth;
-    t->depth2 = s->v[2][VERTEX_DEPTH] - t->depth;
-    t->gouraud = s->segment->shade == SHADE_GOURAUD;
-    for (int c = 0; c < 3 && t->gouraud; c++) {
-        t->color[c] = channel_value(s, 0, c);
-        t->color1[c] = (channel_value(s, 1, c) - t->color[c]) >> 8;
-        t->color2[c] = (channel_value(s, 2, c) - t->color[c]) >> 8;
+    int32_t a = (int32_t)(w1 >> 2), b = (int32_t)(w2 >> 2);
+    return tiny_pixel(((uint32_t)c->value[0] << 14) + (uint32_t)(c->to1[0] * a + c->to2[0] * b),
+                      ((uint32_t)c->value[1] << 14) + (uint32_t)(c->to1[1] * a + c->to2[1] * b),
+                      ((uint32_t)c->value[2] << 14) + (uint32_t)(c->to1[2] * a + c->to2[2] * b), linear);
+}
+
+static void channels_start(struct tiny_channels *c, const struct setup *s)
+{
+    int at = s->segment->color;
+    for (int i = 0; i < 3; i++, at += i == 2) {
+        int shift = i == 1 ? 16 : 0;
+        int32_t value = (int32_t)((uint32_t)s->v[0][at] >> shift & 0xffffu);
+        c->value[i] = value;
+        c->to1[i] = (int32_t)((uint32_t)s->v[1][at] >> shift & 0xffffu) - value;
+        c->to2[i] = (int32_t)((uint32_t)s->v[2][at] >> shift & 0xffffu) - value;
     }
 }
 
-/* Colour at weights of v[1] and v[2] in q14. */
-static inline uint32_t tiny_color(const struct tiny *t, int32_t w1, int32_t w2, bool linear)
-{
-    uint32_t out = 0;
-    for (int c = 0; c < 3; c++) {       /* 17 bits x q14: 31 bits */
-        int32_t value = t->color[c] + ((t->color1[c] * w1 + t->color2[c] * w2) >> 6);
-        out = out << 8 | (linear ? smear_srgb_encode[value >> 12 & 4095] : (uint32_t)value >> 16 & 255u);
-    }
-    return out;
-}
-
-static void draw_tiny(struct setup *s, int32_t area, int32_t left, int32_t right, int32_t top,
+static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t right, int32_t top,
                       int32_t bottom)
 {
     const struct smear_raster_target *t = s->target;
-    int32_t x0 = max_i32(left, t->x0), x1 = min_i32(right, t->x1);
-    struct edges e;
-    struct tiny tiny;
+    const bool gouraud = s->segment->shade == SHADE_GOURAUD;
+    const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
+    const int32_t x0 = max_i32(left, t->x0), x1 = min_i32(right, t->x1);
+    const struct tiny_scale scale = tiny_scale_make(area);
+    struct tiny_channels channels;
+    struct tiny_edges e;
     edges_start(&e, s, area, x0, top);
-    bool ready = false;
-    for (int32_t y = top; y < bottom; y++) {
-        int32_t e0 = e.value[0], e1 = e.value[1], e2 = e.value[2];
-        for (int32_t x = x0; x < x1; x++, e0 += e.step_x[0], e1 += e.step_x[1], e2 += e.step_x[2]) {
-            if ((e0 | e1 | e2) < 0)
-                continue;
-            if (!ready) {
-                tiny_start(&tiny, s, area);
-                ready = true;
-            }
-            /* e 2^up 2^61 / (area 2^up) / 2^32: e / area in q29. */
-            int up = s->area_zeros - 32;
-            uint32_t w1 = mulh_u32((uint32_t)e1 << up, s->area_recip);
-            uint32_t w2 = mulh_u32((uint32_t)e2 << up, s->area_recip);
-            int32_t units = tiny.depth + (mulh_i32(tiny.depth1, (int32_t)w1)
-                                          + mulh_i32(tiny.depth2, (int32_t)w2)) * 8;
-            uint32_t code = code_from_units(units, units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR) >> 16;
-            int32_t slot = t->window_rows.slot0 + (y - t->y0);
-            if (slot >= t->window_rows.ring)
-                slot -= t->window_rows.ring;
-            int32_t at = slot * t->window_rows.stride + x;
-            if (code <= t->depth[at])
-                continue;
-            t->depth[at] = (uint16_t)code;
-            t->color[at] = tiny.gouraud ? tiny_color(&tiny, (int32_t)(w1 >> 15), (int32_t)(w2 >> 15),
-                                                     s->frame->linear)
-                                        : s->color & 0xffffffu;
-            if (s->writes_velocity)
-                smear_velocity_zero(t, at);
+    if (gouraud)
+        channels_start(&channels, s);
+    int32_t slot = t->window_rows.slot0 + (top - t->y0);
+    for (int32_t y = top; y < bottom; y++, slot++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = x0;
+        while ((e0 | e1 | e2) < 0 && ++x < x1) {
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
         }
-        for (int i = 0; i < 3; i++)
-            e.value[i] += e.step_y[i];
+        if (x == x1)
+            continue;
+        if (slot >= t->window_rows.ring)
+            slot -= t->window_rows.ring;
+        int32_t at = slot * t->window_rows.stride + x, end = at + (x1 - x);
+        do {
+            uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
+            uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
+            if (code > t->depth[at]) {
+                t->depth[at] = (uint16_t)code;
+                t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
+                if (s->writes_velocity)
+                    smear_velocity_zero(t, at);
+            }
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+        } while (++at < end && (e0 | e1 | e2) >= 0);
     }
 }
 

@@ -18,7 +18,7 @@ struct smear_plane_rows {
 struct smear_raster_target {
     int32_t x0, y0, x1, y1;
     uint32_t *color;                /* working pixels */
-    struct smear_plane_rows color_rows;
+    struct smear_plane_rows color_rows;     /* of another shape than window_rows for blended lists only */
     uint16_t *depth;                /* depth codes; shares window_rows with the velocity */
     struct smear_plane_rows window_rows;
     int8_t *velocity8;              /* x y in 1/8 px, half the displacement in the exposure; or null */

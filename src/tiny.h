@@ -76,10 +76,29 @@ static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w
                                : ((uint32_t)units + ((32768u - 2048u) << 15) + 0x4000u) >> 15;
 }
 
+/* The depths differ so little that colours may be mixed on the screen: off by at most 1/128 of their range. */
+static inline bool tiny_is_even(int32_t q0, int32_t q1, int32_t q2)
+{
+    int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
+    return high - low <= low >> 5;
+}
+
 /* A channel of the vertices (16 bits each) at weights q14; 2^14 is one. */
 static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w1, int32_t w2)
 {
-    return (c0 << 14) + (uint32_t)(((int32_t)c1 - (int32_t)c0) * w1 + ((int32_t)c2 - (int32_t)c0) * w2);
+    return (c0 << 14) + (uint32_t)(((int32_t)c1 - (int32_t)c0) * w1
+                                   + ((int32_t)c2 - (int32_t)c0) * w2);
+}
+
+/* Channels as tiny_mix gives them, to a pixel. Linear light is looked up by its floor, codes are rounded: they are
+ * the upper byte, so they are at most 0xff00 and stay below 2^30. */
+static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, bool linear)
+{
+    if (linear)
+        return pixel_make(0, smear_srgb_encode[red >> 18], smear_srgb_encode[green >> 18],
+                          smear_srgb_encode[blue >> 18]);
+    const uint32_t half = 1u << 21;
+    return pixel_make(0, (red + half) >> 22, (green + half) >> 22, (blue + half) >> 22);
 }
 
 /* Pixel from the colour words of three vertices (struct smear_segment) at weights w1 and w2. */
@@ -87,14 +106,9 @@ static inline uint32_t tiny_color(const uint32_t *c0, const uint32_t *c1, const 
                                   uint32_t w1, uint32_t w2, bool linear)
 {
     int32_t a = (int32_t)(w1 >> 2), b = (int32_t)(w2 >> 2);
-    uint32_t red = tiny_mix(c0[0] & 0xffffu, c1[0] & 0xffffu, c2[0] & 0xffffu, a, b);
-    uint32_t green = tiny_mix(c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, a, b);
-    uint32_t blue = tiny_mix(c0[1] & 0xffffu, c1[1] & 0xffffu, c2[1] & 0xffffu, a, b);
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[red >> 18], smear_srgb_encode[green >> 18],
-                          smear_srgb_encode[blue >> 18]);
-    const uint32_t half = 1u << 21;         /* codes are the upper byte: at most 0xff00, so this stays below 2^30 */
-    return pixel_make(0, (red + half) >> 22, (green + half) >> 22, (blue + half) >> 22);
+    return tiny_pixel(tiny_mix(c0[0] & 0xffffu, c1[0] & 0xffffu, c2[0] & 0xffffu, a, b),
+                      tiny_mix(c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, a, b),
+                      tiny_mix(c0[1] & 0xffffu, c1[1] & 0xffffu, c2[1] & 0xffffu, a, b), linear);
 }
 
 #endif

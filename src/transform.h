@@ -19,7 +19,8 @@
 enum {
     OUT_LEFT = 1, OUT_RIGHT = 2, OUT_TOP = 4, OUT_BOTTOM = 8,
     OUT_NEAR = 16, OUT_FAR = 32,
-    OUT_GUARD = 64          /* not a reason to reject: needs clipping */
+    OUT_GUARD = 64,         /* not a reason to reject: needs clipping */
+    OUT_UNKNOWN = 128       /* no such vertex */
 };
 #define OUT_REJECT (OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM | OUT_NEAR | OUT_FAR)
 #define OUT_CLIP (OUT_NEAR | OUT_FAR | OUT_GUARD)
@@ -31,8 +32,9 @@ struct smear_homogeneous {
 };
 
 struct smear_screen {
-    i32q8 x, y;             /* from the top left corner of the frame */
+    i32q8 x;                /* from the top left corner of the frame */
     i32q11 depth;           /* units: proportional to 1/w for perspective */
+    i32q8 y;
 };
 
 struct smear_viewport {
