@@ -28,6 +28,31 @@ enum depth_slope {          /* smear.h, smear_depth_units */
 
 #define SLOPE_BREAK (32768 << 11)       /* q11 units */
 
+/* How a triangle's texture coordinates follow from planes. */
+enum texture_mode {
+    TEXTURE_AFFINE,         /* they are planes */
+    TEXTURE_QUADRATIC,      /* 1/q is a parabola over the small range of q, see setup.c */
+    TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
+};
+
+/* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what repeats) or,
+ * where textures do not repeat by their bits, in texels q16. They are exact at the ends of blocks of pixels, and run
+ * along a chord or a parabola between. */
+enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel of a bent run, q16 of q itself */
+
+struct texture_setup {
+    enum texture_mode mode;
+    bool turns;
+    bool bent;              /* parabolas, in pieces of 4 pixels; else chords */
+    uint8_t block_shift;    /* log2 of pixels in a block, at most 4 */
+    int8_t shift;           /* what planes yield is turns in 2^(32 - shift). Texels, quadratic: to the right */
+    struct plane q;         /* quadratic: 3/2 - q over its middle, q32. Divided: q */
+    struct plane u, v;      /* affine: coordinates. Divided: mesh units over w */
+    uint32_t recip_base;    /* quadratic: q15 */
+    int32_t u_base, v_base; /* quadratic: coordinates in the middle */
+    int32_t slope;          /* how q changes per pixel; quadratic: over its middle, q17. Divided: times 2^7 */
+};
+
 struct setup {
     const struct smear_raster_frame *frame;
     const struct smear_raster_target *target;
@@ -39,18 +64,15 @@ struct setup {
     int32_t x1, y1, x2, y2;
     uint32_t area_recip;            /* 2^61 / normalised area */
     int area_zeros;                 /* area << zeros is normalised to 64 bits */
-    bool sliver;                    /* some gradient is out of range: attributes are constant */
-
     enum depth_slope slope;
     struct plane depth;             /* units q11 */
 
     uint32_t color;                 /* 0xAARRGGBB: flat */
     struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or linear >> 8) in q16, see channel_value */
+    uint8_t color_shift;            /* log2 of pixels in a block of perspective colours, 2 .. 4 */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
 
-    bool perspective;               /* texture: planes are u/w, v/w; else texels */
-    uint8_t block_shift;            /* log2 of pixels between divisions */
-    struct plane u, v_;
+    struct texture_setup texture;
 
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool writes_velocity;
@@ -111,7 +133,7 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
 
 /* The parts of a setup, in the order in which they are needed. */
 void smear_setup_area(struct setup *s, uint64_t area);
-void smear_plane_make(struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
+void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
 void smear_setup_depth(struct setup *s);
 void smear_setup_color(struct setup *s);
 void smear_setup_texture(struct setup *s);

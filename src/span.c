@@ -27,157 +27,237 @@ static void span_flat(const struct setup *s, const struct span *p)
     } while (++i < n);
 }
 
-/* The planes at a pixel, from which its texture coordinates follow. */
+/* ------------------------------------------------------------------ texture coordinates */
+
+/* Planes at a pixel, and the coordinates that follow from them. */
 struct texture_point {
     int32_t q, u, v;
+    int32_t at_u, at_v;     /* texels q16, or turns 2^(32 - shift) */
+    int32_t nearness;       /* quadratic: middle / (k q), q15. Divided: relative change of q per pixel, q16 */
 };
 
-SMEAR_INLINE struct texture_point point_at(const struct setup *s, int32_t x, int32_t y)
+SMEAR_INLINE void point_find(struct texture_point *p, const struct texture_setup *t, const struct smear_sampler *m,
+                             bool turns)
 {
-    return (struct texture_point){ plane_at(&s->depth, x, y), plane_at(&s->u, x, y),
-                                   plane_at(&s->v_, x, y) };
-}
-
-SMEAR_INLINE void point_step(struct texture_point *p, const struct setup *s, int32_t n)
-{
-    p->q = add_wrap(p->q, mul_wrap(s->depth.dx, n));
-    p->u = add_wrap(p->u, mul_wrap(s->u.dx, n));
-    p->v = add_wrap(p->v, mul_wrap(s->v_.dx, n));
-}
-
-static inline int32_t shift_either(int32_t a, int up)
-{
-    return up >= 0 ? shl_wrap(a, up) : a >> -up;
-}
-
-/* Texels, q16: the quotients u/w over 1/w. */
-SMEAR_INLINE void point_texel(const struct setup *s, const struct texture_point *p, int32_t out[2])
-{
-    const struct smear_sampler *t = &s->draw->sampler;
-    if (!s->perspective) {
-        out[0] = p->u;
-        out[1] = p->v;
-        return;
-    }
-    uint32_t q = (uint32_t)max_i32(p->q, 1);
-    int zeros = count_leading_zeros(q);
-    int32_t r = (int32_t)recip_norm(q << zeros);            /* 1/q = r 2^(zeros - 61) */
-    /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2) fits; its quotient is the ratio in q27. */
-    int32_t u = mulh_i32(shl_wrap(p->u, zeros - 2), r), v = mulh_i32(shl_wrap(p->v, zeros - 2), r);
-    if (t->masked) {
-        out[0] = shift_either(u, t->up_u);
-        out[1] = shift_either(v, t->up_v);
+    if (t->mode == TEXTURE_QUADRATIC) {
+        uint32_t w = (uint32_t)p->q >> 16, k = t->recip_base + (w * w >> 17);
+        int32_t u = (p->u >> 16) * (int32_t)k, v = (p->v >> 16) * (int32_t)k;
+        p->at_u = t->u_base + (turns ? u : u >> t->shift);
+        p->at_v = t->v_base + (turns ? v : v >> t->shift);
+        p->nearness = (int32_t)k;
+    } else if (t->mode == TEXTURE_AFFINE) {
+        p->at_u = p->u;
+        p->at_v = p->v;
+        p->nearness = 0;
     } else {
-        out[0] = sampler_texel_u(t, shl_wrap(u, 2));
-        out[1] = sampler_texel_v(t, shl_wrap(v, 2));
+        uint32_t q = (uint32_t)max_i32(p->q, 1 << 11);
+        int zeros = count_leading_zeros(q);
+        int32_t r = (int32_t)recip_norm(q << zeros);            /* 1/q = r 2^(zeros - 61) */
+        /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2) fits; its quotient is the ratio in q27. zeros is
+         * at least 1. */
+        int32_t u = mulh_i32(shl_wrap(p->u >> 1, zeros - 1), r);
+        int32_t v = mulh_i32(shl_wrap(p->v >> 1, zeros - 1), r);
+        p->at_u = turns ? u : sampler_texel_u(m, shl_wrap(u, 2));
+        p->at_v = turns ? v : sampler_texel_v(m, shl_wrap(v, 2));
+        p->nearness = t->bent ? clamp_i32(mulh_i32(t->slope, r) >> (20 - zeros), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX)
+                              : 0;
     }
 }
 
-/* Texture coordinates along a span, in blocks of at most 16 pixels. Blocks start at multiples of their size or at the
- * triangle's first pixel, never at a cut of the frame: cuts must not show. */
-struct walk {
-    int32_t x;              /* next pixel */
-    struct texture_point point;
-    int32_t here[2];        /* texels at pixel `x` */
-    int32_t next[2];        /* texels after the block */
-    int32_t step[2];
+SMEAR_INLINE void point_start(struct texture_point *p, const struct setup *s, int32_t x, int32_t y, bool turns)
+{
+    const struct texture_setup *t = &s->texture;
+    p->q = t->mode != TEXTURE_AFFINE ? plane_at(&t->q, x, y) : 0;
+    p->u = plane_at(&t->u, x, y);
+    p->v = plane_at(&t->v, x, y);
+    point_find(p, t, &s->draw->sampler, turns);
+}
+
+SMEAR_INLINE void point_step(struct texture_point *p, const struct setup *s, int32_t n, bool turns)
+{
+    const struct texture_setup *t = &s->texture;
+    if (t->mode != TEXTURE_AFFINE)
+        p->q = add_wrap(p->q, mul_wrap(t->q.dx, n));
+    p->u = add_wrap(p->u, mul_wrap(t->u.dx, n));
+    p->v = add_wrap(p->v, mul_wrap(t->v.dx, n));
+    point_find(p, t, &s->draw->sampler, turns);
+}
+
+/* Coordinates between the ends of a block of n <= 16 pixels. Along a row u'' = -2 u' q'/q: with the chord's step d and
+ * b = d q'/q, the parabola from the chord's start to its end has steps d + b (n - 4), 8 b less every 4 pixels. */
+SMEAR_INLINE void run_between(struct smear_texture_run *r, const struct texture_setup *t,
+                              const struct texture_point *a, const struct texture_point *b, int32_t n, bool turns)
+{
+    int32_t du = sub_wrap(b->at_u, a->at_u), dv = sub_wrap(b->at_v, a->at_v);
+    int up = turns ? t->shift : 0;
+    if (n == BLOCK_MAX) {
+        du >>= 4;
+        dv >>= 4;
+    } else {
+        du = mulh_i32(du, inverse[n]) * 4;
+        dv = mulh_i32(dv, inverse[n]) * 4;
+    }
+    r->u = (uint32_t)a->at_u << up;
+    r->v = (uint32_t)a->at_v << up;
+    r->bend_u = r->bend_v = 0;
+    if (t->bent) {
+        int32_t rate = t->mode == TEXTURE_QUADRATIC ? (t->slope * (a->nearness + b->nearness)) >> 17
+                                                    : (a->nearness + b->nearness) >> 1;     /* q'/q, q16 */
+        int32_t bu = (du >> 13) * rate, bv = (dv >> 13) * rate;     /* 8 b */
+        du += (bu >> 3) * (n - 4);
+        dv += (bv >> 3) * (n - 4);
+        r->bend_u = 0u - ((uint32_t)bu << up);
+        r->bend_v = 0u - ((uint32_t)bv << up);
+    }
+    r->du = (uint32_t)du << up;
+    r->dv = (uint32_t)dv << up;
+}
+
+/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the pixel at
+ * its end as well. */
+struct texture_walk {
+    struct texture_point here, next;
+    int32_t x, last;        /* the block's first pixel; the span's last */
 };
 
-SMEAR_INLINE void walk_start(struct walk *w, const struct setup *s, const struct span *p)
+SMEAR_INLINE void walk_begin(struct texture_walk *w, const struct setup *s, const struct span *p, int block_shift)
 {
-    w->x = s->perspective ? max_i32(p->left, p->a & -(1 << s->block_shift)) : p->a;
-    w->point = point_at(s, w->x, p->y);
-    point_texel(s, &w->point, w->here);
+    w->last = min_i32(p->right, s->frame->width) - 1;
+    w->x = max_i32(p->left, 0);
+    w->x += max_i32(min_i32(p->a, w->last - 1) - w->x, 0) & -(1 << block_shift);
 }
 
-/* Fits the block that begins at `x`; returns how many of its pixels, from p->a on, are to be drawn. */
-SMEAR_INLINE int32_t walk_block(struct walk *w, const struct setup *s, const struct span *p)
+/* Fits a block; returns how many pixels it has. */
+SMEAR_INLINE int32_t walk_block(struct texture_walk *w, struct smear_texture_run *r, const struct setup *s, bool turns)
 {
-    int32_t size = 1 << s->block_shift, n;
-    if (!s->perspective) {
-        w->step[0] = s->u.dx;
-        w->step[1] = s->v_.dx;
-        n = min_i32((w->x & -size) + size, p->b) - w->x;
-        w->next[0] = add_wrap(w->here[0], mul_wrap(w->step[0], n));
-        w->next[1] = add_wrap(w->here[1], mul_wrap(w->step[1], n));
-        w->x += n;
-        return n;
-    }
-    int32_t start = w->x, end = min_i32((start & -size) + size, p->right - 1);
-    n = end - start;
-    if (n <= 0) {           /* the triangle's last pixel */
-        w->step[0] = w->step[1] = 0;
-        w->next[0] = w->here[0];
-        w->next[1] = w->here[1];
-        w->x = start + 1;
+    int32_t n = min_i32(1 << s->texture.block_shift, w->last - w->x);
+    w->here = w->next;
+    if (n == 0) {
+        int up = turns ? s->texture.shift : 0;
+        *r = (struct smear_texture_run){ .u = (uint32_t)w->here.at_u << up, .v = (uint32_t)w->here.at_v << up };
         return 1;
     }
-    point_step(&w->point, s, n);
-    point_texel(s, &w->point, w->next);
-    int32_t du = sub_wrap(w->next[0], w->here[0]), dv = sub_wrap(w->next[1], w->here[1]);
-    if (n == size) {
-        w->step[0] = du >> s->block_shift;
-        w->step[1] = dv >> s->block_shift;
-    } else {
-        w->step[0] = mulh_i32(du, inverse[n]) * 4;
-        w->step[1] = mulh_i32(dv, inverse[n]) * 4;
-    }
-    if (start < p->a) {     /* the block began left of a cut */
-        int32_t cut = p->a - start;
-        w->here[0] = add_wrap(w->here[0], mul_wrap(w->step[0], cut));
-        w->here[1] = add_wrap(w->here[1], mul_wrap(w->step[1], cut));
-        start = p->a;
-    }
-    w->x = end;
-    return min_i32(end, p->b) - start;
+    point_step(&w->next, s, n, turns);
+    run_between(r, &s->texture, &w->here, &w->next, n, turns);
+    return n + (w->x + n == w->last);
 }
 
-/* Unlit opaque texels, nearest, repeated, 32-bit, sizes powers of two up to 256: the plain case, in one loop. Both
- * coordinates share a word, v above u, 8.8 each: one addition steps both, and what u carries into v is 1/256 texel. */
-static void span_texel(const struct setup *s, const struct span *p)
+/* ------------------------------------------------------------------ plain texels */
+
+/* Both coordinates in turns share a word, u above v: one addition steps both (two where words have 32 bits), and what v
+ * carries into u is 2^-32 of a turn. */
+static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)u << 32 | v; }
+
+/* Steps: v has a sign of its own, which it borrows from u. */
+static inline uint64_t packed_step(uint32_t du, uint32_t dv)
 {
-    const struct smear_sampler *t = &s->draw->sampler;
-    const uint32_t *texels = t->texels;
-    uint32_t mask_u = t->mask_u, mask_v = t->mask_v;
-    int down = 24 - t->log2_width;
-    uint32_t *color = p->color;
-    uint16_t *depth = p->depth;
-    uint32_t z = p->z, dz = (uint32_t)p->dz;
-    struct walk w;
-    walk_start(&w, s, p);
-    while (w.x < p->b) {
-        int32_t n = walk_block(&w, s, p);
-        uint32_t uv = (uint32_t)(w.here[1] >> 8) << 16 | ((uint32_t)w.here[0] >> 8 & 0xffffu);
-        uint32_t step = ((uint32_t)((w.step[1] + 128) >> 8) << 16) + (uint32_t)((w.step[0] + 128) >> 8);
-        for (int32_t i = 0; i < n; i++) {
-            uint32_t code = z >> 16;
-            if (code > depth[i]) {
-                depth[i] = (uint16_t)code;
-                color[i] = texels[(uv >> down & mask_v) | (uv >> 8 & mask_u)];
-            }
-            z += dz;
-            uv += step;
-        }
-        if (n > 0) {
-            color += n;
-            depth += n;
-        }
-        w.here[0] = w.next[0];
-        w.here[1] = w.next[1];
+    return ((uint64_t)du << 32) + (uint64_t)(int64_t)(int32_t)dv;
+}
+
+SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
+{
+    const uint32_t mask_v = ((1u << log2_height) - 1u) << log2_width;
+    return ((uint32_t)uv >> (32 - log2_width - log2_height) & mask_v) | (uint32_t)(uv >> 32) >> (32 - log2_width);
+}
+
+SMEAR_INLINE void texel_pixel(uint32_t *color, uint16_t *depth, uint32_t z, const uint32_t *texels, uint64_t uv,
+                              int log2_width, int log2_height)
+{
+    uint32_t code = z >> 16;
+    if (code > *depth) {
+        *depth = (uint16_t)code;
+        *color = texels[packed_index(uv, log2_width, log2_height)];
     }
 }
+
+/* Nearest texels, opaque, unlit, 32-bit, sizes powers of two, repeated: the plain case. */
+SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int log2_width, int log2_height)
+{
+    const uint32_t *texels = s->draw->sampler.texels;
+    const uint32_t dz = (uint32_t)p->dz;
+    uint32_t *color = p->color;
+    uint16_t *depth = p->depth;
+    uint32_t z = p->z;
+    struct texture_walk w;
+    int32_t a = p->a;
+    walk_begin(&w, s, p, s->texture.block_shift);
+    point_start(&w.next, s, w.x, p->y, true);
+    do {
+        struct smear_texture_run r;
+        int32_t count = walk_block(&w, &r, s, true), skip = a - w.x, n = min_i32(w.x + count, p->b) - a, rest = 0;
+        uint64_t uv = packed_uv(r.u, r.v), step = packed_step(r.du, r.dv), bend = packed_step(r.bend_u, r.bend_v);
+        w.x += count;
+        a += n;
+        if (skip > 0) {             /* a cut of the frame within the block: to the end of a piece, then on */
+            for (; skip >= 4; skip -= 4) {
+                uv += 4 * step;
+                step += bend;
+            }
+            uv += step * (uint32_t)skip;
+            rest = max_i32(n - (4 - skip), 0);
+            n -= rest;
+        }
+        for (;;) {
+            for (; n >= 4; n -= 4) {
+                texel_pixel(color, depth, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                texel_pixel(color + 1, depth + 1, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                texel_pixel(color + 2, depth + 2, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                texel_pixel(color + 3, depth + 3, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                step += bend;
+                depth += 4;
+                color += 4;
+            }
+            for (; n > 0; n--) {
+                texel_pixel(color++, depth++, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+            }
+            if (rest == 0)
+                break;
+            step += bend;
+            n = rest;
+            rest = 0;
+        }
+    } while (a < p->b);
+}
+
+static void span_texel_64(const struct setup *s, const struct span *p) { span_texel(s, p, 6, 6); }
+static void span_texel_128(const struct setup *s, const struct span *p) { span_texel(s, p, 7, 7); }
+static void span_texel_256(const struct setup *s, const struct span *p) { span_texel(s, p, 8, 8); }
+
+static void span_texel_any(const struct setup *s, const struct span *p)
+{
+    span_texel(s, p, s->draw->sampler.log2_width, s->draw->sampler.log2_height);
+}
+
+/* ------------------------------------------------------------------ everything else */
 
 /* Value of a channel whose plane is value / w, q16. */
 static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
 {
-    return clamp_i32(mulh_i32(shl_wrap(over_w, zeros - 2), r) >> 3, 0, 0xffffff);
+    return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
 }
 
-/* Channels r g b a (q16) at pixel x and their steps, good up to the next multiple of 16. Opaque draws have alpha one. */
-static void channels_at(const struct setup *s, const struct span *p, int32_t x, uint32_t c[4],
+/* A block of a span: where it begins and ends in the triangle's row, and where drawing begins. Values are exact at its
+ * ends, which no cut of the frame moves. */
+struct block {
+    int32_t start, end, x;
+};
+
+/* Channels r g b a (q16) at pixel x of a block, and their steps. Opaque draws have alpha one. */
+static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
                         uint32_t d[4])
 {
     int count = s->draw->alpha == SMEAR_OPAQUE ? 3 : 4;
+    int32_t x = k->x, x0 = k->start, x1 = k->end;
     c[3] = 255u << 16;
     d[3] = 0;
     if (!s->perspective_color) {
@@ -187,8 +267,6 @@ static void channels_at(const struct setup *s, const struct span *p, int32_t x, 
         }
         return;
     }
-    /* Exact at the ends of the block of 16 pixels (or the triangle's), which no cut of the frame moves. */
-    int32_t x0 = max_i32(x & -BLOCK_MAX, p->left), x1 = min_i32((x & -BLOCK_MAX) + BLOCK_MAX, p->right - 1);
     uint32_t q0 = (uint32_t)max_i32(plane_at(&s->depth, x0, p->y), 1);
     uint32_t q1 = (uint32_t)max_i32(plane_at(&s->depth, x1, p->y), 1);
     int zeros0 = count_leading_zeros(q0), zeros1 = count_leading_zeros(q1);
@@ -202,8 +280,9 @@ static void channels_at(const struct setup *s, const struct span *p, int32_t x, 
     }
 }
 
-/* Multiplies n texels by the light of the triangle: flat, or interpolated from pixel x on. */
-static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, int32_t x, int32_t n)
+/* Multiplies n texels by the light of the triangle: flat, or interpolated. */
+static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
+                     int32_t n)
 {
     bool linear = s->frame->linear;
     if (s->segment->shade == SHADE_FLAT) {
@@ -226,7 +305,7 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
         return;
     }
     uint32_t c[4], d[4];
-    channels_at(s, p, x, c, d);
+    channels_at(s, p, k, c, d);
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;
@@ -245,10 +324,11 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
 }
 
 /* Interpolated colours without a texture. */
-static void shade_plain(uint32_t *out, const struct setup *s, const struct span *p, int32_t x, int32_t n)
+static void shade_plain(uint32_t *out, const struct setup *s, const struct span *p, const struct block *k,
+                     int32_t n)
 {
     uint32_t c[4], d[4];
-    channels_at(s, p, x, c, d);
+    channels_at(s, p, k, c, d);
     uint32_t r = c[0], g = c[1], b = c[2], a = c[3], dr = d[0], dg = d[1], db = d[2], da = d[3];
     if (s->frame->linear) {
         for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
@@ -290,47 +370,49 @@ static void write_block(const uint32_t *in, uint32_t *color, uint16_t *depth, ui
     }
 }
 
-/* Everything else, in blocks: texels, then light, then the write. */
+/* In blocks: texels, then light, then the write. */
 static void span_general(const struct setup *s, const struct span *p)
 {
-    uint32_t block[BLOCK_MAX];
+    uint32_t block[BLOCK_MAX + 1];
     uint32_t *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
     bool textured = s->segment->uv != 0;
-    struct walk w = { .x = p->a };
-    int32_t x = p->a;
+    struct texture_walk w = { .x = 0 };
+    struct block k;
+    k.x = p->a;
+    const int shift = textured ? s->texture.block_shift : s->color_shift;
+    walk_begin(&w, s, p, shift);
     if (textured)
-        walk_start(&w, s, p);
-    while (x < p->b) {
-        int32_t n;
+        point_start(&w.next, s, w.x, p->y, s->texture.turns);
+    do {
+        int32_t count, n;
+        struct smear_texture_run r;
+        if (textured)
+            count = walk_block(&w, &r, s, s->texture.turns);
+        else
+            count = min_i32(1 << shift, w.last - w.x) + (w.last - w.x <= 1 << shift);
+        n = min_i32(w.x + count, p->b) - k.x;
+        k.start = w.x;
+        w.x += count;
+        k.end = min_i32(w.x, w.last);
         if (textured) {
-            n = walk_block(&w, s, p);
-            if (n > 0) {
-                smear_sample(block, &s->draw->sampler, w.here[0], w.here[1], w.step[0], w.step[1], n);
-                if (s->segment->shade != SHADE_NONE)
-                    modulate(block, s, p, x, n);
-            }
-            w.here[0] = w.next[0];
-            w.here[1] = w.next[1];
-            if (n <= 0)
-                continue;
+            smear_sample(block, &s->draw->sampler, &r, k.x - k.start, n);
+            if (s->segment->shade != SHADE_NONE)
+                modulate(block, s, p, &k, n);
+        } else if (s->segment->shade == SHADE_GOURAUD) {
+            shade_plain(block, s, p, &k, n);
         } else {
-            n = min_i32((x & -BLOCK_MAX) + BLOCK_MAX, p->b) - x;
-            if (s->segment->shade == SHADE_GOURAUD)
-                shade_plain(block, s, p, x, n);
-            else
-                for (int32_t i = 0; i < n; i++)
-                    block[i] = s->color;
+            for (int32_t i = 0; i < n; i++)
+                block[i] = s->color;
         }
-        write_block(block, color, depth, z, p->dz, n, s, p->mask, x - p->a);
-        x += n;
+        write_block(block, color, depth, z, p->dz, n, s, p->mask, k.x - p->a);
+        k.x += n;
         color += n;
         depth += n;
         z += (uint32_t)p->dz * (uint32_t)n;
-    }
+    } while (k.x < p->b);
 }
-
 
 smear_span_fn *smear_span_choose(const struct setup *s)
 {
@@ -340,8 +422,10 @@ smear_span_fn *smear_span_choose(const struct setup *s)
     if (g->uv == 0)
         return g->shade == SHADE_GOURAUD ? span_general : span_flat;
     const struct smear_sampler *t = &s->draw->sampler;
-    bool plain = g->shade == SHADE_NONE && t->masked && t->width <= 256 && t->height <= 256
-              && !t->bilinear && t->format == SMEAR_TEXEL_8888 && t->wrap_u == SMEAR_REPEAT
-              && t->wrap_v == SMEAR_REPEAT;
-    return plain ? span_texel : span_general;
+    if (g->shade != SHADE_NONE || !t->turns || t->format != SMEAR_TEXEL_8888 || t->width == 1 || t->height == 1)
+        return span_general;
+    if (t->width != t->height)
+        return span_texel_any;
+    return t->width == 64 ? span_texel_64 : t->width == 128 ? span_texel_128
+         : t->width == 256 ? span_texel_256 : span_texel_any;
 }

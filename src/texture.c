@@ -30,14 +30,13 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
     s->wrap_v = texture->wrap_v;
     s->bilinear = bilinear;
     s->linear = linear;
+    s->uv_shift = (uint8_t)uv_shift;
     int log2_width = log2_exact(texture->width), log2_height = log2_exact(texture->height);
-    s->masked = log2_width >= 0 && log2_height >= 0;
-    if (s->masked) {
+    s->turns = log2_width >= 0 && log2_height >= 0 && s->wrap_u == SMEAR_REPEAT && s->wrap_v == SMEAR_REPEAT
+            && !bilinear;
+    if (s->turns) {
         s->log2_width = (uint8_t)log2_width;
-        s->mask_u = texture->width - 1u;
-        s->mask_v = (texture->height - 1u) << log2_width;
-        s->up_u = (int8_t)(log2_width + 4 - uv_shift);
-        s->up_v = (int8_t)(log2_height + 4 - uv_shift);
+        s->log2_height = (uint8_t)log2_height;
     }
     s->scale_u = scale_for(texture->width, uv_shift, &s->shift_u);
     s->scale_v = scale_for(texture->height, uv_shift, &s->shift_v);
@@ -97,18 +96,45 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
     return mix_texels(top, bottom, fv, s->linear);
 }
 
-void smear_sample(uint32_t *out, const struct smear_sampler *s, int32_t u, int32_t v, int32_t du,
-                  int32_t dv, int n)
+/* Texels along a chord, which is stepped on. */
+static void sample_chord(uint32_t *out, const struct smear_sampler *s, struct smear_texture_run *r, int n)
 {
-    if (s->bilinear) {
-        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
-            *out++ = sample_bilinear(s, u, v);
-    } else if (s->masked && s->wrap_u == SMEAR_REPEAT && s->wrap_v == SMEAR_REPEAT) {
-        int down = 16 - s->log2_width;
-        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
-            *out++ = fetch(s, ((uint32_t)v >> down & s->mask_v) | ((uint32_t)u >> 16 & s->mask_u));
+    uint32_t u = r->u, v = r->v, du = r->du, dv = r->dv;
+    if (s->turns) {
+        for (; n > 0; n--, u += du, v += dv)
+            *out++ = fetch(s, sampler_index(s, u, v));
+    } else if (s->bilinear) {
+        for (; n > 0; n--, u += du, v += dv)
+            *out++ = sample_bilinear(s, (int32_t)u, (int32_t)v);
     } else {
-        for (; n > 0; n--, u = add_wrap(u, du), v = add_wrap(v, dv))
-            *out++ = texel(s, u >> 16, v >> 16);
+        for (; n > 0; n--, u += du, v += dv)
+            *out++ = texel(s, (int32_t)u >> 16, (int32_t)v >> 16);
+    }
+    r->u = u;
+    r->v = v;
+}
+
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
+                  int n)
+{
+    struct smear_texture_run r = *run;
+    if ((r.bend_u | r.bend_v) == 0) {
+        r.u += r.du * (uint32_t)first;
+        r.v += r.dv * (uint32_t)first;
+        sample_chord(out, s, &r, n);
+        return;
+    }
+    for (; n > 0; first -= 4) {
+        int skip = min_i32(first, 4);
+        if (skip > 0) {
+            r.u += r.du * (uint32_t)skip;
+            r.v += r.dv * (uint32_t)skip;
+        }
+        int count = min_i32(4 - max_i32(skip, 0), n);
+        sample_chord(out, s, &r, count);
+        out += count;
+        n -= count;
+        r.du += r.bend_u;
+        r.dv += r.bend_v;
     }
 }

@@ -14,12 +14,11 @@ struct smear_sampler {
     int32_t width, height;
     uint8_t format, wrap_u, wrap_v;
     bool bilinear, linear;
-    bool masked;                /* both sizes powers of two */
-    uint8_t log2_width;         /* when masked */
-    uint32_t mask_u, mask_v;    /* when masked; mask_v is shifted up by log2_width */
+    uint8_t uv_shift;           /* mesh units: 2^uv_shift are the texture */
+    bool turns;                 /* nearest texels of both sizes powers of two, repeated: a coordinate's upper bits say */
+    uint8_t log2_width, log2_height;    /* with turns */
     int32_t scale_u, scale_v;   /* ratio (q29, of 2^15 mesh units) to texels (i32q16): mulh, then shift */
     int8_t shift_u, shift_v;
-    int8_t up_u, up_v;          /* when masked: texels = ratio q27 x 2^up */
 };
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
@@ -38,8 +37,21 @@ static inline int32_t sampler_texel_v(const struct smear_sampler *s, int32_t rat
     return s->shift_v >= 0 ? shl_wrap(t, s->shift_v) : t >> -s->shift_v;
 }
 
-/* Texels of n pixels from (u, v) in i32q16 texels, stepping by (du, dv), as 0xAARRGGBB. Any format, size, wrap. */
-void smear_sample(uint32_t *out, const struct smear_sampler *s, int32_t u, int32_t v, int32_t du,
-                  int32_t dv, int n);
+/* Coordinates of a block of pixels, in turns or in texels q16: pieces of 4 pixels whose steps change by the bend. */
+struct smear_texture_run {
+    uint32_t u, v, du, dv;
+    uint32_t bend_u, bend_v;
+};
+
+/* With turns: the texel at (u, v). */
+static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, uint32_t v)
+{
+    /* Shifts by 32 would not do: sizes of one. */
+    return (v >> 1 >> (31 - s->log2_height)) << s->log2_width | u >> 1 >> (31 - s->log2_width);
+}
+
+/* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
+                  int n);
 
 #endif
