@@ -30,7 +30,8 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
                                 const struct smear_row_table *rows, int32_t row, int32_t column,
                                 const struct smear_blur_settings *settings);
 
-/* Plain mean along each pixel's own velocity, for tiles in whose reach all motion is alike. */
+/* Plain mean along each pixel's own velocity, for tiles in whose reach all motion is alike or changes without
+ * a step. */
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings);

@@ -2,16 +2,16 @@
 /* blur_reconstruct.c - the reconstruction filter, for tiles with different motions in reach.
  *
  * [McGuire12] "A Reconstruction Filter for Plausible Motion Blur", I3D 2012; [Guertin14] "A Fast and Stable
- * Feature-Aware Motion Blur Filter", HPG 2014; [Jimenez14] for the noise. The variant is that of Unity's Post
- * Processing Stack v2: taps outermost first, alternating between the neighbourhood's direction and the pixel's own; a
- * tap in front weighs by its own speed, any other by the greatest speed met so far.
+ * Feature-Aware Motion Blur Filter", HPG 2014; [Jimenez14] for the noise. The variant is that of Unity's
+ * Post Processing Stack v2: taps outermost first, alternating between the neighbourhood's direction and the
+ * pixel's own; a tap in front weighs by its own speed, any other by the greatest speed met so far.
  *
- * Ours differs: velocity has an exact zero (so a speed is at least 1/16 px where it divides); all is integer, weights
- * in 1/4096, positions in 1/65536 px; whether a tap is in front is decided on depth codes, and its velocity is
- * only read if it is.
+ * Ours differs: velocity has an exact zero (so a speed is at least 1/16 px where it divides); all is integer,
+ * weights in 1/4096, directions in 1/256 px; whether a tap is in front is decided on depth codes, and its
+ * velocity is only read if it is.
  *
- * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction, from the
- * pixel's velocity, from its depth and from the velocity of the last tap in front. */
+ * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction, from
+ * the pixel's velocity, from its depth and from the velocity of the last tap in front. */
 #include "blur.h"
 
 #include "fixmath.h"
@@ -24,8 +24,8 @@ struct vector {
 
 /* ------------------------------------------------------------------ noise */
 
-/* Interleaved gradient noise [Jimenez14]: frac(52.9829189 frac(0.06711056 x + 0.00583715 y)). The inner factors in q32;
- * adding them steps from pixel to pixel. */
+/* Interleaved gradient noise [Jimenez14]: frac(52.9829189 frac(0.06711056 x + 0.00583715 y)). The inner
+ * factors in q32; adding them steps from pixel to pixel. */
 static const uint32_t noise_x = 288237660u, noise_y = 25070368u;
 
 /* The outer factor is 53 - 0.0170811, 35822 in q21. Result q16. */
@@ -36,8 +36,7 @@ static inline uint32_t noise_of(uint32_t inner)
 
 /* ------------------------------------------------------------------ lengths */
 
-/* |v| for components below 2^14, relative error below 2^-14 from 2^8 on: the root of the table, good to 2^-8, and a Newton
- * step. */
+/* |v| for lengths below 2^15, to nearest from 2^6 on: the table's root, good to 2^-8, and a Newton step. */
 static int32_t length_of(int32_t x, int32_t y)
 {
     uint32_t square = (uint32_t)(x * x + y * y);
@@ -55,14 +54,15 @@ static inline int32_t speed_of(struct smear_pixel_velocity v)
     return (int32_t)sqrt_q3((uint32_t)(v.x * v.x + v.y * v.y)) << 2;
 }
 
-/* 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4: plenty for a weight. */
+/* 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4: enough for a
+ * weight. */
 static inline uint32_t inverse_speed(int32_t speed)
 {
     int zeros = count_leading_zeros((uint32_t)speed);
     return (uint32_t)smear_recip_seed[(uint32_t)speed << zeros >> 22 & 511u] << (zeros - 14);
 }
 
-/* v scaled to `length` from its own, `speed`. The quotient is below 2^14; components below 2^14 / quotient. */
+/* v scaled to `length` from its own, `speed`; lengths below 2^15, `speed` at least 32. */
 static struct vector stretch(struct vector v, int32_t length, int32_t speed)
 {
     int zeros = count_leading_zeros((uint32_t)speed);
@@ -136,7 +136,8 @@ static void direction_make(struct direction *d, const struct gathering *g,
     d->center = (g->box ? 2048u : 2458u) * (uint32_t)d->spacing >> 12;
 }
 
-static struct vector second_direction(struct vector own, int32_t speed, const struct direction *top, bool guertin)
+static struct vector second_direction(struct vector own, int32_t speed, const struct direction *top,
+                                      bool guertin)
 {
     if (!guertin) {
         int32_t at_least = max_i32(speed, 128);
@@ -144,7 +145,8 @@ static struct vector second_direction(struct vector own, int32_t speed, const st
             return top->v;
         return stretch(own, top->length, max_i32(length_of(own.x, own.y), 128));
     }
-    /* From the perpendicular of `top` on the own velocity's side to the own direction, as the pixel gets faster. */
+    /* From the perpendicular of `top` on the own velocity's side to the own direction, as the pixel gets
+     * faster. */
     struct vector normal = { -top->v.y, top->v.x };
     if (normal.x * own.x + normal.y * own.y < 0)
         normal = (struct vector){ top->v.y, -top->v.x };
@@ -176,19 +178,23 @@ static uint32_t inverse_q30(uint32_t x)
     return recip_norm(x << zeros) >> (31 - zeros);
 }
 
-/* Of units up to 2^20: / 20 and / 19 in products of 32 bits. */
+/* 1/20 and 1/19 of units up to 2^20, in products of 32 bits. */
+static const uint32_t share_20 = 52429, share_19 = 55188;      /* q20 */
+
 static inline uint32_t part_of(uint32_t units, uint32_t share_q20)
 {
     return units < 1u << 16 ? units * share_q20 >> 20 : (units >> 4) * share_q20 >> 16;
 }
 
-/* Fully in front is 5 % nearer: z_q = 0.95 z_p. Perspective: units are 1 / z. Orthographic: z is far_units - units. */
+/* Fully in front is 5 % nearer: z_q = 0.95 z_p. Perspective: units are 1 / z. Orthographic: z is far_units -
+ * units. */
 static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
     uint32_t step = 1;
     if (d->units != 0)
-        step = max_u32(g->orthographic ? part_of(g->far_units - d->units, 52429) : part_of(d->units, 55188), 1);
+        step = max_u32(g->orthographic ? part_of(g->far_units - d->units, share_20)
+                                       : part_of(d->units, share_19), 1);
     d->front = d->units + step;
     d->front_scale = inverse_q30(step);
     d->has_front = true;
@@ -197,7 +203,8 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
-    uint32_t step = max_u32(g->orthographic ? part_of(g->far_units - d->units, 55188) : part_of(d->units, 52429), 1);
+    uint32_t step = max_u32(g->orthographic ? part_of(g->far_units - d->units, share_19)
+                                            : part_of(d->units, share_20), 1);
     d->behind = d->units > step ? d->units - step : 0;
     d->behind_scale = inverse_q30(d->units - d->behind);
     d->has_behind = true;
@@ -205,8 +212,8 @@ static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 
 /* ------------------------------------------------------------------ the gather */
 
-/* Running sums; weights q12. The taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 / its
- * distance), so sums of 16-bit values fit 32 bits. */
+/* Running sums; weights q12. The taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
+ * its distance), so sums of 16-bit values fit 32 bits. */
 struct sum {
     uint32_t r, g, b, weight;
 };
@@ -234,7 +241,8 @@ SMEAR_INLINE uint32_t sum_pixel(const struct sum *s, bool linear)
         int up = zeros - 16;
         uint32_t red = mulh_u32(s->r << up, r) >> 17, green = mulh_u32(s->g << up, r) >> 17;
         uint32_t blue = mulh_u32(s->b << up, r) >> 17;
-        return pixel_make(0, smear_srgb_encode[min_u32(red, 4095u)], smear_srgb_encode[min_u32(green, 4095u)],
+        return pixel_make(0, smear_srgb_encode[min_u32(red, 4095u)],
+                          smear_srgb_encode[min_u32(green, 4095u)],
                           smear_srgb_encode[min_u32(blue, 4095u)]);
     }
     /* 8 bits more: brought to 20 bits, times 12 bits, in q23. */
@@ -287,7 +295,8 @@ static SMEAR_NOINLINE void front_speed_update(struct gathering *g, uint32_t at, 
 }
 
 /* Weight of a tap in front, at least in part: its own speed decides, and from now on the background's. */
-static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape, int32_t distance)
+static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
+                                            int32_t distance)
 {
     int32_t speed = g->front_speed;
     uint32_t front = front_share(g, code);
@@ -302,9 +311,9 @@ static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, 
     return cover > 0 ? weight_of(g->over, shape, cover) : 0;
 }
 
-/* What the taps of a pixel share. */
+/* What the taps of a pixel share. Columns count from the tile's first, rows from the table's. */
 struct tap_frame {
-    const uint32_t *row;        /* offsets of rows; x and y count from the tile's first column and the table's first row */
+    const uint32_t *row;        /* offsets of rows */
     uint32_t own_code;
     bool fence;
     int32_t left, right;        /* columns of the frame */
@@ -340,7 +349,8 @@ SMEAR_INLINE void tap(struct gathering *g, struct sum *sum, const struct tap_fra
 }
 
 /* The pixel in column x of the tile and row y of the table. */
-SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise, bool edge)
+SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise,
+                             bool edge)
 {
     const struct own_motion *m = &g->motion;
     const struct direction *top = m->around;
@@ -351,16 +361,17 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
     g->over = m->over;
 
     int32_t offset = ((int32_t)noise - 32768) * top->spacing >> 16;         /* q12, within half a spacing */
-    int32_t shift = top->length * offset, step = top->length * top->spacing;            /* q20 px */
+    int32_t shift = top->length * offset;                                   /* q20 px */
     x = (x << 20) + (1 << 19);
     y = (y << 20) + (1 << 19);
     const struct vector d[2] = { top->v, m->second };
     const struct vector base[2] = { { x + d[0].x * offset, y + d[0].y * offset },
                                     { x + d[1].x * offset, y + d[1].y * offset } };
-    int32_t t = 4096 - top->spacing / 2, distance = top->length * t;
-    uint32_t shape = g->box ? 4096u : (uint32_t)(4915 - t), wider = g->box ? 0 : (uint32_t)top->spacing;    /* q12 */
-    for (int k = 0; t > 0; t -= top->spacing, distance -= step, shape += wider, k ^= 1) {
-        int32_t dx = d[k].x * t, dy = d[k].y * t;
+    int32_t t = 4096 - top->spacing / 2, length = top->length;
+    uint32_t shape = g->box ? 4096u : (uint32_t)(4915 - t);                 /* 1 or 1.2 - t, q12 */
+    uint32_t wider = g->box ? 0 : (uint32_t)top->spacing;
+    for (int k = 0; t > 0; t -= top->spacing, shape += wider, k ^= 1) {
+        int32_t dx = d[k].x * t, dy = d[k].y * t, distance = length * t;
         tap(g, &sum, &f, base[k].x + dx, base[k].y + dy, distance + shift, shape, edge);
         tap(g, &sum, &f, base[k].x - dx, base[k].y - dy, distance - shift, shape, edge);
     }
@@ -374,9 +385,9 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
 
 /* ------------------------------------------------------------------ the tile */
 
-/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up a quarter tile away in a random
- * direction, which hides the tiles' borders [Guertin14]. Of the row below, the window knows only what the
- * rows drawn so far tell (smear_neighbormax_row). */
+/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up a quarter tile away
+ * in a random direction, which hides the tiles' borders [Guertin14]. Of the row below, the window knows only
+ * what the rows drawn so far tell (smear_neighbormax_row). */
 struct choice {
     struct direction direction[9];
     const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */
@@ -391,8 +402,9 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
     direction_make(&c->direction[4], g, own);
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {
-            int32_t line = clamp_i32(row + dy, 0, w->rows - 1), up = clamp_i32(column + dx, 0, w->columns - 1);
-            const struct smear_tile_neighborhood *other = &window_around(w, line)[up];
+            int32_t line = clamp_i32(row + dy, 0, w->rows - 1);
+            const struct smear_tile_neighborhood *other =
+                &window_around(w, line)[clamp_i32(column + dx, 0, w->columns - 1)];
             struct direction *d = &c->direction[4];
             if (other->x != own->x || other->y != own->y) {
                 d = &c->direction[3 * dy + dx + 4];
@@ -403,14 +415,15 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
         }
 }
 
-/* Tile, counted from the own one, in which a quarter tile times sin lies from `x` in the tile; pixel centres are at 1/2. */
+/* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
+ * centres are at 1/2. */
 static inline int32_t jump(int32_t x, int32_t sine, int shift)
 {
     return ((x << 8) + 128 + (sine * 258 * (64 << shift) >> 15)) >> (shift + 8);
 }
 
-static inline const struct direction *choose(const struct choice *c, const struct smear_window *w, int32_t x,
-                                             int32_t y, uint32_t inner)
+static inline const struct direction *choose(const struct choice *c, const struct smear_window *w,
+                                             int32_t x, int32_t y, uint32_t inner)
 {
     if (c->alike)
         return &c->direction[4];
@@ -425,8 +438,8 @@ static inline const struct direction *choose(const struct choice *c, const struc
     return c->at[dy + 1][dx + 1];
 }
 
-SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out, int32_t x0,
-                                  int32_t y0, bool edge)
+SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out,
+                                  int32_t x0, int32_t y0, bool edge)
 {
     const struct smear_window *w = g->w;
     int32_t x1 = min_i32(x0 + w->tile, w->width), y1 = min_i32(y0 + w->tile, w->height);
@@ -443,8 +456,9 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
             uint32_t word = window_velocity_word(w, at);
             if (word != g->motion.word || top != g->motion.around)
                 own_motion_make(g, top, at, word);
-            if (w->depth[at] != g->depth.code)
-                g->depth = (struct own_depth){ .code = w->depth[at], .units = smear_depth_units(w->depth[at]) };
+            uint16_t code = w->depth[at];
+            if (code != g->depth.code)
+                g->depth = (struct own_depth){ .code = code, .units = smear_depth_units(code) };
             out[x - x0] = gather(g, (int32_t)at - x0, x - x0, y - g->rows->first, noise_of(inner), edge);
             taps += 2u * (uint32_t)top->pairs + 1u;
         }
@@ -457,7 +471,8 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
                                 const struct smear_blur_settings *settings)
 {
     struct gathering g = {
-        .w = w, .rows = rows, .linear = settings->linear, .box = settings->flags & SMEAR_BOX, .fence = settings->flags & SMEAR_FENCE,
+        .w = w, .rows = rows, .linear = settings->linear,
+        .box = settings->flags & SMEAR_BOX, .fence = settings->flags & SMEAR_FENCE,
         .guertin = settings->flags & SMEAR_DIRECTION, .orthographic = settings->orthographic,
         .wanted = clamp_i32(settings->samples / 2, 1, 64)
     };
@@ -470,5 +485,6 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
     g.x0 = x0;
     g.color = w->color + x0;
     g.depth_code = w->depth + x0;
-    return edge ? gather_tile(&g, &choice, out, x0, y0, true) : gather_tile(&g, &choice, out, x0, y0, false);
+    return edge ? gather_tile(&g, &choice, out, x0, y0, true)
+                : gather_tile(&g, &choice, out, x0, y0, false);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* blur_uniform.c - tiles in whose reach everything moves alike or changes without a step: an unweighted mean along
- * each pixel's own velocity, no depth, no weights; and tiles that nothing moves in: a copy. */
+/* blur_uniform.c - tiles in whose reach all motion is alike or changes without a step: an unweighted mean
+ * along each pixel's own velocity, no depth, no weights; and tiles that nothing moves in: a copy. */
 #include "blur.h"
 
 #include "fixmath.h"
@@ -24,8 +24,8 @@ struct uniform_taps {
 };
 
 SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offset, int32_t x, int32_t y,
-                                 const struct uniform_taps *taps, int32_t n, uint32_t over, int32_t right,
-                                 bool linear, bool edge)
+                                 const struct uniform_taps *taps, int32_t n, uint32_t over,
+                                 int32_t right, bool linear, bool edge)
 {
     int32_t dx = taps->first_x, dy = taps->first_y;
     x = (x << 16) + 0x8000;
@@ -60,8 +60,9 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
                       ((red_blue & 0xffffu) * over + 0x8000u) >> 16);
 }
 
-SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
-                                int32_t row, int32_t column, int32_t n, bool linear, bool edge)
+SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
+                                const struct smear_row_table *rows, int32_t row, int32_t column,
+                                int32_t n, bool linear, bool edge)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
     int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
@@ -83,8 +84,8 @@ SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w, con
                 out[x - x0] = w->color[at];
                 copied++;
             } else {
-                out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n, over,
-                                             w->width - 1, linear, edge);
+                out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n,
+                                         over, w->width - 1, linear, edge);
             }
         }
     }
@@ -95,7 +96,8 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings)
 {
-    /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In pairs. */
+    /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In
+     * pairs. */
     const struct smear_tile_motion *m = &window_motion(w, row)[column];
     int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> 2;                       /* px */
     int32_t n = min_i32(travel + 3, clamp_i32(settings->samples, 2, 128) * 2) >> 2 << 1;

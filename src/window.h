@@ -25,8 +25,8 @@ struct smear_tile_motion {
 struct smear_tile_neighborhood {
     int16_t x, y;                   /* longest of the 3 x 3 tiles, in 1/256 px */
     uint8_t kind;                   /* smear_tile_class */
-    uint8_t rough;                  /* of the tile itself: largest change of velocity from a pixel to the next,
-                                     * in 1/8 px; means nothing where nothing moves */
+    uint8_t rough;                  /* of the tile itself: largest change of velocity from a pixel to
+                                     * the next, in 1/8 px; means nothing where nothing moves */
 };
 
 struct smear_window {
