@@ -46,7 +46,8 @@ static bool gather_room(const struct scene_instant *from, int count, struct scen
 }
 
 /* A wheel turns about its own x axis, which is its axle, and steers about y. */
-static struct xform turn_of_node(const struct part *part, int node, const struct diorama_place *place)
+static struct xform turn_of_node(const struct part *part, int node,
+                                 const struct diorama_place *place)
 {
     if (node < 0 || !part->is_wheel[node])
         return xform_identity();
@@ -54,7 +55,8 @@ static struct xform turn_of_node(const struct part *part, int node, const struct
     return part->is_front[node] ? xform_mul(xform_turn_y(place->steer), roll) : roll;
 }
 
-/* Nodes keep telling apart what belongs together: those of an actor are counted from `first_node`. */
+/* Draws of one node belong together, and so no two actors share one: an actor's are counted from
+ * `first_node`. */
 static void put_actor(const struct part *part, const struct diorama_place *place, int first_node,
                       const struct scene_instant *from, struct scene_draw *draw)
 {
@@ -83,9 +85,11 @@ static bool diorama_pose(struct scene *scene, double time, struct scene_instant 
     d->kind->place(time, d->place);
     if (!scene_pose(&d->set, time, &from[0], f))
         return false;
-    for (int i = 0; i < count; i++)
-        if (!scene_pose(&d->part[d->kind->file_of(i)].scene, d->place[i].clip_time, &from[i + 1], f))
+    for (int i = 0; i < count; i++) {
+        struct part *part = &d->part[d->kind->file_of(i)];
+        if (!scene_pose(&part->scene, d->place[i].clip_time, &from[i + 1], f))
             return false;
+    }
     if (!gather_room(from, count + 1, out, f))
         return false;
 

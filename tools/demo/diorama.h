@@ -21,8 +21,9 @@ struct diorama_file {
 struct diorama_place {
     struct xform world;
     double clip_time;           /* seconds; clips loop */
-    double rolled, steer;       /* of nodes called "wheel...": metres driven (in the file's units) along
-                                 * the file's +z; radians to the left of those called "wheel-front..." */
+    double rolled;              /* nodes called "wheel..." turn as after so many units along the
+                                 * file's +z, */
+    double steer;               /* those called "wheel-front..." by so many radians to the left */
     int epoch;                  /* differs between two instants: cut in between */
 };
 

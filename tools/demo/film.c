@@ -16,7 +16,8 @@ static struct present_options options_of(const struct scene *scene, enum film_lo
     };
 }
 
-/* A streak of a twentieth of a small display's height is hardly one: there, the filter reaches farther. */
+/* A streak of a tenth of a small display's height is hardly one: there, the filter reaches
+ * farther. */
 static int reach_of(int height)
 {
     return height < 160 ? FILM_SMALL_REACH : 0;

@@ -16,10 +16,15 @@
 enum film_look {
     FILM_SHARP,                 /* the instant */
     FILM_BLURRED,               /* the reconstruction filter */
-    FILM_EXACT                  /* the mean of FILM_INSTANTS instants, each posed on its own: the truth */
+    FILM_EXACT                  /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
 };
 
-enum { FILM_INSTANTS = 64, FILM_TAPS = 32, FILM_SMALL_REACH = 8, FILM_THREADS = 2 };
+enum {
+    FILM_INSTANTS = 64,
+    FILM_TAPS = 32,             /* more than the filter takes for the reach of these displays */
+    FILM_SMALL_REACH = 8,       /* pixels */
+    FILM_THREADS = 2
+};
 
 struct film {
     struct scene *scene;

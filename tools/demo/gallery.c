@@ -80,29 +80,36 @@ static int delay_of(double fps, int frame, double unit)
     return (int)((end - begin) * unit);
 }
 
-bool gallery_show(const struct gallery *gallery, const char *name, const char *what,
-                  struct film *film, int count, struct failure *f)
+static bool add_frame(struct animation_writer **writer, const char *path, const struct image *frame,
+                      int delay, struct failure *f)
+{
+    if (*writer == NULL)
+        *writer = is_gif(path) ? gif_begin(path, frame->width, frame->height, f)
+                               : apng_begin(path, frame->width, frame->height, f);
+    return *writer != NULL && animation_add(*writer, frame, delay, f);
+}
+
+bool gallery_show(const struct gallery *gallery, const char *name, const char *what, double fps,
+                  int count, gallery_frame_fn *frame, void *user, struct failure *f)
 {
     char path[MAX_PATH];
-    double fps = film->scene->fps, unit = is_gif(name) ? 10 : 1;
-    int width = film->device.setup.width, height = film->device.setup.height;
+    double unit = is_gif(name) ? 10 : 1;
+    struct animation_writer *writer = NULL;
     if (!path_of(gallery, name, path, f))
         return false;
-    struct animation_writer *writer = is_gif(name) ? gif_begin(path, width, height, f)
-                                                   : apng_begin(path, width, height, f);
-    if (writer == NULL)
-        return false;
     for (int i = 0; i < count; i++) {
-        struct image frame;
-        bool ok = film_take(film, i / fps, FILM_BLURRED, &frame, f) &&
-                  animation_add(writer, &frame, delay_of(fps, i, unit), f);
-        image_free(&frame);
+        struct image picture;
+        bool ok = frame(user, i, &picture, f) &&
+                  add_frame(&writer, path, &picture, delay_of(fps, i, unit), f);
+        image_free(&picture);
         if (!ok) {
             animation_cancel(writer);
             return false;
         }
         say_progress(i + 1, count, "frame");
     }
+    if (writer == NULL)
+        return fail(f, "has no frames");
     if (!animation_end(writer, f))
         return false;
     tell(path, what);

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* gallery.h - the folder of pictures: writes them one by one, each whole or not at all, and tells what
- * each shows. */
+/* gallery.h - the folder of pictures: writes them one by one, each whole or not at all, and tells
+ * what each shows. */
 #ifndef SMEAR_TOOLS_DEMO_GALLERY_H
 #define SMEAR_TOOLS_DEMO_GALLERY_H
 
 #include "../failure.h"
 #include "../image/image.h"
-#include "film.h"
 
 #include <stdbool.h>
 
@@ -21,9 +20,11 @@ bool gallery_open(struct gallery *gallery, const char *folder, struct failure *f
 bool gallery_hang(const struct gallery *gallery, const char *name, const char *what,
                   const struct image *picture, struct failure *f);
 
-/* Writes `count` blurred frames from time 0 on at the scene's pace, for ever repeated: a GIF or, when
- * the name does not end so, an APNG. */
-bool gallery_show(const struct gallery *gallery, const char *name, const char *what,
-                  struct film *film, int count, struct failure *f);
+/* Gives frame `index` of an animation; *out is allocated there, and empty on failure. */
+typedef bool gallery_frame_fn(void *user, int index, struct image *out, struct failure *f);
+
+/* Writes `count` frames, for ever repeated: a GIF or, when the name does not end so, an APNG. */
+bool gallery_show(const struct gallery *gallery, const char *name, const char *what, double fps,
+                  int count, gallery_frame_fn *frame, void *user, struct failure *f);
 
 #endif

@@ -50,21 +50,6 @@ bool layout_column(const struct image *pictures, int count, int gap, struct imag
     return true;
 }
 
-bool layout_split(const struct image *left, const struct image *right, int gap, struct image *out,
-                  struct failure *f)
-{
-    *out = (struct image){ .rgba = NULL };
-    if (!image_check_same_size(left, right, f) || !image_alloc(out, left->width, left->height, f))
-        return false;
-    fill(out, 255, 255, 255);
-    int end = (left->width - gap) / 2, start = end + gap;
-    for (int y = 0; y < left->height; y++) {
-        memcpy(pixel_at(out, 0, y), pixel_at(left, 0, y), 4 * (size_t)end);
-        memcpy(pixel_at(out, start, y), pixel_at(right, start, y), 4 * (size_t)(left->width - start));
-    }
-    return true;
-}
-
 bool layout_zoom(const struct image *picture, int scale, struct image *out, struct failure *f)
 {
     if (!image_alloc(out, picture->width * scale, picture->height * scale, f))

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layout.h - pictures made of pictures. *out is allocated by each function, and empty on failure. */
+/* layout.h - pictures made of pictures. *out is allocated by each function, and empty on
+ * failure. */
 #ifndef SMEAR_TOOLS_DEMO_LAYOUT_H
 #define SMEAR_TOOLS_DEMO_LAYOUT_H
 
@@ -14,15 +15,11 @@ bool layout_row(const struct image *pictures, int count, int gap, struct image *
 bool layout_column(const struct image *pictures, int count, int gap, struct image *out,
                    struct failure *f);
 
-/* The left half of one and the right half of the other, with a white line of `gap` pixels on the seam. */
-bool layout_split(const struct image *left, const struct image *right, int gap, struct image *out,
-                  struct failure *f);
-
 /* Every pixel a square of scale x scale. */
 bool layout_zoom(const struct image *picture, int scale, struct image *out, struct failure *f);
 
-/* The same as lamps behind dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with seams
- * between them. */
+/* The same as lamps behind dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with
+ * seams between them. */
 bool layout_lamps(const struct image *picture, int scale, unsigned color, struct image *out,
                   struct failure *f);
 

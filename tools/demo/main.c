@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* main.c - the program behind `make demo`: a folder of pictures, sharp and motion-blurred, all drawn
- * by the library.
+/* main.c - the program behind `make demo`: a folder of pictures, sharp and motion-blurred, all
+ * drawn by the library.
  *
  *     smear-demo [--readme] ASSETS|- FOLDER
  *
- * ASSETS is a folder of models. With `-` only the built-in scenes are shown, and a scene whose models
- * are missing or broken is named and left out. --readme writes the pictures of the README instead. */
+ * ASSETS is a folder of models. With `-` only the built-in scenes are shown, and a scene whose
+ * models are missing or broken is named and left out. --readme writes the pictures of the README
+ * instead. */
 #include "dioramas.h"
 #include "film.h"
 #include "gallery.h"
@@ -16,28 +17,26 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* ------------------------------------------------------------------ exhibits */
 
 /* What is made of a scene. */
 enum exhibit_kind {
-    LONE,                       /* one look */
+    SHARP, BLURRED, EXACT,      /* one look: enum film_look */
     PAIR,                       /* sharp | blurred */
     TRIPLE,                     /* sharp | blurred | exact */
-    SPLIT,                      /* one picture: sharp on the left, blurred on the right */
     SCREEN,                     /* blurred, RGB565, enlarged */
-    OLED,                       /* sharp above blurred, 16 greys, enlarged */
-    REEL                        /* blurred, moving */
+    OLED                        /* sharp above blurred, 16 greys, enlarged */
 };
 
 struct exhibit {
     const char *name, *what;
     enum exhibit_kind kind;
-    enum film_look look;        /* of LONE */
-    int width, height;          /* 0: the scene's */
+    int width, height;          /* of one look; 0: the scene's */
     int zoom;                   /* of SCREEN and OLED */
-    int frames;                 /* of REEL */
-    double time;                /* 0: the scene's */
+    int frames;                 /* from time 0 on; 0: one picture, at */
+    double time;                /* or, with 0, at the scene's */
 };
 
 /* A scene and what is shown of it. */
@@ -52,17 +51,17 @@ struct room {
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
 static const struct exhibit race[] = {
-    { .name = "race-sharp.png", .kind = LONE, .look = FILM_SHARP,
+    { .name = "race-sharp.png", .kind = SHARP,
       .what = "racing car and drone, the sharp instant" },
-    { .name = "race-blurred.png", .kind = LONE, .look = FILM_BLURRED,
+    { .name = "race-blurred.png", .kind = BLURRED,
       .what = "the same through the reconstruction filter" },
-    { .name = "race-exact.png", .kind = LONE, .look = FILM_EXACT,
+    { .name = "race-exact.png", .kind = EXACT,
       .what = "the mean of 64 instants: what the filter aims at" },
     { .name = "race-pair.png", .kind = PAIR, .what = "sharp | blurred" },
     { .name = "race-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
-    { .name = "race-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+    { .name = "race-640.png", .kind = BLURRED, .width = 640, .height = 480,
       .what = "blurred, 640x480" },
-    { .name = "race.gif", .kind = REEL, .width = 240, .height = 180, .frames = 60,
+    { .name = "race.gif", .kind = BLURRED, .width = 240, .height = 180, .frames = 60,
       .what = "blurred, a loop of two seconds" },
 };
 
@@ -71,30 +70,34 @@ static const struct exhibit drone[] = {
       .what = "a car rushes by below a drone: sharp | blurred" },
     { .name = "screen-240.png", .kind = SCREEN, .zoom = 3, .time = 1.95,
       .what = "a display of 240x240 in RGB565, blurred, three times as large" },
-    { .name = "drone.apng", .kind = REEL, .frames = 60,
+    { .name = "drone-pair.gif", .kind = PAIR, .width = 240, .height = 180, .frames = 60,
+      .what = "sharp | blurred, a loop of two seconds" },
+    { .name = "drone.apng", .kind = BLURRED, .frames = 60,
       .what = "blurred, a loop of two seconds, true colour" },
 };
 
 static const struct exhibit night[] = {
     { .name = "oled-128x64.png", .kind = OLED, .zoom = 5,
       .what = "a display of 128x64 in 16 greys, sharp above blurred, five times as large" },
+    { .name = "oled-128x64.gif", .kind = OLED, .zoom = 5, .frames = NIGHT_LOOP_FRAMES,
+      .what = "the same as a loop" },
 };
 
 static const struct exhibit rally[] = {
-    { .name = "rally-sharp.png", .kind = LONE, .look = FILM_SHARP,
+    { .name = "rally-sharp.png", .kind = SHARP,
       .what = "trucks on a forest track, the sharp instant" },
-    { .name = "rally-blurred.png", .kind = LONE, .look = FILM_BLURRED,
+    { .name = "rally-blurred.png", .kind = BLURRED,
       .what = "the same blurred: the camera drives along, wheels spin" },
     { .name = "rally-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
-    { .name = "rally-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+    { .name = "rally-640.png", .kind = BLURRED, .width = 640, .height = 480,
       .what = "blurred, 640x480" },
-    { .name = "rally.gif", .kind = REEL, .width = 240, .height = 180, .frames = RALLY_LOOP_FRAMES,
-      .what = "blurred, a loop of two seconds" },
+    { .name = "rally.gif", .kind = BLURRED, .width = 240, .height = 180,
+      .frames = RALLY_LOOP_FRAMES, .what = "blurred, a loop of two seconds" },
 };
 
 static const struct exhibit pass[] = {
     { .name = "pass-pair.png", .kind = PAIR, .what = "trucks rush past: sharp | blurred" },
-    { .name = "pass-640.png", .kind = LONE, .look = FILM_BLURRED, .width = 640, .height = 480,
+    { .name = "pass-640.png", .kind = BLURRED, .width = 640, .height = 480,
       .what = "blurred, 640x480" },
 };
 
@@ -103,7 +106,8 @@ static const struct exhibit chase[] = {
 };
 
 static const struct exhibit dance[] = {
-    { .name = "dance-pair.png", .kind = PAIR, .what = "a robot dances before fans: sharp | blurred" },
+    { .name = "dance-pair.png", .kind = PAIR,
+      .what = "a robot dances before fans: sharp | blurred" },
 };
 
 static const struct exhibit wind[] = {
@@ -128,19 +132,20 @@ static const struct room demo_rooms[] = {
 
 /* ------------------------------------------------------------------ of the README */
 
-static const struct exhibit readme_race[] = {
-    { .name = "race.png", .kind = PAIR, .what = "racing car and drone: sharp | blurred" },
-    { .name = "race.gif", .kind = REEL, .width = 176, .height = 132, .frames = 60,
-      .what = "the same as a loop" },
-};
-
 static const struct exhibit readme_drone[] = {
     { .name = "drone.png", .kind = PAIR, .width = 320, .height = 240, .time = 1.95,
       .what = "a car rushes by below a drone: sharp | blurred" },
+    { .name = "drone.gif", .kind = PAIR, .width = 320, .height = 240, .frames = 60,
+      .what = "the same as a loop" },
+};
+
+static const struct exhibit readme_race[] = {
+    { .name = "race.png", .kind = PAIR, .what = "the camera drives along: sharp | blurred" },
 };
 
 static const struct exhibit readme_night[] = {
-    { .name = "oled.png", .kind = OLED, .zoom = 5, .what = "128x64 in 16 greys: sharp above blurred" },
+    { .name = "oled.png", .kind = OLED, .zoom = 5,
+      .what = "128x64 in 16 greys: sharp above blurred" },
 };
 
 static const struct exhibit readme_pass[] = {
@@ -148,8 +153,8 @@ static const struct exhibit readme_pass[] = {
 };
 
 static const struct room readme_rooms[] = {
-    { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
     { .builtin = "demo/drone", .exhibit = readme_drone, .count = COUNT_OF(readme_drone) },
+    { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
     { .open = night_open, .exhibit = readme_night, .count = COUNT_OF(readme_night) },
     { .diorama = &diorama_pass, .exhibit = readme_pass, .count = COUNT_OF(readme_pass) },
 };
@@ -169,12 +174,36 @@ static bool take_looks(struct film *film, double time, int count, struct image *
     return true;
 }
 
-static bool make_oled(const struct image *picture, int zoom, struct image *out, struct failure *f)
+static bool make_row(struct film *film, double time, int count, struct image *out,
+                     struct failure *f)
+{
+    struct image picture[3] = { { .rgba = NULL } };
+    bool ok = take_looks(film, time, count, picture, f) && layout_row(picture, count, SEAM, out, f);
+    for (int i = 0; i < count; i++)
+        image_free(&picture[i]);
+    return ok;
+}
+
+static bool make_screen(struct film *film, double time, int zoom, struct image *out,
+                        struct failure *f)
+{
+    struct image picture;
+    bool ok = film_take(film, time, FILM_BLURRED, &picture, f) &&
+              layout_zoom(&picture, zoom, out, f);
+    image_free(&picture);
+    return ok;
+}
+
+static bool make_oled(struct film *film, double time, int zoom, struct image *out,
+                      struct failure *f)
 {
     enum { LAMP_COLOR = 0xcfeaff };
-    struct image column;
-    bool ok = layout_column(picture, 2, SEAM, &column, f) &&
+    struct image picture[2] = { { .rgba = NULL } }, column = { .rgba = NULL };
+    bool ok = take_looks(film, time, 2, picture, f) &&
+              layout_column(picture, 2, SEAM, &column, f) &&
               layout_lamps(&column, zoom, LAMP_COLOR, out, f);
+    image_free(&picture[0]);
+    image_free(&picture[1]);
     image_free(&column);
     return ok;
 }
@@ -182,42 +211,44 @@ static bool make_oled(const struct image *picture, int zoom, struct image *out, 
 static bool make_picture(struct film *film, const struct exhibit *e, double time, struct image *out,
                          struct failure *f)
 {
-    struct image picture[3] = { { .rgba = NULL } };
-    int count = e->kind == TRIPLE ? 3 : e->kind == LONE || e->kind == SCREEN ? 0 : 2;
-    bool ok = take_looks(film, time, count, picture, f);
-    if (!ok)
-        *out = (struct image){ .rgba = NULL };
-    else if (e->kind == LONE)
-        ok = film_take(film, time, e->look, out, f);
-    else if (e->kind == SCREEN)
-        ok = film_take(film, time, FILM_BLURRED, &picture[0], f) &&
-             layout_zoom(&picture[0], e->zoom, out, f);
-    else if (e->kind == SPLIT)
-        ok = layout_split(&picture[0], &picture[1], SEAM, out, f);
-    else if (e->kind == OLED)
-        ok = make_oled(picture, e->zoom, out, f);
-    else
-        ok = layout_row(picture, count, SEAM, out, f);
-    for (int i = 0; i < 3; i++)
-        image_free(&picture[i]);
-    return ok;
+    *out = (struct image){ .rgba = NULL };
+    switch (e->kind) {
+    case SHARP: return film_take(film, time, FILM_SHARP, out, f);
+    case BLURRED: return film_take(film, time, FILM_BLURRED, out, f);
+    case EXACT: return film_take(film, time, FILM_EXACT, out, f);
+    case PAIR: return make_row(film, time, 2, out, f);
+    case TRIPLE: return make_row(film, time, 3, out, f);
+    case SCREEN: return make_screen(film, time, e->zoom, out, f);
+    case OLED: return make_oled(film, time, e->zoom, out, f);
+    }
+    return false;
 }
 
-static smear_format format_of(const struct exhibit *e)
+struct reel {
+    struct film *film;
+    const struct exhibit *exhibit;
+};
+
+static bool make_frame(void *user, int index, struct image *out, struct failure *f)
 {
-    return e->kind == SCREEN ? SMEAR_RGB565 : e->kind == OLED ? SMEAR_L4 : SMEAR_XRGB8888;
+    const struct reel *reel = user;
+    return make_picture(reel->film, reel->exhibit, index / reel->film->scene->fps, out, f);
 }
 
-static bool make_exhibit(struct gallery *gallery, struct scene *scene, const struct exhibit *e,
-                         struct failure *f)
+static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
+                         const struct exhibit *e, struct failure *f)
 {
     int width = e->width > 0 ? e->width : scene->width;
     int height = e->height > 0 ? e->height : scene->height;
+    smear_format format = e->kind == SCREEN ? SMEAR_RGB565
+                        : e->kind == OLED   ? SMEAR_L4
+                                            : SMEAR_XRGB8888;
     struct image picture = { .rgba = NULL };
     struct film film;
-    bool ok = film_open(&film, scene, width, height, format_of(e), f);
-    if (ok && e->kind == REEL) {
-        ok = gallery_show(gallery, e->name, e->what, &film, e->frames, f);
+    bool ok = film_open(&film, scene, width, height, format, f);
+    if (ok && e->frames > 0) {
+        struct reel reel = { .film = &film, .exhibit = e };
+        ok = gallery_show(gallery, e->name, e->what, scene->fps, e->frames, make_frame, &reel, f);
     } else if (ok) {
         ok = make_picture(&film, e, e->time > 0 ? e->time : scene->time, &picture, f) &&
              gallery_hang(gallery, e->name, e->what, &picture, f);
@@ -237,20 +268,27 @@ static bool open_room(const struct room *room, const char *assets, struct scene 
     return room->open != NULL ? room->open(out, f) : scene_builtin(room->builtin, out, f);
 }
 
-/* A status. Missing models are no error of the demo. */
-static int show_room(const struct room *room, const char *assets, struct gallery *gallery)
+/* Missing models are no error of the demo. */
+static int leave_out(const struct room *room, const struct failure *why)
+{
+    char text[sizeof why->text + 32];
+    if (room->diorama == NULL)
+        return say_bad_input("built-in scene", why);
+    snprintf(text, sizeof text, "left out: %s", why->text);
+    say_warning(room->diorama->stage->name, text);
+    return STATUS_OK;
+}
+
+/* A status. */
+static int show_room(const struct room *room, const char *assets, const struct gallery *gallery)
 {
     struct scene scene = { .data = NULL };
     struct failure f = { "" };
     int status = STATUS_OK;
     if (room->diorama != NULL && assets == NULL)
         return STATUS_OK;
-    if (!open_room(room, assets, &scene, &f)) {
-        if (room->diorama == NULL)
-            return say_bad_input("built-in scene", &f);
-        say_warning(assets, f.text);
-        return STATUS_OK;
-    }
+    if (!open_room(room, assets, &scene, &f))
+        return leave_out(room, &f);
     for (int i = 0; i < room->count; i++) {
         f = (struct failure){ "" };
         if (!make_exhibit(gallery, &scene, &room->exhibit[i], &f))
@@ -258,6 +296,18 @@ static int show_room(const struct room *room, const char *assets, struct gallery
     }
     scene_free(&scene);
     return status;
+}
+
+/* Null when there are none. */
+static const char *find_assets(const char *name)
+{
+    struct stat info;
+    if (strcmp(name, "-") == 0)
+        return NULL;
+    if (stat(name, &info) == 0 && S_ISDIR(info.st_mode))
+        return name;
+    say_warning(name, "is no folder of models: built-in scenes only");
+    return NULL;
 }
 
 int main(int argc, char **argv)
@@ -268,13 +318,14 @@ int main(int argc, char **argv)
     bool is_readme = argc > 1 && strcmp(argv[1], "--readme") == 0;
     if (argc != (is_readme ? 4 : 3) || argv[argc - 1][0] == '-')
         return say_bad_usage("usage", "smear-demo [--readme] ASSETS|- FOLDER");
-    const char *assets = argv[argc - 2], *folder = argv[argc - 1];
+    const char *folder = argv[argc - 1];
     if (!gallery_open(&gallery, folder, &f))
         return say_bad_input(folder, &f);
+    const char *assets = find_assets(argv[argc - 2]);
     const struct room *room = is_readme ? readme_rooms : demo_rooms;
     int count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms);
     for (int i = 0; i < count; i++) {
-        int result = show_room(&room[i], strcmp(assets, "-") == 0 ? NULL : assets, &gallery);
+        int result = show_room(&room[i], assets, &gallery);
         if (result != STATUS_OK)
             status = result;
     }

@@ -9,8 +9,8 @@
 #define PI 3.14159265358979323846
 
 #define LOOP_SECONDS (NIGHT_LOOP_FRAMES / 30.0)
-/* Three blades look the same after a third of a turn: 16 such in 48 frames are 40 degrees a frame. */
-#define THIRDS_PER_LOOP 16
+/* Whole turns, so that every blade comes back to its own place: 37.5 degrees a frame. */
+#define TURNS_PER_LOOP 5
 
 enum { MILLS = 2 };
 
@@ -72,7 +72,8 @@ static void disc(struct build *b, double x, double y, double z, double radius, i
 static const struct scene_surface *land(struct stage *stage)
 {
     static const double star[][2] = {
-        { -37, 12 }, { -31, 23 }, { -4, 17 }, { 4, 26 }, { 12, 12 }, { 31, 13 }, { 41, 24 }, { -47, 20 },
+        { -37, 12 }, { -31, 23 }, { -4, 17 }, { 4, 26 },
+        { 12, 12 },  { 31, 13 },  { 41, 24 }, { -47, 20 },
     };
     struct build b = build_begin(stage, BUILD_COLOR);
     for (int i = 0; i < MILLS; i++)
@@ -111,7 +112,7 @@ static void night_build(struct stage *stage)
 static void night_move(const struct stage *stage, double time, struct scene_instant *out)
 {
     const struct night *n = stage->extra;
-    double turn = 2 * PI / 3 * THIRDS_PER_LOOP * time / LOOP_SECONDS;
+    double turn = 2 * PI * TURNS_PER_LOOP * time / LOOP_SECONDS;
     stage_camera(out, xform_look(vec3(0.55, 1.1, 5.6), vec3(0.55, 1.88, 0), vec3(0, 1, 0)), 42);
     out->camera.znear = 0.5;
     out->camera.zfar = 90;
@@ -123,7 +124,8 @@ static void night_move(const struct stage *stage, double time, struct scene_inst
     }
 }
 
-static const struct stage_kind kind = { "night", 128, 64, 6 / 30.0, 0x000000, night_build, night_move };
+static const struct stage_kind kind = { "night", 128, 64, 6 / 30.0, 0x000000, night_build,
+                                        night_move };
 
 bool night_open(struct scene *out, struct failure *f)
 {

@@ -26,8 +26,8 @@ static const struct diorama_file files[FILES] = {
     [BIKE] = { "kenney-racing/vehicle-motorcycle.glb", NULL },
 };
 
-/* Tiles of 10 m; every fourth carries the arch, so the track repeats after four. Tile j lies in slot
- * j mod SLOTS until it falls behind, then it is laid anew at the far end: a cut, no motion. */
+/* Tiles of 10 m; every fourth carries the arch, so the track repeats after four. Tile j lies in
+ * slot j mod SLOTS until it falls behind, then it is laid anew at the far end: a cut, no motion. */
 enum { SLOTS = 12, VEHICLES = 5 };
 #define TILE 10.0
 #define LOOP_LENGTH (4 * TILE)
@@ -239,5 +239,6 @@ static const struct stage_kind rally_stage = { "rally", 320, 240, 42 / 30.0, 0x9
 static const struct stage_kind pass_stage = { "pass", 320, 240, 1 / 30.0, 0x9fd0ee, build_set,
                                               pass_move };
 
-const struct diorama_kind diorama_rally = { &rally_stage, files, FILES, CAST, file_of, rally_place };
+const struct diorama_kind diorama_rally = { &rally_stage, files, FILES, CAST, file_of,
+                                            rally_place };
 const struct diorama_kind diorama_pass = { &pass_stage, files, FILES, CAST, file_of, pass_place };

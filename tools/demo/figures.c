@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* robots.c - figures that move by their own clips: robot and fox run along the built-in track
+/* figures.c - figures that move by their own clips: robot and fox run along the built-in track
  * (chase), the robot dances before fans (dance), fans turn in the wind (wind). */
 #include "dioramas.h"
 
@@ -33,18 +33,18 @@ static const struct diorama_file chase_files[CHASE_FILES] = {
 /* Metres per second; the clips are played as much faster as feet need to keep up. */
 #define CHASE_SPEED 12.0
 #define CHASE_LENGTH 20.0       /* of a piece of track */
-#define CHASE_LIFT 0.10         /* the paws reach this far below the fox's own ground */
+#define CHASE_LIFT 0.06         /* the paws reach this far below the fox's own ground */
 
 static void chase_place(double time, struct diorama_place *place)
 {
     double x = CHASE_SPEED * time;
     struct xform ahead = xform_turn_y(PI / 2);
     double fox = 1 / 66.0, robot = 0.50;
-    place[CHASE_FOX].world = xform_mul(xform_mul(xform_move(x + 1.15, CHASE_LIFT - 0.04, 0.85), ahead),
-                                       xform_scale(fox, fox, fox));
+    struct xform at = xform_mul(xform_move(x + 1.15, CHASE_LIFT, 0.85), ahead);
+    place[CHASE_FOX].world = xform_mul(at, xform_scale(fox, fox, fox));
     place[CHASE_FOX].clip_time = 2.1 * time;
-    place[CHASE_ROBOT].world = xform_mul(xform_mul(xform_move(x - 1.55, 0.05, -0.6), ahead),
-                                         xform_scale(robot, robot, robot));
+    at = xform_mul(xform_move(x - 1.55, 0.05, -0.6), ahead);
+    place[CHASE_ROBOT].world = xform_mul(at, xform_scale(robot, robot, robot));
     place[CHASE_ROBOT].clip_time = 1.7 * time;
 }
 
@@ -117,10 +117,10 @@ static int dance_file_of(int actor)
     return actor == 0 ? DANCE_ROBOT : DANCE_FAN;
 }
 
-static void fan_at(struct diorama_place *place, double x, double y, double z, double size,
-                   double heading, double clip_time)
+static void fan_at(struct diorama_place *place, double x, double z, double size, double heading,
+                   double clip_time)
 {
-    struct xform stand = xform_mul(xform_move(x, y + 1.8 * size, z), xform_turn_y(heading));
+    struct xform stand = xform_mul(xform_move(x, 1.8 * size, z), xform_turn_y(heading));
     place->world = xform_mul(stand, xform_scale(size, size, size));
     place->clip_time = clip_time;
 }
@@ -130,8 +130,8 @@ static void dance_place(double time, struct diorama_place *place)
     double size = 0.5;
     place[0].world = xform_mul(xform_turn_y(0.25), xform_scale(size, size, size));
     place[0].clip_time = 1.5 * time;
-    fan_at(&place[1], -2.15, 0, -0.9, 0.95, 0.45, 2.4 * time);
-    fan_at(&place[2], 2.10, 0, -1.1, 0.95, -0.30, 2.4 * time + 0.07);
+    fan_at(&place[1], -2.15, -0.9, 0.95, 0.45, 2.4 * time);
+    fan_at(&place[2], 2.10, -1.1, 0.95, -0.30, 2.4 * time + 0.07);
 }
 
 struct floor_set {
@@ -195,11 +195,13 @@ static const struct diorama_file wind_files[1] = { { "own/fan.glb", "spin" } };
 static void wind_place(double time, struct diorama_place *place)
 {
     static const struct { double x, z, size, rate, start; } fan[WIND_FANS] = {
-        { -0.75, 0.3, 1.0, 2.2, 0.00 }, { 1.75, -1.6, 1.0, 1.9, 0.03 }, { -3.7, -3.0, 1.0, 2.4, 0.06 },
-        { 4.6, -6.0, 1.15, 2.0, 0.01 }, { -0.1, -9.5, 1.15, 2.4, 0.04 },
+        { -0.75, 0.3, 1.0, 2.2, 0.00 }, { 1.75, -1.6, 1.0, 1.9, 0.03 },
+        { -3.7, -3.0, 1.0, 2.4, 0.06 }, { 4.6, -6.0, 1.15, 2.0, 0.01 },
+        { -0.1, -9.5, 1.15, 2.4, 0.04 },
     };
     for (int i = 0; i < WIND_FANS; i++)
-        fan_at(&place[i], fan[i].x, 0, fan[i].z, fan[i].size, 0.2, fan[i].rate * time + fan[i].start);
+        fan_at(&place[i], fan[i].x, fan[i].z, fan[i].size, 0.2,
+               fan[i].rate * time + fan[i].start);
 }
 
 static void wind_build(struct stage *stage)
@@ -223,6 +225,7 @@ static void wind_move(const struct stage *stage, double time, struct scene_insta
     stage_place(out, set->backdrop, xform_move(eye.x, 0, eye.z));
 }
 
-static const struct stage_kind wind_stage = { "wind", 320, 240, 0.30, 0x9fd0ee, wind_build, wind_move };
+static const struct stage_kind wind_stage = { "wind", 320, 240, 0.30, 0x9fd0ee, wind_build,
+                                              wind_move };
 const struct diorama_kind diorama_wind = { &wind_stage, wind_files, 1, WIND_FANS, first_file,
                                            wind_place };
