@@ -15,7 +15,7 @@
 enum { MILLS = 2 };
 
 static const struct { double x, z, size, phase; } mill[MILLS] = {
-    { -1.05, 0, 1.0, 0.35 }, { 3.3, -4.6, 1.0, 1.1 },
+    { -1.05, 0, 1.0, 0.35 }, { 2.9, -4.6, 1.0, 1.1 },
 };
 
 struct night {
@@ -73,7 +73,7 @@ static const struct scene_surface *land(struct stage *stage)
 {
     static const double star[][2] = {
         { -37, 12 }, { -31, 23 }, { -4, 17 }, { 4, 26 },
-        { 12, 12 },  { 31, 13 },  { 41, 24 }, { -47, 20 },
+        { 12, 12 },  { 36, 11 },  { 41, 24 }, { -47, 20 },
     };
     struct build b = build_begin(stage, BUILD_COLOR);
     for (int i = 0; i < MILLS; i++)
@@ -86,9 +86,9 @@ static const struct scene_surface *land(struct stage *stage)
     build_color(&b, 0xd0d0d0);
     build_box(&b, vec3(-4, 0.26, 1.2), vec3(9, 0.32, 1.22));
     build_color(&b, 0xffffff);
-    disc(&b, 21, 19.0, -60, 4.6, 24);
+    disc(&b, 26, 20.5, -60, 4.6, 24);
     build_color(&b, 0);
-    disc(&b, 23.2, 20.4, -59.5, 3.9, 24);
+    disc(&b, 28.2, 21.9, -59.5, 3.9, 24);
     build_color(&b, 0xe0e0e0);
     for (size_t i = 0; i < sizeof star / sizeof *star; i++)
         disc(&b, star[i][0], star[i][1], -58, 0.42, 4);
@@ -124,7 +124,7 @@ static void night_move(const struct stage *stage, double time, struct scene_inst
     }
 }
 
-static const struct stage_kind kind = { "night", 128, 64, 6 / 30.0, 0x000000, night_build,
+static const struct stage_kind kind = { "night", 128, 64, 5 / 30.0, 0x000000, night_build,
                                         night_move };
 
 bool night_open(struct scene *out, struct failure *f)
