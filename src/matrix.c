@@ -122,7 +122,7 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
 {
     for (int j = 0; j < 3; j++)
         m[j] = scale_to_i32((int64_t)view->basis[row][j] * by.mantissa * sign,
-                            view->basis_exp + by.exponent + scale + 16);
+                            view->basis_exp + by.exponent + scale + 16) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
     m[3] = scale_to_i32((view->origin[row] >> cut) * by.mantissa * sign,
                         cut - 32 + by.exponent + scale);
@@ -132,7 +132,8 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
 static void set_distances(struct smear_projection *p, const smear_camera *camera)
 {
     int scale = p->distance_scale;
-    p->near_distance = max_i32(1, scale_to_i32(camera->near_plane, scale - 16));
+    /* Rows stay below 2^30: what is farther is in front of the plane either way. */
+    p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
     p->far_distance = camera->far_plane == 0 ? INT32_MAX
                     : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
     if (p->orthographic) {
@@ -176,6 +177,8 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     fill_row(p->m[0], view, 0, pixels, 1, scale);
     fill_row(p->m[1], view, 1, pixels, -1, scale);          /* the screen's y points down */
 
+    for (int j = 0; j < 4; j++)
+        p->m[3][j] = 0;
     int32_t *distance = p->m[p->orthographic ? 3 : 2];
     if (p->orthographic) {
         for (int j = 0; j < 3; j++)
@@ -196,8 +199,10 @@ static void weigh(struct smear_projection *p, int32_t weight, int scale, int dis
     for (int row = 0; row < 4; row++) {
         bool is_distance = row == 3 || (row == 2 && !p->orthographic);
         int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
-        for (int j = 0; j < 4; j++)
-            p->m[row][j] = scale_to_i32((int64_t)p->m[row][j] * weight, shift - 24);
+        for (int j = 0; j < 4; j++) {
+            int32_t m = scale_to_i32((int64_t)p->m[row][j] * weight, shift - 24);
+            p->m[row][j] = j < 3 ? m & ~3 : m;
+        }
     }
     p->scale = (int16_t)scale;
     p->distance_scale = (int16_t)distance_scale;
@@ -214,6 +219,9 @@ void smear_projection_weigh(struct smear_projection projection[], const int32_t 
     }
     for (int i = 0; i < count; i++)
         weigh(&projection[i], weight[i], scale - 4, distance_scale - 4);
+    /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
+    for (int i = 0; i < count && projection[0].orthographic; i++)
+        projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - 4)) : 0;
     set_distances(&projection[0], camera);
 }
 

@@ -11,8 +11,9 @@
 
 /* Positions of one draw, from mesh steps to the screen. For a vertex v (int16 each):
  *
- *     row r = sum floor(v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
+ *     row r = floor(sum v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
  *
+ * The factors m[r][0..2] are multiples of 4, which lets cores without a wide multiply find the same floor.
  * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels right of and below the frame's centre.
  * `distance` is W for perspective; an orthographic camera has W constant and distance in row 3, in steps of
  * its own. */

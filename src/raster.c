@@ -238,8 +238,9 @@ SMEAR_INLINE void put_flat(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_
 {
     uint16_t code = (uint16_t)(z >> 16);
     if (code > *depth) {
-        *depth = code;
+        __asm__ volatile ("");      /* one branch: cores that predicate pay for both stores even when hidden */
         *pixel = color;
+        *depth = code;
     }
 }
 

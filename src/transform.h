@@ -41,9 +41,19 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
+/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one: the lower
+ * ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
-    return mul_i16_q16(v[0], m[0]) + mul_i16_q16(v[1], m[1]) + mul_i16_q16(v[2], m[2]) + m[3];
+#if SMEAR_HAS_MUL64
+    return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
+#else
+    uint32_t high = (uint32_t)(v[0] * (m[0] >> 16)) + (uint32_t)(v[1] * (m[1] >> 16))
+                  + (uint32_t)(v[2] * (m[2] >> 16));
+    int32_t low = v[0] * (int32_t)((uint32_t)m[0] << 16 >> 18) + v[1] * (int32_t)((uint32_t)m[1] << 16 >> 18)
+                + v[2] * (int32_t)((uint32_t)m[2] << 16 >> 18);
+    return (int32_t)(high + (uint32_t)(low >> 14)) + m[3];
+#endif
 }
 
 static inline void smear_transform_vertex(struct smear_homogeneous *out,
