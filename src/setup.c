@@ -109,7 +109,7 @@ void smear_setup_color(struct setup *s)
         for (int i = 0; i < 3; i++)
             range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
     }
-    /* Interpolated on the screen, a value is off by at most range x change of 1/w / 4: half a code is allowed. */
+    /* Interpolated on the screen, a value is off by at most range x change of 1/w / 4: half a code is TEXTURE_OFF. */
     if (!s->segment->flat_depth && range != 0)
         s->perspective_color = smear_times_over((uint32_t)(high_q - low_q), range >> 8, (uint32_t)low_q)
                              > 4u * 128u;
@@ -128,7 +128,7 @@ void smear_setup_color(struct setup *s)
 /* ------------------------------------------------------------------ texture */
 
 enum {
-    TEXTURE_OFF = 3,            /* 1/64 texel: what a coordinate may be off between the ends of a block, or affine */
+    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between the ends of a block, or affine */
     QUADRATIC_OFF = 1,          /* and at the ends, where 1/q is a parabola */
     QUADRATIC_RANGE = 23593     /* widest E, q16: 0.36 */
 };
@@ -180,7 +180,7 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
 
 /* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row there can be;
  * `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of their length; a parabola in
- * pieces of 4 pixels errs as a chord of 4, if q changes by less than a third. */
+ * pieces of 2 pixels errs as a chord of 2, if q changes by less than a third. */
 static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
 {
     uint32_t n = (uint32_t)min_i32(width, 16);
@@ -190,8 +190,10 @@ static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, 
     t->block_shift = 4;
     if (off <= TEXTURE_OFF)
         return;
-    t->bent = off <= 16 * TEXTURE_OFF;
-    t->block_shift = t->bent ? change * n < 16 * 1365 ? 4 : 3 : off <= 64 * TEXTURE_OFF ? 1 : 0;
+    t->bent = off <= 64 * TEXTURE_OFF;
+    /* What a parabola leaves falls with the cube. */
+    uint32_t rest = t->bent ? off * (change * n >> 4) >> 13 : 0;
+    t->block_shift = !t->bent ? 0 : rest <= TEXTURE_OFF ? 4 : rest <= 8 * TEXTURE_OFF ? 3 : 2;
 }
 
 /* Coordinates, which need no perspective. */

@@ -43,7 +43,7 @@ enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel of a be
 struct texture_setup {
     enum texture_mode mode;
     bool turns;
-    bool bent;              /* parabolas, in pieces of 4 pixels; else chords */
+    bool bent;              /* parabolas, in pieces of 2 pixels; else chords */
     uint8_t block_shift;    /* log2 of pixels in a block, at most 4 */
     int8_t shift;           /* what planes yield is turns in 2^(32 - shift). Texels, quadratic: to the right */
     struct plane q;         /* quadratic: 3/2 - q over its middle, q32. Divided: q */

@@ -84,7 +84,7 @@ SMEAR_INLINE void point_step(struct texture_point *p, const struct setup *s, int
 }
 
 /* Coordinates between the ends of a block of n <= 16 pixels. Along a row u'' = -2 u' q'/q: with the chord's step d and
- * b = d q'/q, the parabola from the chord's start to its end has steps d + b (n - 4), 8 b less every 4 pixels. */
+ * b = d q'/q, the parabola from the chord's start to its end has steps d + b (n - 2), 4 b less every 2 pixels. */
 SMEAR_INLINE void run_between(struct smear_texture_run *r, const struct texture_setup *t,
                               const struct texture_point *a, const struct texture_point *b, int32_t n, bool turns)
 {
@@ -104,10 +104,10 @@ SMEAR_INLINE void run_between(struct smear_texture_run *r, const struct texture_
         int32_t rate = t->mode == TEXTURE_QUADRATIC ? (t->slope * (a->nearness + b->nearness)) >> 17
                                                     : (a->nearness + b->nearness) >> 1;     /* q'/q, q16 */
         int32_t bu = (du >> 13) * rate, bv = (dv >> 13) * rate;     /* 8 b */
-        du += (bu >> 3) * (n - 4);
-        dv += (bv >> 3) * (n - 4);
-        r->bend_u = 0u - ((uint32_t)bu << up);
-        r->bend_v = 0u - ((uint32_t)bv << up);
+        du += (bu >> 3) * (n - 2);
+        dv += (bv >> 3) * (n - 2);
+        r->bend_u = 0u - ((uint32_t)(bu >> 1) << up);
+        r->bend_v = 0u - ((uint32_t)(bv >> 1) << up);
     }
     r->du = (uint32_t)du << up;
     r->dv = (uint32_t)dv << up;
@@ -189,22 +189,25 @@ SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int lo
         w.x += count;
         a += n;
         if (skip > 0) {             /* a cut of the frame within the block: to the end of a piece, then on */
-            for (; skip >= 4; skip -= 4) {
-                uv += 4 * step;
+            for (; skip >= 2; skip -= 2) {
+                uv += 2 * step;
                 step += bend;
             }
-            uv += step * (uint32_t)skip;
-            rest = max_i32(n - (4 - skip), 0);
-            n -= rest;
+            if (skip != 0) {
+                uv += step;
+                rest = n - 1;
+                n = 1;
+            }
         }
         for (;;) {
-            for (; n >= 4; n -= 4) {
+            for (; n >= 4; n -= 4, depth += 4, color += 4) {
                 texel_pixel(color, depth, z, texels, uv, log2_width, log2_height);
                 z += dz;
                 uv += step;
                 texel_pixel(color + 1, depth + 1, z, texels, uv, log2_width, log2_height);
                 z += dz;
                 uv += step;
+                step += bend;
                 texel_pixel(color + 2, depth + 2, z, texels, uv, log2_width, log2_height);
                 z += dz;
                 uv += step;
@@ -212,10 +215,20 @@ SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int lo
                 z += dz;
                 uv += step;
                 step += bend;
-                depth += 4;
-                color += 4;
             }
-            for (; n > 0; n--) {
+            if (n >= 2) {
+                texel_pixel(color, depth, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                texel_pixel(color + 1, depth + 1, z, texels, uv, log2_width, log2_height);
+                z += dz;
+                uv += step;
+                step += bend;
+                n -= 2;
+                depth += 2;
+                color += 2;
+            }
+            if (n != 0) {
                 texel_pixel(color++, depth++, z, texels, uv, log2_width, log2_height);
                 z += dz;
                 uv += step;

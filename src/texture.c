@@ -124,13 +124,13 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
         sample_chord(out, s, &r, n);
         return;
     }
-    for (; n > 0; first -= 4) {
-        int skip = min_i32(first, 4);
+    for (; n > 0; first -= 2) {
+        int skip = min_i32(first, 2);
         if (skip > 0) {
             r.u += r.du * (uint32_t)skip;
             r.v += r.dv * (uint32_t)skip;
         }
-        int count = min_i32(4 - max_i32(skip, 0), n);
+        int count = min_i32(2 - max_i32(skip, 0), n);
         sample_chord(out, s, &r, count);
         out += count;
         n -= count;

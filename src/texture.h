@@ -37,7 +37,7 @@ static inline int32_t sampler_texel_v(const struct smear_sampler *s, int32_t rat
     return s->shift_v >= 0 ? shl_wrap(t, s->shift_v) : t >> -s->shift_v;
 }
 
-/* Coordinates of a block of pixels, in turns or in texels q16: pieces of 4 pixels whose steps change by the bend. */
+/* Coordinates of a block of pixels, in turns or in texels q16: pieces of 2 pixels whose steps change by the bend. */
 struct smear_texture_run {
     uint32_t u, v, du, dv;
     uint32_t bend_u, bend_v;
