@@ -51,6 +51,16 @@ static smear_texture texture_of(int32_t width, int32_t height, int format, int w
     };
 }
 
+/* n texels from (u, v) on, q16 texels, in steps. Samplers that count in turns get them so. */
+static void sample(uint32_t *out, const struct smear_sampler *s, int32_t u, int32_t v, int32_t du, int32_t dv, int n)
+{
+    int up_u = s->turns ? 16 - s->log2_width : 0, up_v = s->turns ? 16 - s->log2_height : 0;
+    const struct smear_texture_run run = {
+        .u = (uint32_t)u << up_u, .v = (uint32_t)v << up_v, .du = (uint32_t)du << up_u, .dv = (uint32_t)dv << up_v
+    };
+    smear_sample(out, s, &run, 0, n);
+}
+
 static int64_t floor_divide(int64_t a, int64_t b)
 {
     int64_t q = a / b;
@@ -101,7 +111,7 @@ static void test_nearest_texels_are_those_at_the_floor_of_the_coordinate(void)
         uint32_t out[RUN_PIXELS + 1];
         int count = between(1, RUN_PIXELS);
         out[count] = 0x5a5a5a5au;
-        smear_sample(out, &s, u, v, du, dv, count);
+        sample(out, &s, u, v, du, dv, count);
         for (int i = 0; i < count; i++) {
             int64_t at_u = floor_divide((int64_t)u + (int64_t)i * du, 65536);
             int64_t at_v = floor_divide((int64_t)v + (int64_t)i * dv, 65536);
@@ -123,11 +133,47 @@ static void test_powers_of_two_repeat_without_end(void)
     for (int n = 0; n < 200; n++) {
         int32_t u = (int32_t)random_u32(), v = (int32_t)random_u32(), du = (int32_t)random_u32();
         uint32_t out[8];
-        smear_sample(out, &s, u, v, du, 0x7fffffff, 8);
+        sample(out, &s, u, v, du, 0x7fffffff, 8);
         for (int i = 0; i < 8; i++) {
             int64_t at_u = (int64_t)u + (int64_t)i * du, at_v = (int64_t)v + (int64_t)i * 0x7fffffff;
             CHECK_EQ(out[i], texel_at(&t, floor_divide(at_u, 65536), floor_divide(at_v, 65536)));
         }
+    }
+}
+
+static void test_bent_runs_change_their_step_every_four_pixels_wherever_they_are_cut(void)
+{
+    random_state = 5;
+    random_texels();
+    for (int n = 0; n < 300; n++) {
+        smear_texture t = texture_of(sizes[n % SIZES][0], sizes[n % SIZES][1], n / 3 % 3, n % 3, n / 9 % 3);
+        struct smear_sampler s;
+        smear_sampler_make(&s, &t, 15, n % 5 == 0, false);
+        const struct smear_texture_run run = {
+            .u = (uint32_t)between(-(1 << 20), 1 << 20), .v = (uint32_t)between(-(1 << 20), 1 << 20),
+            .du = (uint32_t)between(-100000, 100000), .dv = (uint32_t)between(-100000, 100000),
+            .bend_u = (uint32_t)between(-9000, 9000), .bend_v = (uint32_t)between(-9000, 9000)
+        };
+        /* Pixel by pixel: each as a run of one. */
+        uint32_t want[16], out[17];
+        struct smear_texture_run at = run;
+        for (int i = 0; i < 16; i++) {
+            struct smear_texture_run one = { .u = at.u, .v = at.v };
+            smear_sample(&want[i], &s, &one, 0, 1);
+            at.u += at.du;
+            at.v += at.dv;
+            if (i % 4 == 3) {
+                at.du += run.bend_u;
+                at.dv += run.bend_v;
+            }
+        }
+        int first = between(0, 15), count = between(1, 16 - first);
+        out[count] = 0x5a5a5a5au;
+        smear_sample(out, &s, &run, first, count);
+        for (int i = 0; i < count; i++)
+            if (!CHECK_EQ(out[i], want[first + i]))
+                return;
+        CHECK_EQ(out[count], 0x5a5a5a5au);
     }
 }
 
@@ -139,7 +185,7 @@ static void test_565_texels_are_expanded_to_the_nearest_code(void)
     for (uint32_t c = 0; c < 64; c++)
         texels565[c] = (uint16_t)((c & 31u) << 11 | c << 5 | (31u - (c & 31u)));
     uint32_t out[64];
-    smear_sample(out, &s, 32768, 0, 65536, 0, 64);
+    sample(out, &s, 32768, 0, 65536, 0, 64);
     for (uint32_t c = 0; c < 64; c++) {
         CHECK_EQ(out[c] >> 24, 255);
         CHECK_EQ(out[c] >> 16 & 255u, expanded(c & 31u, 31));
@@ -168,7 +214,7 @@ static void test_bilinear_texels_are_the_mean_of_four_around(void)
         smear_sampler_make(&s, &t, 15, true, linear);
         int32_t u = between(-(1 << 24), 1 << 24), v = between(-(1 << 24), 1 << 24);
         uint32_t out;
-        smear_sample(&out, &s, u, v, 0, 0, 1);
+        sample(&out, &s, u, v, 0, 0, 1);
         /* Centres of texels lie at halves. */
         int64_t iu = floor_divide((int64_t)u - 32768, 65536), iv = floor_divide((int64_t)v - 32768, 65536);
         int64_t fu = (int64_t)u - 32768 - iu * 65536, fv = (int64_t)v - 32768 - iv * 65536;
@@ -200,7 +246,7 @@ static void test_bilinear_texels_of_one_colour_are_that_colour(void)
             struct smear_sampler s;
             smear_sampler_make(&s, &t, 15, true, linear);
             uint32_t out[16];
-            smear_sample(out, &s, 12345, -54321, 7777, 3333, 16);
+            sample(out, &s, 12345, -54321, 7777, 3333, 16);
             for (int i = 0; i < 16; i++)
                 if (!CHECK_EQ(out[i], code * 0x01010101u))
                     return;
@@ -242,6 +288,7 @@ void suite_texture(void)
 {
     RUN(test_nearest_texels_are_those_at_the_floor_of_the_coordinate);
     RUN(test_powers_of_two_repeat_without_end);
+    RUN(test_bent_runs_change_their_step_every_four_pixels_wherever_they_are_cut);
     RUN(test_565_texels_are_expanded_to_the_nearest_code);
     RUN(test_bilinear_texels_are_the_mean_of_four_around);
     RUN(test_bilinear_texels_of_one_colour_are_that_colour);
