@@ -38,7 +38,7 @@ MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(patsubst %,tools/cli/%.c,device crew picture say planes sink memory)
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
 
@@ -48,7 +48,7 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo test bench layers tables clean
+.PHONY: all help demo readme-pictures test bench layers tables clean
 ## the program build/smear and the library (build/host/libsmear.a)
 all: $(BIN)/smear
 
@@ -80,6 +80,10 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+## pictures of the README again
+readme-pictures: $(BIN)/smear-demo
+	$(BIN)/smear-demo --readme $(or $(wildcard ../shared/assets),-) tools/demo/pictures
 
 ## files of src/ include only what lies above them
 layers:
