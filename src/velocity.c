@@ -55,13 +55,13 @@ void smear_setup_velocity(struct setup *s)
         }
         longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
     }
-    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. */
-    s->clamp_velocity = !in_front || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
-                                     >= (uint32_t)s->frame->reach_q3;
-
     /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
     s->velocity_affine = in_front
         && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
+    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where depths change,
+     * pixels may go further than their vertices. */
+    s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
+                                               >= (uint32_t)s->frame->reach_q3;
     if (s->velocity_affine) {
         const int32_t limit = (1 << 20) - 1;
         for (int i = 0; i < 3; i++) {
@@ -197,17 +197,18 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
                 step[i] = (int32_t)((int64_t)(stored_next[i] - stored[i]) * inverse[n] >> 16);
-                wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 16);
+                if (t->inspect != NULL)
+                    wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }
         }
         int32_t stop = min_i32(n > 0 ? end : x + 1, p->b);
-        int32_t vx = stored[0], vy = stored[1], ix = here[0], iy = here[1];
+        int32_t vx = stored[0], vy = stored[1], ix = here[0] * 64 + 32, iy = here[1] * 64 + 32;    /* q16, q14 */
         for (; x < stop; x++, at++, z += (uint32_t)p->dz) {
             if (is_drawn(p, x - p->a, z, depth)) {
                 velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
                 if (t->inspect != NULL) {
-                    t->inspect[2 * at] = (int32_t)((int64_t)ix * s->frame->inspect_scale >> 16);
-                    t->inspect[2 * at + 1] = (int32_t)((int64_t)iy * s->frame->inspect_scale >> 16);
+                    t->inspect[2 * at] = (int32_t)((int64_t)ix * s->frame->inspect_scale >> 22);
+                    t->inspect[2 * at + 1] = (int32_t)((int64_t)iy * s->frame->inspect_scale >> 22);
                 }
             }
             vx += step[0];
