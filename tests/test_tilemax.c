@@ -251,29 +251,88 @@ static void test_with_the_corner_rule_a_diagonal_counts_only_when_it_points_here
     CHECK_EQ(neighborhood_of(1, 1, 2, true)->x, 0);
 }
 
+static void set_all(int x, int y)
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            set_motion(row, column, x, y);
+            window_around(&window, row)[column].rough = 0;
+        }
+}
+
 static void test_classes_tell_still_alike_and_mixed_motion(void)
 {
     make_window(24, 24, 24, false);
+    set_all(0, 0);
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_STILL);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++)
-            set_motion(r, c, 80 + r, -40 + c);
+    set_all(80, -40);
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
-    set_motion(2, 2, 80, 60);
-    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
-    /* A still tile beside fast ones is mixed motion; beside one that all but stands, it is not. */
-    make_window(24, 24, 24, false);
-    set_motion(0, 0, 40, 0);
-    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
-    set_motion(0, 0, 3, 0);
+    set_motion(2, 2, 82, -42);
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
-    /* A pixel that moves against the others is seen by its tile's extremes. */
-    make_window(24, 24, 24, false);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++)
-            set_motion(r, c, 80, 0);
-    window_motion(&window, 0)[0].min_x = -80;
+    set_motion(2, 2, 80, 60);               /* another way */
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
+    set_all(0, 0);                          /* still beside fast */
+    set_motion(0, 0, 60, 60);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
+    set_motion(0, 0, 3, 0);                 /* still beside what all but stands */
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
+}
+
+static void test_motion_that_changes_without_a_step_is_uniform(void)
+{
+    make_window(24, 24, 24, false);
+    for (int row = 0; row < 3; row++)       /* zooming: neighbours' ranges meet */
+        for (int column = 0; column < 3; column++) {
+            set_motion(row, column, 40 * (column - 1), 40 * (row - 1));
+            struct smear_tile_motion *m = &window_motion(&window, row)[column];
+            m->min_x = (int16_t)(40 * (column - 1) - 18);
+            m->max_x = (int16_t)(40 * (column - 1) + 18);
+            m->min_y = (int16_t)(40 * (row - 1) - 18);
+            m->max_y = (int16_t)(40 * (row - 1) + 18);
+            window_around(&window, row)[column].rough = 5;
+        }
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
+    window_around(&window, 1)[1].rough = 60;        /* a step within the tile */
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
+}
+
+static void test_rows_apart_do_not_matter_to_motion_along_the_row(void)
+{
+    make_window(24, 24, 24, false);
+    set_all(80, 0);
+    set_motion(0, 1, -80, 0);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
+    set_all(80, 0);
+    set_motion(1, 0, -80, 0);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
+    set_all(0, 80);
+    set_motion(1, 0, 0, -80);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
+    set_motion(0, 1, 0, -80);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_COMPLEX);
+}
+
+static void test_roughness_is_the_largest_step_to_the_left_or_above(void)
+{
+    for (int is_wide = 0; is_wide < 2; is_wide++) {
+        make_window(24, 24, 24, is_wide);
+        for (int y = 0; y < 24; y++)
+            for (int x = 0; x < 24; x++)
+                set_velocity(x, y, 2 * x, 3 * y);
+        smear_tilemax(&window, 1, 1);
+        CHECK_EQ(window_around(&window, 1)[1].rough, 3);
+        set_velocity(7, 9, 14 - 40, 27);            /* the pixel left of the tile */
+        smear_tilemax(&window, 1, 1);
+        CHECK_EQ(window_around(&window, 1)[1].rough, 42);
+        set_velocity(12, 7, 24, 21 + 60);           /* the pixel above the tile */
+        smear_tilemax(&window, 1, 1);
+        CHECK_EQ(window_around(&window, 1)[1].rough, 57);
+        set_velocity(16, 9, -100, 0);               /* the one to the right belongs to its own tile */
+        smear_tilemax(&window, 1, 1);
+        CHECK_EQ(window_around(&window, 1)[1].rough, 57);
+        smear_tilemax(&window, 0, 0);               /* nothing left of or above the frame */
+        CHECK_EQ(window_around(&window, 0)[0].rough, 3);
+    }
 }
 
 void suite_tilemax(void)
@@ -288,4 +347,7 @@ void suite_tilemax(void)
     RUN(test_rows_not_yet_known_are_not_looked_at);
     RUN(test_with_the_corner_rule_a_diagonal_counts_only_when_it_points_here);
     RUN(test_classes_tell_still_alike_and_mixed_motion);
+    RUN(test_motion_that_changes_without_a_step_is_uniform);
+    RUN(test_rows_apart_do_not_matter_to_motion_along_the_row);
+    RUN(test_roughness_is_the_largest_step_to_the_left_or_above);
 }
