@@ -127,6 +127,8 @@ static void direction_make(struct direction *d, const struct gathering *g,
     };
     d->v = (struct vector){ around->x, around->y };
     d->length = length_of(around->x, around->y);
+    /* What makes all taps lie in the table of rows: less than the half pixel from a centre to the border. */
+    SMEAR_ASSERT(d->length <= (g->w->reach << 8) + 64);
     /* A pair per 2 px; whether it is that long, the exact square decides. */
     int32_t pairs = (d->length + 1) >> 9;
     if (around->x * around->x + around->y * around->y < pairs * pairs << 18)
@@ -392,6 +394,7 @@ struct choice {
     struct direction direction[9];
     const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */
     bool alike;                         /* no need to look */
+    bool gathers;                       /* one of them is long enough */
 };
 
 static void choice_make(struct choice *c, const struct gathering *g, int32_t row, int32_t column)
@@ -400,6 +403,7 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
     const struct smear_tile_neighborhood *own = &window_around(w, row)[column];
     c->alike = true;
     direction_make(&c->direction[4], g, own);
+    c->gathers = c->direction[4].pairs != 0;
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {
             int32_t line = clamp_i32(row + dy, 0, w->rows - 1);
@@ -409,6 +413,7 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
             if (other->x != own->x || other->y != own->y) {
                 d = &c->direction[3 * dy + dx + 4];
                 direction_make(d, g, other);
+                c->gathers = c->gathers || d->pairs != 0;
                 c->alike = false;
             }
             c->at[dy + 1][dx + 1] = d;
@@ -480,6 +485,10 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
     if (settings->orthographic)
         g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     choice_make(&choice, &g, row, column);
+    if (!choice.gathers) {
+        smear_blur_copy(out, w, row, column);
+        return 0;
+    }
     int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift;
     bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
     g.x0 = x0;

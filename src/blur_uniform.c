@@ -96,17 +96,21 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings)
 {
+    const struct smear_tile_motion *m = &window_motion(w, row)[column];
+    /* Below 1 px the only pair, half way, would not leave the pixel. */
+    if (max_i32(m->max_x, -m->min_x) < 8 && max_i32(m->max_y, -m->min_y) < 8) {
+        smear_blur_copy(out, w, row, column);
+        return 0;
+    }
     /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In
      * pairs. */
-    const struct smear_tile_motion *m = &window_motion(w, row)[column];
     int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> 2;                       /* px */
     int32_t n = min_i32(travel + 3, clamp_i32(settings->samples, 2, 128) * 2) >> 2 << 1;
     n = max_i32(n, 2);
     int32_t x0 = column << w->tile_shift;
     bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
     if (settings->linear)
-        return edge ? mean_tile(out, w, rows, row, column, n, true, true)
-                    : mean_tile(out, w, rows, row, column, n, true, false);
+        return mean_tile(out, w, rows, row, column, n, true, true);
     return edge ? mean_tile(out, w, rows, row, column, n, false, true)
                 : mean_tile(out, w, rows, row, column, n, false, false);
 }
