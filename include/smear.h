@@ -166,7 +166,8 @@ enum {
     SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
     SMEAR_BOX       = 4,    /* box shutter instead of the tent */
     SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
-    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike: plain mean along the pixel's own velocity */
+    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the pixel's
+                             * own velocity; motion below a pixel stays as it is */
 };
 
 typedef struct smear_frame {

@@ -491,22 +491,46 @@ static struct smear_row_table row_table(const struct smear_context *c, int row)
     return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
 }
 
+static bool is_still(const struct smear_window *w, int row, int column)
+{
+    return window_around(w, row)[column].kind == TILE_STILL;
+}
+
+/* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
+static void convert_still(struct smear_context *c, const struct row_job *r, int column)
+{
+    const struct smear_window *w = &c->window;
+    if (column > 0 && is_still(w, r->row, column - 1))
+        return;
+    int end = column + 1;
+    while (end < w->columns && is_still(w, r->row, end))
+        end++;
+    smear_format format = (smear_format)c->desc.format;
+    uint32_t stride = smear_convert_stride(w->width, format);
+    int32_t x0 = column << w->tile_shift, x1 = min_i32(end << w->tile_shift, w->width);
+    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++)
+        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
+                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
+}
+
 static void tile_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
+    if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
+        convert_still(c, r, column);
+        return;
+    }
     struct smear_row_table rows = row_table(c, r->row);
     uint32_t *tile = c->scratch + worker * w->tile * w->tile;
     uint8_t kind = window_around(w, r->row)[column].kind;
-
     if (kind == TILE_STILL)
         smear_blur_copy(tile, w, r->row, column);
     else if (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM))
         c->worker_samples[worker] += smear_blur_uniform(tile, w, &rows, r->row, column, &c->blur);
     else
         c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
-
     if (c->blend != SMEAR_NO_TRIANGLE)
         blend_tile(c, r->row, column, tile);
 

@@ -117,7 +117,7 @@ static void complete_bench(struct spec *spec)
     spec->desc.height = 240;
     spec->desc.format = SMEAR_RGB565;
     spec->desc.dither = SMEAR_DITHER_NONE;
-    spec->desc.vertex_cache = 512;
+    spec->desc.vertex_cache = 4096;
     spec->present.light = SMEAR_LIGHT_ENCODED;
     spec->desc.sharp = spec->present.method == SMEAR_NONE;
 }
