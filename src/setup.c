@@ -92,7 +92,7 @@ static inline int32_t times_q16(int32_t a, int32_t q)
 void smear_setup_color(struct setup *s)
 {
     s->perspective_color = false;
-    s->color_shift = 4;
+    s->color_block = 16;
     if (s->segment->shade != SHADE_GOURAUD)
         return;
     int channels = s->draw->alpha == SMEAR_OPAQUE ? 3 : 4;
@@ -116,7 +116,7 @@ void smear_setup_color(struct setup *s)
     if (s->perspective_color) {     /* and one within a block, where 1/w changes by no more than this */
         uint32_t over_16 = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
         uint32_t off = smear_times_over(min_u32(over_16, (uint32_t)(high_q - low_q)), range >> 8, (uint32_t)low_q);
-        s->color_shift = off <= 4u * 256u ? 4 : off <= 16u * 256u ? 3 : 2;
+        s->color_block = off <= 4u * 256u ? 16 : off <= 16u * 256u ? 8 : 4;
     }
     for (int c = 0; c < channels; c++) {
         for (int i = 0; i < 3 && s->perspective_color; i++)
@@ -180,20 +180,19 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
 
 /* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row there can be;
  * `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of their length; a parabola in
- * pieces of 2 pixels errs as a chord of 2, if q changes by less than a third. */
+ * pieces of 2 pixels errs as a chord of 2 and by a part that falls with the cube. */
 static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
 {
     uint32_t n = (uint32_t)min_i32(width, 16);
     if (off < 1u << 20)
         off = off * (n * n) >> 8;
     t->bent = false;
-    t->block_shift = 4;
+    t->block = 16;
     if (off <= TEXTURE_OFF)
         return;
-    t->bent = off <= 64 * TEXTURE_OFF;
-    /* What a parabola leaves falls with the cube. */
+    t->bent = off <= 64 * TEXTURE_OFF && change <= 4096;
     uint32_t rest = t->bent ? off * (change * n >> 4) >> 13 : 0;
-    t->block_shift = !t->bent ? 0 : rest <= TEXTURE_OFF ? 4 : rest <= 8 * TEXTURE_OFF ? 3 : 2;
+    t->block = !t->bent ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
 }
 
 /* Coordinates, which need no perspective. */
@@ -202,8 +201,9 @@ static void setup_affine(struct setup *s, const int32_t u[3], const int32_t v[3]
     struct texture_setup *t = &s->texture;
     const struct smear_sampler *m = &s->draw->sampler;
     t->mode = TEXTURE_AFFINE;
+    t->q = (struct plane){ 0, 0, 0 };
     t->bent = false;
-    t->block_shift = 4;
+    t->block = 16;
     int32_t a[3], b[3];
     for (int i = 0; i < 3; i++) {
         a[i] = t->turns ? u[i] * 16384 : sampler_texel_u(m, u[i] * 16384);
@@ -372,12 +372,12 @@ void smear_setup_texture(struct setup *s)
                    : smear_times_over((uint32_t)(high_q - low_q), travel, (uint32_t)low_q) >> 2;
     if (error <= TEXTURE_OFF) {
         setup_affine(s, u, v);
-        t->block_shift = s->color_shift;
-        return;
+    } else {
+        struct seen seen;
+        seen_find(&seen, s, low_q, high_q);
+        if (!setup_quadratic(s, u, v, q, high_q, &seen))
+            setup_divided(s, u, v, q, &seen);
     }
-    struct seen seen;
-    seen_find(&seen, s, low_q, high_q);
-    if (!setup_quadratic(s, u, v, q, high_q, &seen))
-        setup_divided(s, u, v, q, &seen);
-    t->block_shift = (uint8_t)min_i32(t->block_shift, s->color_shift);      /* one walk for both */
+    t->up = t->turns ? (uint8_t)t->shift : 0;
+    t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
 }

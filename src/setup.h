@@ -35,16 +35,17 @@ enum texture_mode {
     TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
 };
 
+enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel in a bent block, q16 of q itself */
+
 /* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what repeats) or,
  * where textures do not repeat by their bits, in texels q16. They are exact at the ends of blocks of pixels, and run
  * along a chord or a parabola between. */
-enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel of a bent run, q16 of q itself */
-
 struct texture_setup {
     enum texture_mode mode;
     bool turns;
     bool bent;              /* parabolas, in pieces of 2 pixels; else chords */
-    uint8_t block_shift;    /* log2 of pixels in a block, at most 4 */
+    uint8_t block;          /* pixels: 1, 4, 8 or 16 */
+    uint8_t up;             /* turns: shift; texels: 0 */
     int8_t shift;           /* what planes yield is turns in 2^(32 - shift). Texels, quadratic: to the right */
     struct plane q;         /* quadratic: 3/2 - q over its middle, q32. Divided: q */
     struct plane u, v;      /* affine: coordinates. Divided: mesh units over w */
@@ -69,7 +70,7 @@ struct setup {
 
     uint32_t color;                 /* 0xAARRGGBB: flat */
     struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or linear >> 8) in q16, see channel_value */
-    uint8_t color_shift;            /* log2 of pixels in a block of perspective colours, 2 .. 4 */
+    uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
 
     struct texture_setup texture;

@@ -29,67 +29,70 @@ static void span_flat(const struct setup *s, const struct span *p)
 
 /* ------------------------------------------------------------------ texture coordinates */
 
-/* Planes at a pixel, and the coordinates that follow from them. */
-struct texture_point {
-    int32_t q, u, v;
-    int32_t at_u, at_v;     /* texels q16, or turns 2^(32 - shift) */
+/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the pixel at
+ * its end as well. */
+struct walk {
+    int32_t x, last;        /* where the next block begins; the span's last pixel */
+    int32_t start;          /* where the one before began */
+    int32_t q, u, v;        /* planes there */
+    int32_t at_u, at_v;     /* coordinates there: texels q16, or turns 2^(32 - shift) */
     int32_t nearness;       /* quadratic: middle / (k q), q15. Divided: relative change of q per pixel, q16 */
+    struct smear_texture_run run;       /* of the block before x */
 };
 
-SMEAR_INLINE void point_find(struct texture_point *p, const struct texture_setup *t, const struct smear_sampler *m,
-                             bool turns)
+/* Coordinates from planes. Slivers, whose planes are anything, give anything: it wraps. */
+SMEAR_INLINE void walk_find(struct walk *w, const struct setup *s)
 {
+    const struct texture_setup *t = &s->texture;
     if (t->mode == TEXTURE_QUADRATIC) {
-        uint32_t w = (uint32_t)p->q >> 16, k = t->recip_base + (w * w >> 17);
-        int32_t u = (p->u >> 16) * (int32_t)k, v = (p->v >> 16) * (int32_t)k;
-        p->at_u = t->u_base + (turns ? u : u >> t->shift);
-        p->at_v = t->v_base + (turns ? v : v >> t->shift);
-        p->nearness = (int32_t)k;
+        uint32_t n = (uint32_t)w->q >> 16, k = t->recip_base + (n * n >> 17);
+        int32_t u = (w->u >> 16) * (int32_t)k, v = (w->v >> 16) * (int32_t)k;
+        w->nearness = (int32_t)k;
+        if (!t->turns) {
+            u >>= t->shift;
+            v >>= t->shift;
+        }
+        w->at_u = add_wrap(t->u_base, u);
+        w->at_v = add_wrap(t->v_base, v);
     } else if (t->mode == TEXTURE_AFFINE) {
-        p->at_u = p->u;
-        p->at_v = p->v;
-        p->nearness = 0;
+        w->at_u = w->u;
+        w->at_v = w->v;
     } else {
-        uint32_t q = (uint32_t)max_i32(p->q, 1 << 11);
-        int zeros = count_leading_zeros(q);
+        uint32_t q = (uint32_t)max_i32(w->q, 1 << 11);
+        int zeros = count_leading_zeros(q);                     /* at least 1 */
         int32_t r = (int32_t)recip_norm(q << zeros);            /* 1/q = r 2^(zeros - 61) */
-        /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2) fits; its quotient is the ratio in q27. zeros is
-         * at least 1. */
-        int32_t u = mulh_i32(shl_wrap(p->u >> 1, zeros - 1), r);
-        int32_t v = mulh_i32(shl_wrap(p->v >> 1, zeros - 1), r);
-        p->at_u = turns ? u : sampler_texel_u(m, shl_wrap(u, 2));
-        p->at_v = turns ? v : sampler_texel_v(m, shl_wrap(v, 2));
-        p->nearness = t->bent ? clamp_i32(mulh_i32(t->slope, r) >> (20 - zeros), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX)
-                              : 0;
+        /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2) fits; its quotient is the ratio in q27. */
+        int32_t u = mulh_i32(shl_wrap(w->u >> 1, zeros - 1), r);
+        int32_t v = mulh_i32(shl_wrap(w->v >> 1, zeros - 1), r);
+        const struct smear_sampler *m = &s->draw->sampler;
+        w->at_u = t->turns ? u : sampler_texel_u(m, shl_wrap(u, 2));
+        w->at_v = t->turns ? v : sampler_texel_v(m, shl_wrap(v, 2));
+        if (t->bent)
+            w->nearness = mulh_i32(t->slope, r) >> (20 - zeros);
     }
 }
 
-SMEAR_INLINE void point_start(struct texture_point *p, const struct setup *s, int32_t x, int32_t y, bool turns)
+/* Goes on by a block; returns how many pixels it has.
+ *
+ * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start to its end
+ * has steps d + b (n - 2), 4 b less every 2 pixels. */
+SMEAR_INLINE int32_t walk_on(struct walk *w, const struct setup *s)
 {
     const struct texture_setup *t = &s->texture;
-    p->q = t->mode != TEXTURE_AFFINE ? plane_at(&t->q, x, y) : 0;
-    p->u = plane_at(&t->u, x, y);
-    p->v = plane_at(&t->v, x, y);
-    point_find(p, t, &s->draw->sampler, turns);
-}
-
-SMEAR_INLINE void point_step(struct texture_point *p, const struct setup *s, int32_t n, bool turns)
-{
-    const struct texture_setup *t = &s->texture;
-    if (t->mode != TEXTURE_AFFINE)
-        p->q = add_wrap(p->q, mul_wrap(t->q.dx, n));
-    p->u = add_wrap(p->u, mul_wrap(t->u.dx, n));
-    p->v = add_wrap(p->v, mul_wrap(t->v.dx, n));
-    point_find(p, t, &s->draw->sampler, turns);
-}
-
-/* Coordinates between the ends of a block of n <= 16 pixels. Along a row u'' = -2 u' q'/q: with the chord's step d and
- * b = d q'/q, the parabola from the chord's start to its end has steps d + b (n - 2), 4 b less every 2 pixels. */
-SMEAR_INLINE void run_between(struct smear_texture_run *r, const struct texture_setup *t,
-                              const struct texture_point *a, const struct texture_point *b, int32_t n, bool turns)
-{
-    int32_t du = sub_wrap(b->at_u, a->at_u), dv = sub_wrap(b->at_v, a->at_v);
-    int up = turns ? t->shift : 0;
+    const int up = t->up;
+    int32_t n = min_i32(t->block, w->last - w->x);
+    w->run.at = packed_uv((uint32_t)w->at_u << up, (uint32_t)w->at_v << up);
+    w->run.bend = 0;
+    w->start = w->x;
+    if (n == 0)
+        return 1;
+    int32_t u = w->at_u, v = w->at_v, nearness = w->nearness;
+    w->x += n;
+    w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
+    w->u = add_wrap(w->u, mul_wrap(t->u.dx, n));
+    w->v = add_wrap(w->v, mul_wrap(t->v.dx, n));
+    walk_find(w, s);
+    int32_t du = sub_wrap(w->at_u, u), dv = sub_wrap(w->at_v, v);
     if (n == BLOCK_MAX) {
         du >>= 4;
         dv >>= 4;
@@ -97,62 +100,44 @@ SMEAR_INLINE void run_between(struct smear_texture_run *r, const struct texture_
         du = mulh_i32(du, inverse[n]) * 4;
         dv = mulh_i32(dv, inverse[n]) * 4;
     }
-    r->u = (uint32_t)a->at_u << up;
-    r->v = (uint32_t)a->at_v << up;
-    r->bend_u = r->bend_v = 0;
     if (t->bent) {
-        int32_t rate = t->mode == TEXTURE_QUADRATIC ? (t->slope * (a->nearness + b->nearness)) >> 17
-                                                    : (a->nearness + b->nearness) >> 1;     /* q'/q, q16 */
-        int32_t bu = (du >> 13) * rate, bv = (dv >> 13) * rate;     /* 8 b */
-        du += (bu >> 3) * (n - 2);
-        dv += (bv >> 3) * (n - 2);
-        r->bend_u = 0u - ((uint32_t)(bu >> 1) << up);
-        r->bend_v = 0u - ((uint32_t)(bv >> 1) << up);
+        nearness += w->nearness;                                                /* q'/q, q16: */
+        int32_t rate = t->mode == TEXTURE_QUADRATIC ? mul_wrap(t->slope, nearness) >> 17 : nearness >> 1;
+        int32_t bu = mul_wrap(du >> 13, rate) >> 1, bv = mul_wrap(dv >> 13, rate) >> 1;     /* 4 b */
+        du = add_wrap(du, mul_wrap(bu >> 2, n - 2));
+        dv = add_wrap(dv, mul_wrap(bv >> 2, n - 2));
+        w->run.bend = 0u - packed_step((uint32_t)bu << up, (uint32_t)bv << up);
     }
-    r->du = (uint32_t)du << up;
-    r->dv = (uint32_t)dv << up;
+    w->run.step = packed_step((uint32_t)du << up, (uint32_t)dv << up);
+    return n + (w->x == w->last);
 }
 
-/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the pixel at
- * its end as well. */
-struct texture_walk {
-    struct texture_point here, next;
-    int32_t x, last;        /* the block's first pixel; the span's last */
-};
+static SMEAR_NOINLINE int32_t walk_next(struct walk *w, const struct setup *s)
+{
+    return walk_on(w, s);
+}
 
-SMEAR_INLINE void walk_begin(struct texture_walk *w, const struct setup *s, const struct span *p, int block_shift)
+SMEAR_INLINE void walk_begin(struct walk *w, const struct setup *s, const struct span *p, int32_t block)
 {
     w->last = min_i32(p->right, s->frame->width) - 1;
     w->x = max_i32(p->left, 0);
-    w->x += max_i32(min_i32(p->a, w->last - 1) - w->x, 0) & -(1 << block_shift);
+    w->x += max_i32(min_i32(p->a, w->last - 1) - w->x, 0) & -block;
 }
 
-/* Fits a block; returns how many pixels it has. */
-SMEAR_INLINE int32_t walk_block(struct texture_walk *w, struct smear_texture_run *r, const struct setup *s, bool turns)
+/* The first block. */
+static SMEAR_NOINLINE int32_t walk_first(struct walk *w, const struct setup *s, const struct span *p)
 {
-    int32_t n = min_i32(1 << s->texture.block_shift, w->last - w->x);
-    w->here = w->next;
-    if (n == 0) {
-        int up = turns ? s->texture.shift : 0;
-        *r = (struct smear_texture_run){ .u = (uint32_t)w->here.at_u << up, .v = (uint32_t)w->here.at_v << up };
-        return 1;
-    }
-    point_step(&w->next, s, n, turns);
-    run_between(r, &s->texture, &w->here, &w->next, n, turns);
-    return n + (w->x + n == w->last);
+    const struct texture_setup *t = &s->texture;
+    walk_begin(w, s, p, t->block);
+    w->q = plane_at(&t->q, w->x, p->y);
+    w->u = plane_at(&t->u, w->x, p->y);
+    w->v = plane_at(&t->v, w->x, p->y);
+    w->nearness = 0;
+    walk_find(w, s);
+    return walk_on(w, s);
 }
 
 /* ------------------------------------------------------------------ plain texels */
-
-/* Both coordinates in turns share a word, u above v: one addition steps both (two where words have 32 bits), and what v
- * carries into u is 2^-32 of a turn. */
-static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)u << 32 | v; }
-
-/* Steps: v has a sign of its own, which it borrows from u. */
-static inline uint64_t packed_step(uint32_t du, uint32_t dv)
-{
-    return ((uint64_t)du << 32) + (uint64_t)(int64_t)(int32_t)dv;
-}
 
 SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
 {
@@ -163,9 +148,9 @@ SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
 SMEAR_INLINE void texel_pixel(uint32_t *color, uint16_t *depth, uint32_t z, const uint32_t *texels, uint64_t uv,
                               int log2_width, int log2_height)
 {
-    uint32_t code = z >> 16;
+    uint16_t code = (uint16_t)(z >> 16);
     if (code > *depth) {
-        *depth = (uint16_t)code;
+        *depth = code;
         *color = texels[packed_index(uv, log2_width, log2_height)];
     }
 }
@@ -178,15 +163,11 @@ SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int lo
     uint32_t *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
-    struct texture_walk w;
-    int32_t a = p->a;
-    walk_begin(&w, s, p, s->texture.block_shift);
-    point_start(&w.next, s, w.x, p->y, true);
-    do {
-        struct smear_texture_run r;
-        int32_t count = walk_block(&w, &r, s, true), skip = a - w.x, n = min_i32(w.x + count, p->b) - a, rest = 0;
-        uint64_t uv = packed_uv(r.u, r.v), step = packed_step(r.du, r.dv), bend = packed_step(r.bend_u, r.bend_v);
-        w.x += count;
+    struct walk w;
+    int32_t a = p->a, count = walk_first(&w, s, p);
+    for (;;) {
+        int32_t skip = a - w.start, n = min_i32(w.start + count, p->b) - a, rest = 0;
+        uint64_t uv = w.run.at, step = w.run.step, bend = w.run.bend;
         a += n;
         if (skip > 0) {             /* a cut of the frame within the block: to the end of a piece, then on */
             for (; skip >= 2; skip -= 2) {
@@ -239,7 +220,10 @@ SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int lo
             n = rest;
             rest = 0;
         }
-    } while (a < p->b);
+        if (a >= p->b)
+            return;
+        count = walk_next(&w, s);
+    }
 }
 
 static void span_texel_64(const struct setup *s, const struct span *p) { span_texel(s, p, 6, 6); }
@@ -383,6 +367,21 @@ static void write_block(const uint32_t *in, uint32_t *color, uint16_t *depth, ui
     }
 }
 
+/* Blocks without a texture. */
+static int32_t plain_next(struct walk *w, const struct setup *s)
+{
+    int32_t n = min_i32(s->color_block, w->last - w->x);
+    w->start = w->x;
+    w->x += n;
+    return n + (w->x == w->last);
+}
+
+static int32_t plain_first(struct walk *w, const struct setup *s, const struct span *p)
+{
+    walk_begin(w, s, p, s->color_block);
+    return plain_next(w, s);
+}
+
 /* In blocks: texels, then light, then the write. */
 static void span_general(const struct setup *s, const struct span *p)
 {
@@ -391,26 +390,20 @@ static void span_general(const struct setup *s, const struct span *p)
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
     bool textured = s->segment->uv != 0;
-    struct texture_walk w = { .x = 0 };
+    struct walk w;
     struct block k;
     k.x = p->a;
-    const int shift = textured ? s->texture.block_shift : s->color_shift;
-    walk_begin(&w, s, p, shift);
+    int32_t count, n;
     if (textured)
-        point_start(&w.next, s, w.x, p->y, s->texture.turns);
-    do {
-        int32_t count, n;
-        struct smear_texture_run r;
-        if (textured)
-            count = walk_block(&w, &r, s, s->texture.turns);
-        else
-            count = min_i32(1 << shift, w.last - w.x) + (w.last - w.x <= 1 << shift);
-        n = min_i32(w.x + count, p->b) - k.x;
-        k.start = w.x;
-        w.x += count;
-        k.end = min_i32(w.x, w.last);
+        count = walk_first(&w, s, p);
+    else
+        count = plain_first(&w, s, p);
+    for (;;) {
+        n = min_i32(w.start + count, p->b) - k.x;
+        k.start = w.start;
+        k.end = min_i32(w.start + count, w.last);
         if (textured) {
-            smear_sample(block, &s->draw->sampler, &r, k.x - k.start, n);
+            smear_sample(block, &s->draw->sampler, &w.run, k.x - k.start, n);
             if (s->segment->shade != SHADE_NONE)
                 modulate(block, s, p, &k, n);
         } else if (s->segment->shade == SHADE_GOURAUD) {
@@ -424,7 +417,10 @@ static void span_general(const struct setup *s, const struct span *p)
         color += n;
         depth += n;
         z += (uint32_t)p->dz * (uint32_t)n;
-    } while (k.x < p->b);
+        if (k.x >= p->b)
+            return;
+        count = textured ? walk_next(&w, s) : plain_next(&w, s);
+    }
 }
 
 smear_span_fn *smear_span_choose(const struct setup *s)

@@ -96,45 +96,41 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
     return mix_texels(top, bottom, fv, s->linear);
 }
 
-/* Texels along a chord, which is stepped on. */
-static void sample_chord(uint32_t *out, const struct smear_sampler *s, struct smear_texture_run *r, int n)
+/* Texels along a chord; returns the coordinate after it. */
+static uint64_t sample_chord(uint32_t *out, const struct smear_sampler *s, uint64_t at, uint64_t step, int n)
 {
-    uint32_t u = r->u, v = r->v, du = r->du, dv = r->dv;
     if (s->turns) {
-        for (; n > 0; n--, u += du, v += dv)
-            *out++ = fetch(s, sampler_index(s, u, v));
+        for (; n > 0; n--, at += step)
+            *out++ = fetch(s, sampler_index(s, (uint32_t)(at >> 32), (uint32_t)at));
     } else if (s->bilinear) {
-        for (; n > 0; n--, u += du, v += dv)
-            *out++ = sample_bilinear(s, (int32_t)u, (int32_t)v);
+        for (; n > 0; n--, at += step)
+            *out++ = sample_bilinear(s, (int32_t)(at >> 32), (int32_t)at);
     } else {
-        for (; n > 0; n--, u += du, v += dv)
-            *out++ = texel(s, (int32_t)u >> 16, (int32_t)v >> 16);
+        for (; n > 0; n--, at += step)
+            *out++ = texel(s, (int32_t)(at >> 32) >> 16, (int32_t)at >> 16);
     }
-    r->u = u;
-    r->v = v;
+    return at;
 }
 
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
                   int n)
 {
-    struct smear_texture_run r = *run;
-    if ((r.bend_u | r.bend_v) == 0) {
-        r.u += r.du * (uint32_t)first;
-        r.v += r.dv * (uint32_t)first;
-        sample_chord(out, s, &r, n);
+    uint64_t at = run->at, step = run->step;
+    if (run->bend == 0) {
+        for (; first > 0; first--)
+            at += step;
+        sample_chord(out, s, at, step, n);
         return;
     }
-    for (; n > 0; first -= 2) {
-        int skip = min_i32(first, 2);
-        if (skip > 0) {
-            r.u += r.du * (uint32_t)skip;
-            r.v += r.dv * (uint32_t)skip;
-        }
-        int count = min_i32(2 - max_i32(skip, 0), n);
-        sample_chord(out, s, &r, count);
+    for (; first >= 2; first -= 2, step += run->bend)
+        at += 2 * step;
+    at += first != 0 ? step : 0;
+    while (n > 0) {
+        int count = min_i32(2 - first, n);
+        at = sample_chord(out, s, at, step, count);
         out += count;
         n -= count;
-        r.du += r.bend_u;
-        r.dv += r.bend_v;
+        step += run->bend;
+        first = 0;
     }
 }

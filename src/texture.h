@@ -37,11 +37,19 @@ static inline int32_t sampler_texel_v(const struct smear_sampler *s, int32_t rat
     return s->shift_v >= 0 ? shl_wrap(t, s->shift_v) : t >> -s->shift_v;
 }
 
-/* Coordinates of a block of pixels, in turns or in texels q16: pieces of 2 pixels whose steps change by the bend. */
+/* Coordinates of a block of pixels: u above v, each in turns or in texels q16. One addition steps both (two where words
+ * have 32 bits); what v carries into u is the last bit. Steps change by the bend every 2 pixels. */
 struct smear_texture_run {
-    uint32_t u, v, du, dv;
-    uint32_t bend_u, bend_v;
+    uint64_t at, step, bend;
 };
+
+static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)u << 32 | v; }
+
+/* Steps: v has a sign of its own, which it borrows from u. */
+static inline uint64_t packed_step(uint32_t du, uint32_t dv)
+{
+    return ((uint64_t)du << 32) + (uint64_t)(int64_t)(int32_t)dv;
+}
 
 /* With turns: the texel at (u, v). */
 static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, uint32_t v)
