@@ -10,11 +10,17 @@
 #include "fixmath.h"
 #include "tiny.h"
 
-void smear_assembler_reset(struct smear_assembler *a)
+static void forget_all(struct smear_assembler *a)
 {
     for (uint32_t i = 0; i <= a->cache_mask; i++)
         a->cache[i].tag = 0;
     a->serial = 0;
+}
+
+void smear_assembler_reset(struct smear_assembler *a)
+{
+    if (a->serial == 0)         /* later, serial numbers tell old vertices from new ones */
+        forget_all(a);
 }
 
 static inline void fill_cached(struct smear_cached_vertex *v, const struct smear_assembler *a,
@@ -44,7 +50,7 @@ static inline void fill_cached(struct smear_cached_vertex *v, const struct smear
 
 static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
-    const int64_t far_out = 1 << 27;
+    const int64_t far_out = (1 << 27) - 1;
     int64_t d = there - ((int64_t)ratio * now >> 20);
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
@@ -58,10 +64,12 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     int scale = d->now.scale - d->pose[pose].scale;
     int zeros = count_leading_zeros((uint32_t)now->w);
     int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
-    int shift = zeros - 29 + scale;
-    int32_t x = scale_sat(mulh_i32(h->x, r), clamp_i32(shift + 8, -31, 31));
-    int32_t y = scale_sat(mulh_i32(h->y, r), clamp_i32(shift + 8, -31, 31));
-    int32_t ratio = scale_sat(mulh_i32(h->w, r), clamp_i32(shift + 20, -31, 31));
+    /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
+    int up = count_leading_zeros((uint32_t)(abs_i32(h->x) | abs_i32(h->y) | abs_i32(h->w) | 1)) - 1;
+    int shift = zeros - 29 + scale - up;
+    int32_t x = scale_sat(mulh_i32(shl_wrap(h->x, up), r), clamp_i32(shift + 8, -31, 31));
+    int32_t y = scale_sat(mulh_i32(shl_wrap(h->y, up), r), clamp_i32(shift + 8, -31, 31));
+    int32_t ratio = scale_sat(mulh_i32(shl_wrap(h->w, up), r), clamp_i32(shift + 20, -31, 31));
     out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
     out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
     out[MOTION_RATIO] = (uint32_t)ratio;
@@ -116,28 +124,6 @@ struct face {
     const uint8_t *color;
     uint32_t cosine;            /* flat light */
 };
-
-static SMEAR_NOINLINE void store_vertex(uint32_t *record, const struct smear_assembler *a,
-                         const struct smear_assembly *d, const struct smear_segment *s,
-                         const struct smear_cached_vertex *v, const struct face *face)
-{
-    const smear_mesh *mesh = d->mesh;
-    uint32_t index = index_of(v);
-    store_place(record, &v->screen);
-    if (s->uv != 0)
-        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
-    if (s->color != 0) {
-        struct smear_color color;
-        shade_vertex(&color, d, index, face->color, face->cosine, face->back);
-        store_color(record + s->color, color.channel);
-    }
-    for (int pose = 0; pose < s->moves; pose++) {
-        struct smear_homogeneous h;
-        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
-        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
-                     &a->viewport);
-    }
-}
 
 /* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when clockwise on the
  * screen (y down). */
@@ -388,6 +374,7 @@ struct batch {
     bool cut;                           /* only a part of the frame is being filled */
     bool points;                        /* nothing but a colour and depth: may become points */
     const uint8_t *face_color;          /* flat colours as they are; null: shaded */
+    const uint8_t *vertex_color;        /* codes of vertices as they are; null: shaded, or none */
 };
 
 /* The pixel a triangle covers and its weights there. */
@@ -441,21 +428,48 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
     return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }
 
-/* Words of the vertex's record; stores it when that has not been done. */
-static inline uint32_t stored_vertex(struct batch *b, struct smear_cached_vertex *v, uint32_t triangle, bool back)
+/* Stores a vertex; returns its first word. */
+static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct smear_cached_vertex *v,
+                                            uint32_t triangle, bool back)
 {
+    const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || s->color == 0);
-    if (shares && v->stored > s->base)
-        return v->stored - 1;
+    const smear_mesh *mesh = d->mesh;
     struct smear_geometry *g = b->a->geometry;
-    struct face face = { back, NULL, 65536u };
-    uint32_t word = g->vertex_words;
-    if (s->color != 0)
-        face = face_of(b->d, triangle, back);
-    g->vertex_words += s->stride;
-    store_vertex(g->pool + word, b->a, b->d, s, v, &face);
+    uint32_t word = g->vertex_words, index = index_of(v);
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_place(record, &v->screen);
+    if (s->uv != 0)
+        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
+    if (b->vertex_color != NULL) {      /* as smear_shade has it */
+        const uint8_t *c = b->vertex_color + 4 * index;
+        record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
+        record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
+    } else if (s->color != 0) {
+        struct smear_color color;
+        struct face face = face_of(d, triangle, back);
+        shade_vertex(&color, d, index, face.color, face.cosine, back);
+        store_color(record + s->color, color.channel);
+    }
+    for (int pose = 0; pose < s->moves; pose++) {
+        struct smear_homogeneous h;
+        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
+                     &b->a->viewport);
+    }
+    return word;
+}
+
+/* First word of the vertex's record; stores it when that has not been done. */
+static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
+                                     bool back)
+{
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    bool shares = b->shares && (!back || b->segment->color == 0);
+    if (shares && v->stored > b->segment->base)
+        return v->stored - 1;
+    uint32_t word = store_vertex(b, v, triangle, back);
     if (shares)
         v->stored = word + 1;
     return word;
@@ -574,6 +588,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
+    if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)
+        b.vertex_color = mesh->color;
+    if (a->serial == 0xffffu)
+        forget_all(a);
     uint32_t tag = ++a->serial << 16;
     struct smear_cached_vertex spare[3];
     struct smear_cached_vertex *const cache = a->cache;

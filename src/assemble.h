@@ -41,7 +41,7 @@ struct smear_assembly {
     struct smear_shading shading;
 };
 
-/* Forgets all cached vertices. */
+/* Before the draws of a frame, or of a part of it. */
 void smear_assembler_reset(struct smear_assembler *a);
 
 /* Adds the draw's triangles to the geometry. Returns false when the store is full: what was added stays, and the

@@ -89,14 +89,20 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     write(s, p);
 }
 
+/* How many of n pixels come before the first one beyond the break of the depth code, which lies among them. */
+static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
+{
+    int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
+    return clamp_i32(before, 1, n - 1);
+}
+
 /* The code bends within the span: draws up to the first pixel beyond the break. Returns that pixel. */
 static SMEAR_NOINLINE int32_t draw_to_bend(const struct setup *s, struct span *p, const struct row *r,
                                            int32_t units, smear_span_fn *write)
 {
     enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
-    int32_t a = p->a, b = p->b, d = s->depth.dx;
-    int32_t n = d > 0 ? (SLOPE_BREAK - units + d - 1) / d : (units - SLOPE_BREAK) / -d + 1;
-    p->b = a + clamp_i32(n, 1, b - 1 - a);
+    int32_t a = p->a, b = p->b;
+    p->b = a + pixels_to_bend(units, s->depth.dx, b - a);
     draw_piece(s, p, r, slope, units, write);
     a = p->b;
     p->b = b;
@@ -178,8 +184,8 @@ static inline void edge_step(struct edge_walk *e)
 struct sides {
     const int32_t *top, *middle, *bottom;
     int32_t y, knee, end;               /* rows still to come; the middle vertex; past the last */
-    struct edge_walk whole, part;
-    bool whole_is_left;
+    struct edge_walk left, right;
+    bool whole_is_left;                 /* the side without the middle vertex */
 };
 
 /* False when no row lies in the target. */
@@ -198,10 +204,10 @@ static bool sides_start(struct sides *d, const struct setup *s)
     d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
     if (d->y >= d->end)
         return false;
-    edge_start(&d->whole, top, bottom, d->y);
     /* Clockwise from the top: the next vertex lies right of the long edge, so this is the left one. */
     d->whole_is_left = (top == s->v[0] && middle == s->v[1]) || (top == s->v[1] && middle == s->v[2])
                     || (top == s->v[2] && middle == s->v[0]);
+    edge_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
     return true;
 }
 
@@ -209,7 +215,8 @@ static bool sides_start(struct sides *d, const struct setup *s)
 static int32_t sides_part(struct sides *d, int32_t y)
 {
     bool upper = y < d->knee;
-    edge_start(&d->part, upper ? d->top : d->middle, upper ? d->middle : d->bottom, y);
+    edge_start(d->whole_is_left ? &d->right : &d->left, upper ? d->top : d->middle,
+               upper ? d->middle : d->bottom, y);
     return upper ? d->knee : d->end;
 }
 
@@ -220,14 +227,12 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
     if (!sides_start(&d, s))
         return;
     row_start(&r, s, d.y);
-    const struct edge_walk *left = d.whole_is_left ? &d.whole : &d.part;
-    const struct edge_walk *right = d.whole_is_left ? &d.part : &d.whole;
     while (r.y < d.end) {
         int32_t stop = sides_part(&d, r.y);
         do {
-            draw_span(s, &r, edge_pixel(left), edge_pixel(right), write);
-            edge_step(&d.whole);
-            edge_step(&d.part);
+            draw_span(s, &r, edge_pixel(&d.left), edge_pixel(&d.right), write);
+            edge_step(&d.left);
+            edge_step(&d.right);
             row_next(&r, s);
         } while (r.y < stop);
     }
@@ -244,34 +249,66 @@ SMEAR_INLINE void put_flat(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_
     }
 }
 
-/* n pixels of one colour, depth codes from z on in 16.16. */
+SMEAR_INLINE void put_four(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color)
+{
+    put_flat(pixel, depth, z, color);
+    put_flat(pixel + 1, depth + 1, z += dz, color);
+    put_flat(pixel + 2, depth + 2, z += dz, color);
+    put_flat(pixel + 3, depth + 3, z + dz, color);
+}
+
+/* n pixels of one colour, depth codes from z on in 16.16: the odd ones, then eights. */
 SMEAR_INLINE void run_flat(uint32_t *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color)
 {
     if (n & 1) {
-        put_flat(pixel++, depth++, z, color);
+        put_flat(pixel, depth, z, color);
+        pixel++;
+        depth++;
         z += dz;
     }
     if (n & 2) {
-        put_flat(pixel++, depth++, z, color);
-        z += dz;
-        put_flat(pixel++, depth++, z, color);
-        z += dz;
-    }
-    for (n >>= 2; n > 0; n--, pixel += 4, depth += 4) {
         put_flat(pixel, depth, z, color);
-        z += dz;
-        put_flat(pixel + 1, depth + 1, z, color);
-        z += dz;
-        put_flat(pixel + 2, depth + 2, z, color);
-        z += dz;
-        put_flat(pixel + 3, depth + 3, z, color);
-        z += dz;
+        put_flat(pixel + 1, depth + 1, z + dz, color);
+        pixel += 2;
+        depth += 2;
+        z += 2 * dz;
+    }
+    if (n & 4) {
+        put_four(pixel, depth, z, dz, color);
+        pixel += 4;
+        depth += 4;
+        z += 4 * dz;
+    }
+    for (n >>= 3; n > 0; n--, pixel += 8, depth += 8, z += 8 * dz) {
+        put_four(pixel, depth, z, dz, color);
+        put_four(pixel + 4, depth + 4, z + 4 * dz, dz, color);
     }
 }
 
-/* One colour, no motion, one slope of depth: the plainest rows, without a call for each. Colour and depth of opaque
+/* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth code.
+ * Column 0 of the row is at index `at`. */
+static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
+{
+    const struct smear_raster_target *t = s->target;
+    a = max_i32(a, t->x0);
+    b = min_i32(b, t->x1);
+    const int32_t dx = s->depth.dx;
+    int32_t units = plane_at(&s->depth, a, y);
+    while (a < b) {
+        enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+        int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
+        if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
+            n = pixels_to_bend(units, dx, n);
+        run_flat(t->color + (at + a), t->depth + (at + a), n, code_from_units(units, slope),
+                 (uint32_t)step_from_units(dx, slope), s->color & 0xffffffu);
+        units = add_wrap(units, mul_wrap(dx, n));
+        a += n;
+    }
+}
+
+/* One colour, no motion: the plainest rows, without a call for each but where they are cut. Colour and depth of opaque
  * draws lie in the window's rows alike. */
-static void cover_flat(const struct setup *s)
+static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
@@ -279,7 +316,7 @@ static void cover_flat(const struct setup *s)
         return;
     const uint32_t color = s->color & 0xffffffu, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
-    const int32_t x0 = t->x0, x1 = t->x1, stride = t->window_rows.stride;
+    const int32_t stride = t->window_rows.stride;
     uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
     int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
     if (slot >= t->window_rows.ring)
@@ -290,21 +327,24 @@ static void cover_flat(const struct setup *s)
             knee = sides_part(&d, y);
         /* Rows up to the middle vertex, or to the end of the ring. */
         int32_t n = min_i32(knee - y, t->window_rows.ring - slot), at = slot * stride - t->window_rows.x0;
-        struct edge_walk left = d.whole_is_left ? d.whole : d.part;
-        struct edge_walk right = d.whole_is_left ? d.part : d.whole;
+        struct edge_walk left = d.left, right = d.right;
         y += n;
         slot += n;
         if (slot == t->window_rows.ring)
             slot = 0;
         for (; n > 0; n--, at += stride, z += dz_down) {
-            int32_t a = max_i32(edge_pixel(&left), x0), b = min_i32(edge_pixel(&right), x1);
+            int32_t a = edge_pixel(&left), b = edge_pixel(&right);
             edge_step(&left);
             edge_step(&right);
-            if (a < b)
+            if (a >= b)
+                continue;
+            if (cut)
+                row_flat_cut(s, y - n, at, a, b);
+            else
                 run_flat(t->color + (at + a), t->depth + (at + a), b - a, z + dz * (uint32_t)a, dz, color);
         }
-        d.whole = d.whole_is_left ? left : right;
-        d.part = d.whole_is_left ? right : left;
+        d.left = left;
+        d.right = right;
     }
 }
 
@@ -476,9 +516,8 @@ static void draw_triangle(const struct smear_raster_frame *frame,
     smear_setup_area(&s, area);
     smear_setup_depth(&s);
     if (s.segment->uv == 0 && s.segment->shade == SHADE_FLAT && !s.writes_velocity
-        && s.draw->alpha == SMEAR_OPAQUE && s.slope != SLOPE_BOTH
-        && (width > SMALL_PX || height > SMALL_PX)) {
-        cover_flat(&s);
+        && s.draw->alpha == SMEAR_OPAQUE && (width > SMALL_PX || height > SMALL_PX)) {
+        cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
         return;
     }
     smear_setup_color(&s);
