@@ -130,8 +130,8 @@ static void take_texture(struct source *s, struct pool *p, smear_texture *t)
     t->height = (uint16_t)take_range(s, 1, 16);
     if (take_chance(s, 8))
         t->width = (uint16_t)(take_chance(s, 2) ? 4096 : take_range(s, 1, 4096));
-    else if (take_chance(s, 2))
-        t->width = t->height = (uint16_t)(1 << take_range(s, 0, 6));
+    else if (take_chance(s, 2))         /* squares that have loops of their own */
+        t->width = t->height = (uint16_t)(1 << take_range(s, 0, take_chance(s, 4) ? 8 : 6));
     t->format = take(s) % 3;
     t->wrap_u = take(s) % 3;
     t->wrap_v = take(s) % 3;
@@ -188,8 +188,8 @@ static void take_transform(struct source *s, smear_transform *t)
         t->basis[i] = take_value(s, SMEAR_BASIS_ONE);
     for (int i = 0; i < 3; i++)
         t->origin[i] = kind & 2 ? take_value(s, 4 << 16) : (int8_t)take(s) * 1024;
-    if (!(kind & 4))
-        t->origin[2] -= 3 << 16 & 0x7fffffff;
+    if (!(kind & 4))            /* mostly in front of a camera at the origin */
+        t->origin[2] = (int32_t)((uint32_t)t->origin[2] - (3u << 16));
 }
 
 static void take_camera(struct source *s, smear_camera *c)
