@@ -124,15 +124,21 @@ SMEAR_INLINE void walk_begin(struct walk *w, const struct setup *s, const struct
     w->x += max_i32(min_i32(p->a, w->last - 1) - w->x, 0) & -block;
 }
 
+SMEAR_INLINE void walk_place(struct walk *w, const struct setup *s, int32_t x, int32_t y)
+{
+    const struct texture_setup *t = &s->texture;
+    w->q = plane_at(&t->q, x, y);
+    w->u = plane_at(&t->u, x, y);
+    w->v = plane_at(&t->v, x, y);
+    w->nearness = 0;
+}
+
 /* The first block. */
 static SMEAR_NOINLINE int32_t walk_first(struct walk *w, const struct setup *s, const struct span *p)
 {
     const struct texture_setup *t = &s->texture;
     walk_begin(w, s, p, t->block);
-    w->q = plane_at(&t->q, w->x, p->y);
-    w->u = plane_at(&t->u, w->x, p->y);
-    w->v = plane_at(&t->v, w->x, p->y);
-    w->nearness = 0;
+    walk_place(w, s, w->x, p->y);
     walk_find(w, s);
     return walk_on(w, s);
 }
@@ -141,8 +147,7 @@ static SMEAR_NOINLINE int32_t walk_first(struct walk *w, const struct setup *s, 
 
 SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
 {
-    const uint32_t mask_v = ((1u << log2_height) - 1u) << log2_width;
-    return ((uint32_t)uv >> (32 - log2_width - log2_height) & mask_v) | (uint32_t)(uv >> 32) >> (32 - log2_width);
+    return (uint32_t)uv >> (32 - log2_height) << log2_width | (uint32_t)(uv >> 32) >> (32 - log2_width);
 }
 
 SMEAR_INLINE void texel_pixel(uint32_t *color, uint16_t *depth, uint32_t z, const uint32_t *texels, uint64_t uv,
@@ -223,6 +228,28 @@ SMEAR_INLINE void span_texel(const struct setup *s, const struct span *p, int lo
         if (a >= p->b)
             return;
         count = walk_next(&w, s);
+    }
+}
+
+/* Where blocks would be single pixels: a quotient for each. */
+static void span_exact(const struct setup *s, const struct span *p)
+{
+    const struct texture_setup *t = &s->texture;
+    const struct smear_sampler *m = &s->draw->sampler;
+    const uint32_t *texels = m->texels;
+    uint32_t z = p->z;
+    struct walk w;
+    walk_place(&w, s, p->a, p->y);
+    for (int32_t i = 0; i < p->b - p->a; i++) {
+        if ((uint16_t)(z >> 16) > p->depth[i]) {
+            walk_find(&w, s);
+            p->depth[i] = (uint16_t)(z >> 16);
+            p->color[i] = texels[sampler_index(m, (uint32_t)w.at_u << t->up, (uint32_t)w.at_v << t->up)];
+        }
+        z += (uint32_t)p->dz;
+        w.q = add_wrap(w.q, t->q.dx);
+        w.u = add_wrap(w.u, t->u.dx);
+        w.v = add_wrap(w.v, t->v.dx);
     }
 }
 
@@ -431,8 +458,11 @@ smear_span_fn *smear_span_choose(const struct setup *s)
     if (g->uv == 0)
         return g->shade == SHADE_GOURAUD ? span_general : span_flat;
     const struct smear_sampler *t = &s->draw->sampler;
-    if (g->shade != SHADE_NONE || !t->turns || t->format != SMEAR_TEXEL_8888 || t->width == 1 || t->height == 1)
+    if (g->shade != SHADE_NONE || !t->turns || t->format != SMEAR_TEXEL_8888 || t->log2_width == 0
+        || t->log2_height == 0)
         return span_general;
+    if (s->texture.block == 1)
+        return span_exact;
     if (t->width != t->height)
         return span_texel_any;
     return t->width == 64 ? span_texel_64 : t->width == 128 ? span_texel_128
