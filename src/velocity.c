@@ -11,7 +11,7 @@ static int32_t over_ratio(int32_t d, int32_t ratio)
     int zeros = count_leading_zeros((uint32_t)ratio);
     int32_t r = (int32_t)recip_norm((uint32_t)ratio << zeros);          /* 2^(61 - zeros) / ratio */
     const int32_t far_out = 1 << 22;
-    return clamp_i32(scale_sat(mulh_i32(d, r), zeros - 9), -far_out, far_out);
+    return clamp_i32(scale_sat(mulh_i32(d * 16, r), zeros - 13), -far_out, far_out);     /* |d| < 2^27 */
 }
 
 /* r X + displacement x r, in q8 x 2^9; ratio in q(20 - down), at most 2^16. */
@@ -93,16 +93,31 @@ void smear_setup_velocity(struct setup *s)
     }
 }
 
-/* Place in a pose, relative to v[0], q8: 2^20 n / d of the planes above. A pixel whose point was at or behind the eye has
- * no place: the least denominator sends it far away in the right direction. */
-static void pose_place(const struct setup *s, int pose, int32_t x, int32_t y, int32_t out[2])
+/* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of the planes
+ * above. A point that was at or behind the eye has no place; the least denominator sends it far out, in the direction
+ * from which it crosses the plane of the eye. */
+static void pose_displacement(const struct setup *s, int pose, int32_t x, int32_t y, int32_t out[2])
 {
-    uint32_t d = (uint32_t)max_i32(plane_at(&s->ratio[pose], x, y), 1 << 12);
+    int32_t ratio = plane_at(&s->ratio[pose], x, y);
+    uint32_t d = (uint32_t)max_i32(ratio, 1 << 12);
     int zeros = count_leading_zeros(d);
-    uint32_t r = recip_norm(d << zeros);
-    /* n r / 2^32 = n / d 2^(29 - zeros). */
-    out[0] = scale_sat(mulh_i32(plane_at(&s->px[pose], x, y), (int32_t)r), zeros - 9);
-    out[1] = scale_sat(mulh_i32(plane_at(&s->py[pose], x, y), (int32_t)r), zeros - 9);
+    int32_t r = (int32_t)recip_norm(d << zeros);
+    const int32_t here[2] = { x * 256 + 128 - s->v[0][VERTEX_X], y * 256 + 128 - s->v[0][VERTEX_Y] };
+    for (int i = 0; i < 2; i++) {
+        int32_t n = plane_at(i == 0 ? &s->px[pose] : &s->py[pose], x, y);
+        n = narrow_sat(n - ((int64_t)ratio * here[i] >> 20));
+        /* n r / 2^32 = n / d 2^(29 - zeros), and q8 is 2^20 n / d. */
+        out[i] = scale_sat(mulh_i32(n, r), zeros - 9);
+    }
+}
+
+/* Brings a vector below 2^bits, direction kept. */
+static void shorten(int32_t v[2], int bits)
+{
+    while ((magnitude_i32(v[0]) | magnitude_i32(v[1])) >> bits != 0) {
+        v[0] /= 2;
+        v[1] /= 2;
+    }
 }
 
 /* Displacement between the poses at a pixel, q8 px. */
@@ -113,41 +128,40 @@ static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t
         out[1] = (plane_at(&s->vy, x, y) + 512) >> 10;
         return;
     }
-    int32_t open[2], close[2];
-    pose_place(s, 0, x, y, open);
+    int32_t open[2], close[2] = { 0, 0 };
+    pose_displacement(s, 0, x, y, open);
+    shorten(open, 29);
     if (s->poses == 2) {
-        pose_place(s, 1, x, y, close);
-    } else {
-        close[0] = x * 256 + 128 - s->v[0][VERTEX_X];
-        close[1] = y * 256 + 128 - s->v[0][VERTEX_Y];
+        pose_displacement(s, 1, x, y, close);
+        shorten(close, 29);
     }
-    out[0] = clamp_i32(sub_wrap(close[0], open[0]), -(1 << 22), 1 << 22);
-    out[1] = clamp_i32(sub_wrap(close[1], open[1]), -(1 << 22), 1 << 22);
+    out[0] = close[0] - open[0];
+    out[1] = close[1] - open[1];
+    shorten(out, 22);
 }
 
 /* Half the exposure's displacement, q16 px, no longer than the reach: the direction is kept. */
 static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
 {
-    int32_t k = s->frame->velocity_scale;
-    int64_t hx = ((int64_t)displacement[0] * k) >> 8, hy = ((int64_t)displacement[1] * k) >> 8;
-    int32_t x = narrow_sat(hx), y = narrow_sat(hy);
-    if (s->clamp_velocity) {
-        /* Lengths in 1/16 px up to 2^15: squares fit. */
-        int32_t sx = clamp_i32(x >> 12, -0x7fff, 0x7fff), sy = clamp_i32(y >> 12, -0x7fff, 0x7fff);
-        uint32_t square = (uint32_t)(sx * sx) + (uint32_t)(sy * sy);
-        uint32_t reach = (uint32_t)s->frame->reach_q3 * 2u;
-        if (square > reach * reach) {
-            uint32_t length = sqrt_floor_64((uint64_t)square << 8);     /* 1/256 px */
-            int zeros = count_leading_zeros(length);
-            uint32_t r = recip_norm(length << zeros);
-            /* reach 2^16 r / 2^32 = reach / length 2^(45 - zeros), in 1/16 over 1/256 px; q16 is wanted. */
-            int32_t factor = (int32_t)(mulh_u32(reach << 16, r) >> (25 - zeros));
-            x = (int32_t)((int64_t)x * factor >> 16);
-            y = (int32_t)((int64_t)y * factor >> 16);
-        }
+    int64_t k = s->frame->velocity_scale;
+    out[0] = narrow_sat((displacement[0] * k) >> 8);
+    out[1] = narrow_sat((displacement[1] * k) >> 8);
+    if (!s->clamp_velocity)
+        return;
+    /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
+    shorten(out, 27);
+    int32_t sx = out[0] >> 12, sy = out[1] >> 12;
+    uint32_t square = (uint32_t)(sx * sx) + (uint32_t)(sy * sy);
+    uint32_t reach = (uint32_t)s->frame->reach_q3 * 2u;
+    if (square > reach * reach) {
+        uint32_t length = sqrt_floor_64((uint64_t)square << 8);     /* 1/256 px */
+        int zeros = count_leading_zeros(length);
+        uint32_t r = recip_norm(length << zeros);
+        /* reach 2^16 r / 2^32 = reach / length 2^(45 - zeros), in 1/16 over 1/256 px; q16 is wanted. */
+        int32_t factor = (int32_t)(mulh_u32(reach << 16, r) >> (25 - zeros));
+        out[0] = (int32_t)((int64_t)out[0] * factor >> 16);
+        out[1] = (int32_t)((int64_t)out[1] * factor >> 16);
     }
-    out[0] = x;
-    out[1] = y;
 }
 
 static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)
@@ -196,7 +210,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             displacement_at(s, end, p->y, next);
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
-                step[i] = (int32_t)((int64_t)(stored_next[i] - stored[i]) * inverse[n] >> 16);
+                step[i] = (int32_t)(((int64_t)(stored_next[i] - stored[i]) * inverse[n] + 0x8000) >> 16);
                 if (t->inspect != NULL)
                     wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }
