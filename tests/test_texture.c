@@ -56,7 +56,8 @@ static void sample(uint32_t *out, const struct smear_sampler *s, int32_t u, int3
 {
     int up_u = s->turns ? 16 - s->log2_width : 0, up_v = s->turns ? 16 - s->log2_height : 0;
     const struct smear_texture_run run = {
-        .u = (uint32_t)u << up_u, .v = (uint32_t)v << up_v, .du = (uint32_t)du << up_u, .dv = (uint32_t)dv << up_v
+        .at = packed_uv((uint32_t)u << up_u, (uint32_t)v << up_v),
+        .step = packed_step((uint32_t)du << up_u, (uint32_t)dv << up_v)
     };
     smear_sample(out, s, &run, 0, n);
 }
@@ -150,22 +151,19 @@ static void test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_
         struct smear_sampler s;
         smear_sampler_make(&s, &t, 15, n % 5 == 0, false);
         const struct smear_texture_run run = {
-            .u = (uint32_t)between(-(1 << 20), 1 << 20), .v = (uint32_t)between(-(1 << 20), 1 << 20),
-            .du = (uint32_t)between(-100000, 100000), .dv = (uint32_t)between(-100000, 100000),
-            .bend_u = (uint32_t)between(-9000, 9000), .bend_v = (uint32_t)between(-9000, 9000)
+            .at = packed_uv((uint32_t)between(-(1 << 20), 1 << 20), (uint32_t)between(-(1 << 20), 1 << 20)),
+            .step = packed_step((uint32_t)between(-100000, 100000), (uint32_t)between(-100000, 100000)),
+            .bend = packed_step((uint32_t)between(-9000, 9000), (uint32_t)between(-9000, 9000))
         };
         /* Pixel by pixel: each as a run of one. */
         uint32_t want[16], out[17];
         struct smear_texture_run at = run;
         for (int i = 0; i < 16; i++) {
-            struct smear_texture_run one = { .u = at.u, .v = at.v };
+            struct smear_texture_run one = { .at = at.at };
             smear_sample(&want[i], &s, &one, 0, 1);
-            at.u += at.du;
-            at.v += at.dv;
-            if (i % 2 == 1) {
-                at.du += run.bend_u;
-                at.dv += run.bend_v;
-            }
+            at.at += at.step;
+            if (i % 2 == 1)
+                at.step += run.bend;
         }
         int first = between(0, 15), count = between(1, 16 - first);
         out[count] = 0x5a5a5a5au;
