@@ -502,8 +502,8 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
     }
 }
 
-/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of the frame
- * that is being filled. False when there is no room. */
+/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of the
+ * frame that is being filled. False when there is no room. */
 static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
                                      struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
                                      uint32_t triangle, bool back, bool cut)

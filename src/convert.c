@@ -101,7 +101,7 @@ SMEAR_INLINE void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool 
     }
     if (n <= 0)
         return;
-    uint32_t last = *in, packed = rgb565_bytes(last, swapped), pair = pair_of(packed, packed);
+    uint32_t last = ~*in, packed = 0, pair = 0;
     const uint32_t *end = in + n, *end_of_pairs = end - 1, *end_of_sixes = end - 5;
     for (; in < end_of_pairs; in += 2, out += 2) {
         uint32_t a = in[0], b = in[1], first = packed;

@@ -8,8 +8,8 @@
  *     | vertices ->                  free                  <- triangles |
  *
  * Vertices are shared between triangles through the vertex cache, so a closed mesh keeps about half a record
- * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for the depth
- * test: points, in entries of the same size. */
+ * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for the
+ * depth test: points, in entries of the same size. */
 #ifndef SMEAR_GEOMETRY_H
 #define SMEAR_GEOMETRY_H
 
@@ -55,9 +55,9 @@ struct smear_segment {
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
 
-/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths compare, r = w'/w,
- * and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie behind the eye; a pixel's
- * place in the pose is the quotient of the interpolated words (velocity.c). */
+/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths compare,
+ * r = w'/w, and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie behind the eye; a
+ * pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
 enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
 
 struct smear_geometry {

@@ -42,8 +42,8 @@ void smear_projection_make(struct smear_projection *projection, const struct sme
                            const smear_camera *camera, int height_px);
 
 /* Poses between the known ones: `count` projections of one draw become terms of the sum
- * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All get one scale, with room for the
- * sum of vertices that differ from pose to pose; the distances of projection[0] then hold for the sum. */
+ * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All get one scale, with room for
+ * the sum of vertices that differ from pose to pose; the distances of projection[0] then hold for the sum. */
 void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
                             const smear_camera *camera);
 

@@ -193,9 +193,28 @@ static bool sides_start(struct sides *d, const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
     const int32_t *top = s->v[0], *middle = s->v[1], *bottom = s->v[2], *swap;
-    if (middle[VERTEX_Y] < top[VERTEX_Y]) { swap = top; top = middle; middle = swap; }
-    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) { swap = middle; middle = bottom; bottom = swap; }
-    if (middle[VERTEX_Y] < top[VERTEX_Y]) { swap = top; top = middle; middle = swap; }
+    /* Clockwise from the top, the next vertex lies right of the long edge, so that is the left one; each swap turns
+     * the triangle over. */
+    bool whole_is_left = true;
+    if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+        swap = top;
+        top = middle;
+        middle = swap;
+        whole_is_left = false;
+    }
+    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) {
+        swap = middle;
+        middle = bottom;
+        bottom = swap;
+        whole_is_left = !whole_is_left;
+        if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+            swap = top;
+            top = middle;
+            middle = swap;
+            whole_is_left = !whole_is_left;
+        }
+    }
+    d->whole_is_left = whole_is_left;
     d->top = top;
     d->middle = middle;
     d->bottom = bottom;
@@ -204,9 +223,6 @@ static bool sides_start(struct sides *d, const struct setup *s)
     d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
     if (d->y >= d->end)
         return false;
-    /* Clockwise from the top: the next vertex lies right of the long edge, so this is the left one. */
-    d->whole_is_left = (top == s->v[0] && middle == s->v[1]) || (top == s->v[1] && middle == s->v[2])
-                    || (top == s->v[2] && middle == s->v[0]);
     edge_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
     return true;
 }
@@ -285,8 +301,8 @@ SMEAR_INLINE void run_flat(uint32_t *pixel, uint16_t *depth, int32_t n, uint32_t
     }
 }
 
-/* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth code.
- * Column 0 of the row is at index `at`. */
+/* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth
+ * code. Column 0 of the row is at index `at`. */
 static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
 {
     const struct smear_raster_target *t = s->target;
@@ -306,8 +322,8 @@ static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_
     }
 }
 
-/* One colour, no motion: the plainest rows, without a call for each but where they are cut. Colour and depth of opaque
- * draws lie in the window's rows alike. */
+/* One colour, no motion: the plainest rows, without a call for each but where they are cut. Colour and depth of
+ * opaque draws lie in the window's rows alike. */
 static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
 {
     const struct smear_raster_target *t = s->target;

@@ -41,8 +41,8 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one: the lower
- * ones have 14 bits, so three products fit. */
+/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one: the
+ * lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
 #if SMEAR_HAS_MUL64
