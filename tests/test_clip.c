@@ -204,15 +204,20 @@ static void test_other_poses_are_cut_at_the_same_place_of_the_surface(void)
     }
 }
 
+static bool comes_after(const struct smear_homogeneous *a, const struct smear_homogeneous *b)
+{
+    return a->x != b->x ? a->x > b->x : a->y != b->y ? a->y > b->y : a->w > b->w;
+}
+
 /* The vertices of the clipped polygon that lie on the edge a b: those without any of c, which alone
- * has alpha. Sorted, so that two lists can be compared. */
+ * has a distance in its closing pose. Sorted, so that two lists can be compared. */
 static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_clip_vertex a,
                    struct smear_clip_vertex b, struct smear_clip_vertex c, int turn,
                    const struct smear_projection *p)
 {
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
-    a.color[3] = b.color[3] = 0;
-    c.color[3] = 65535;
+    a.pose[1].distance = b.pose[1].distance = 0;
+    c.pose[1].distance = 1 << 30;
     const struct smear_clip_vertex *corner[3] = { &a, &b, &c };
     for (int i = 0; i < 3; i++)
         v[i] = *corner[(turn < 3 ? i + turn : 2 * i + turn) % 3];
@@ -220,11 +225,10 @@ static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_cl
     int count = smear_clip_triangle(v, p, codes), found = 0;
     CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX));
     for (int i = 0; i < count; i++) {
-        if (v[i].color[3] != 0)
+        if (v[i].pose[1].distance != 0)
             continue;
         int at = found++;
-        while (at > 0 && (out[at - 1].now.x > v[i].now.x
-                          || (out[at - 1].now.x == v[i].now.x && out[at - 1].now.y > v[i].now.y))) {
+        while (at > 0 && comes_after(&out[at - 1].now, &v[i].now)) {
             out[at] = out[at - 1];
             at--;
         }
