@@ -16,8 +16,22 @@
 #define SMEAR_ASSERT(condition) ((void)0)
 #endif
 
-/* Inner loops that take constants: inlined so that each call site becomes a loop of its own. */
+/* Inner loops that take constants: inlined so that each call site becomes a loop of its own, unless size counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_INLINE static inline
+#else
 #define SMEAR_INLINE static inline __attribute__((always_inline))
+#endif
+
+/* Helpers of fixed.h and fixmath.h that take many instructions on cores without wide products: where size counts, one copy
+ * of each in fixmath.c; else inlined. */
+#if defined(__OPTIMIZE_SIZE__) && !SMEAR_HAS_MUL64
+#define SMEAR_ONE_COPY 1
+#define SMEAR_SHARED
+#else
+#define SMEAR_ONE_COPY 0
+#define SMEAR_SHARED static inline
+#endif
 #define SMEAR_NOINLINE __attribute__((noinline))
 
 _Static_assert((-1 >> 1) == -1, "right shift of a negative number must keep its sign");

@@ -23,8 +23,18 @@ static inline int32_t sub_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_
 static inline int32_t mul_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 static inline int32_t shl_wrap(int32_t a, int shift) { return (int32_t)((uint32_t)a << shift); }
 
+#if SMEAR_ONE_COPY
+#define mulh_i32 smear_mulh_i32
+#define mulh_u32 smear_mulh_u32
+#define scale_sat smear_scale_sat
+#endif
+#if SMEAR_ONE_COPY && !defined(SMEAR_COPY_IS_HERE)
+int32_t mulh_i32(int32_t a, int32_t b);
+uint32_t mulh_u32(uint32_t a, uint32_t b);
+int32_t scale_sat(int32_t a, int shift);
+#else
 /* High word of the signed product: floor(a b / 2^32). */
-static inline int32_t mulh_i32(int32_t a, int32_t b)
+SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
 {
 #if SMEAR_HAS_MUL64
     return (int32_t)((int64_t)a * b >> 32);
@@ -39,7 +49,7 @@ static inline int32_t mulh_i32(int32_t a, int32_t b)
 }
 
 /* High word of the unsigned product. */
-static inline uint32_t mulh_u32(uint32_t a, uint32_t b)
+SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
 {
 #if SMEAR_HAS_MUL64
     return (uint32_t)((uint64_t)a * b >> 32);
@@ -51,18 +61,8 @@ static inline uint32_t mulh_u32(uint32_t a, uint32_t b)
 #endif
 }
 
-/* floor(v m / 2^16) for a 16-bit v: two 16 x 16 products where the core has no wide one. */
-static inline int32_t mul_i16_q16(int16_t v, int32_t m)
-{
-#if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)v * m >> 16);
-#else
-    return v * (m >> 16) + (v * (int32_t)((uint32_t)m & 0xffffu) >> 16);
-#endif
-}
-
 /* a 2^shift for shift in -31 .. 31, rounded to nearest when it shrinks, clamped when it grows. */
-static inline int32_t scale_sat(int32_t a, int shift)
+SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 {
     if (shift <= 0) {
         if (shift == 0)
@@ -71,6 +71,17 @@ static inline int32_t scale_sat(int32_t a, int shift)
     }
     int32_t limit = INT32_MAX >> shift;
     return a > limit ? INT32_MAX : a < -limit ? -INT32_MAX : shl_wrap(a, shift);
+}
+#endif
+
+/* floor(v m / 2^16) for a 16-bit v: two 16 x 16 products where the core has no wide one. */
+static inline int32_t mul_i16_q16(int16_t v, int32_t m)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)v * m >> 16);
+#else
+    return v * (m >> 16) + (v * (int32_t)((uint32_t)m & 0xffffu) >> 16);
+#endif
 }
 
 static inline int32_t narrow_sat(int64_t a)

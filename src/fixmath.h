@@ -6,8 +6,38 @@
 #include "fixed.h"
 #include "tables.h"
 
+/* floor(a / b) and the remainder in [0, b), for b > 0. */
+static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
+{
+    int32_t q = a / b, r = a - q * b;
+    if (r < 0) {
+        q--;
+        r += b;
+    }
+    *remainder = r;
+    return q;
+}
+
+#if SMEAR_ONE_COPY
+#define count_leading_zeros smear_count_leading_zeros
+#define count_leading_zeros_64 smear_count_leading_zeros_64
+#define recip_norm smear_recip_norm
+#define recip_norm_precise smear_recip_norm_precise
+#define ratio_q30 smear_ratio_q30
+#define sqrt_floor_64 smear_sqrt_floor_64
+#define sqrt_q3 smear_sqrt_of_q3
+#endif
+#if SMEAR_ONE_COPY && !defined(SMEAR_COPY_IS_HERE)
+int count_leading_zeros(uint32_t x);
+int count_leading_zeros_64(uint64_t x);
+uint32_t recip_norm(uint32_t m);
+uint32_t recip_norm_precise(uint32_t m);
+int32_t ratio_q30(int64_t a, int64_t c);
+uint32_t sqrt_floor_64(uint64_t x);
+uint32_t sqrt_q3(uint32_t x);
+#else
 /* Leading zeros of x > 0. */
-static inline int count_leading_zeros(uint32_t x)
+SMEAR_SHARED int count_leading_zeros(uint32_t x)
 {
 #if SMEAR_HAS_CLZ
     return __builtin_clz(x);
@@ -22,7 +52,7 @@ static inline int count_leading_zeros(uint32_t x)
 }
 
 /* Leading zeros of x > 0. */
-static inline int count_leading_zeros_64(uint64_t x)
+SMEAR_SHARED int count_leading_zeros_64(uint64_t x)
 {
     uint32_t high = (uint32_t)(x >> 32);
     return high != 0 ? count_leading_zeros(high) : 32 + count_leading_zeros((uint32_t)x);
@@ -32,7 +62,7 @@ static inline int count_leading_zeros_64(uint64_t x)
  *
  * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton step r (1 - e) squares
  * the error. All products fit 32 bits: m is cut to 21 bits, r has 11, and r x (e >> 4) stays below 2^30. */
-static inline uint32_t recip_norm(uint32_t m)
+SMEAR_SHARED uint32_t recip_norm(uint32_t m)
 {
     uint32_t r = smear_recip_seed[m >> 22 & 511u];
     int32_t error = (int32_t)(0x80000000u - (m >> 11) * r);
@@ -40,27 +70,15 @@ static inline uint32_t recip_norm(uint32_t m)
 }
 
 /* The same with relative error below 2^-26: one more Newton step on the high product. */
-static inline uint32_t recip_norm_precise(uint32_t m)
+SMEAR_SHARED uint32_t recip_norm_precise(uint32_t m)
 {
     uint32_t r = recip_norm(m);
     int32_t error = (int32_t)((1u << 29) - mulh_u32(m, r));         /* 2^29 e, |error| < 2^12 */
     return (uint32_t)((int32_t)r + ((int32_t)(r >> 12) * error >> 17));
 }
 
-/* floor(a / b) and the remainder in [0, b), for b > 0. */
-static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
-{
-    int32_t q = a / b, r = a - q * b;
-    if (r < 0) {
-        q--;
-        r += b;
-    }
-    *remainder = r;
-    return q;
-}
-
 /* a b / c with c > 0 as a ratio in [0, 1]: a <= c. Used where few vertices are made (clipping). Result q30. */
-static inline int32_t ratio_q30(int64_t a, int64_t c)
+SMEAR_SHARED int32_t ratio_q30(int64_t a, int64_t c)
 {
     SMEAR_ASSERT(a >= 0 && c > 0 && a <= c);
     int shift = count_leading_zeros_64((uint64_t)c);
@@ -71,7 +89,7 @@ static inline int32_t ratio_q30(int64_t a, int64_t c)
 }
 
 /* floor(sqrt(x)), exact. One bit per step: once per draw or per normal, never per pixel. */
-static inline uint32_t sqrt_floor_64(uint64_t x)
+SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 {
     uint64_t root = 0, bit = (uint64_t)1 << 62;
     while (bit > x)
@@ -89,7 +107,7 @@ static inline uint32_t sqrt_floor_64(uint64_t x)
 }
 
 /* 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */
-static inline uint32_t sqrt_q3(uint32_t x)
+SMEAR_SHARED uint32_t sqrt_q3(uint32_t x)
 {
     int shift = 0;
     while (x >= 1024u) {
@@ -98,5 +116,6 @@ static inline uint32_t sqrt_q3(uint32_t x)
     }
     return (uint32_t)smear_sqrt_q3[x] << shift;
 }
+#endif
 
 #endif

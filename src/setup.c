@@ -78,7 +78,7 @@ void smear_setup_depth(struct setup *s)
 /* ------------------------------------------------------------------ colour */
 
 /* floor(a q / 2^15), a 16-bit. */
-static inline int32_t times_q15(int32_t a, int32_t q)
+static int32_t times_q15(int32_t a, int32_t q)
 {
     return a * (q >> 15) + (a * (q & 0x7fff) >> 15);
 }
@@ -206,8 +206,8 @@ static void setup_affine(struct setup *s, const int32_t u[3], const int32_t v[3]
     t->block = 16;
     int32_t a[3], b[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = t->turns ? u[i] * 16384 : sampler_texel_u(m, u[i] * 16384);
-        b[i] = t->turns ? v[i] * 16384 : sampler_texel_v(m, v[i] * 16384);
+        a[i] = t->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
+        b[i] = t->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
     }
     t->shift = (int8_t)(18 - m->uv_shift);
     plane_slopes(s, &t->u, sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0, INT32_MAX - 1);
@@ -242,8 +242,8 @@ static void setup_divided(struct setup *s, const int32_t u[3], const int32_t v[3
                                        1u << 16, seen_q);      /* q16 of 2^15 mesh units */
         uint32_t rv = smear_times_over(magnitude_i32(sub_wrap(t->v.dx, times_q15(v[i], t->q.dx))),
                                        1u << 16, seen_q);
-        uint32_t tu = magnitude_i32(sampler_texel_u(m, (int32_t)min_u32(ru, 0xffffu) << 13) >> 10);
-        uint32_t tv = magnitude_i32(sampler_texel_v(m, (int32_t)min_u32(rv, 0xffffu) << 13) >> 10);
+        uint32_t tu = magnitude_i32(smear_sampler_texel_u(m, (int32_t)min_u32(ru, 0xffffu) << 13) >> 10);
+        uint32_t tv = magnitude_i32(smear_sampler_texel_v(m, (int32_t)min_u32(rv, 0xffffu) << 13) >> 10);
         worst = max_u32(worst, max_u32(tu, tv));
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
@@ -329,8 +329,8 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
         t->u_base = shl_wrap(middle_u, 15 + fine);
         t->v_base = shl_wrap(middle_v, 15 + fine);
     } else {        /* texels q16 */
-        t->u_base = sampler_texel_u(m, middle_u * 16384);
-        t->v_base = sampler_texel_v(m, middle_v * 16384);
+        t->u_base = smear_sampler_texel_u(m, middle_u * 16384);
+        t->v_base = smear_sampler_texel_v(m, middle_v * 16384);
     }
 
     /* Per pixel u changes by at most |U'| + longest |w'|; its second derivative is twice that times w' = q'/q. */
@@ -364,8 +364,8 @@ void smear_setup_texture(struct setup *s)
     uint32_t travel = 0;
     for (int i = 0; i < 3; i++) {
         int j = i == 2 ? 0 : i + 1;
-        uint32_t du = magnitude_i32(sampler_texel_u(m, (u[i] - u[j]) * 16384) >> 10);  /* q6 texels */
-        uint32_t dv = magnitude_i32(sampler_texel_v(m, (v[i] - v[j]) * 16384) >> 10);
+        uint32_t du = magnitude_i32(smear_sampler_texel_u(m, (u[i] - u[j]) * 16384) >> 10);  /* q6 texels */
+        uint32_t dv = magnitude_i32(smear_sampler_texel_v(m, (v[i] - v[j]) * 16384) >> 10);
         travel = max_u32(travel, max_u32(du, dv));
     }
     uint32_t error = s->segment->flat_depth ? 0

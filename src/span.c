@@ -65,8 +65,8 @@ SMEAR_INLINE void walk_find(struct walk *w, const struct setup *s)
         int32_t u = mulh_i32(shl_wrap(w->u >> 1, zeros - 1), r);
         int32_t v = mulh_i32(shl_wrap(w->v >> 1, zeros - 1), r);
         const struct smear_sampler *m = &s->draw->sampler;
-        w->at_u = t->turns ? u : sampler_texel_u(m, shl_wrap(u, 2));
-        w->at_v = t->turns ? v : sampler_texel_v(m, shl_wrap(v, 2));
+        w->at_u = t->turns ? u : smear_sampler_texel_u(m, shl_wrap(u, 2));
+        w->at_v = t->turns ? v : smear_sampler_texel_v(m, shl_wrap(v, 2));
         if (t->bent)
             w->nearness = mulh_i32(t->slope, r) >> (20 - zeros);
     }

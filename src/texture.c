@@ -42,6 +42,22 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
     s->scale_v = scale_for(texture->height, uv_shift, &s->shift_v);
 }
 
+static int32_t texels_of(int32_t ratio, int32_t scale, int shift)
+{
+    int32_t t = mulh_i32(ratio, scale);
+    return shift >= 0 ? shl_wrap(t, shift) : t >> -shift;
+}
+
+int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
+{
+    return texels_of(ratio, s->scale_u, s->shift_u);
+}
+
+int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
+{
+    return texels_of(ratio, s->scale_v, s->shift_v);
+}
+
 static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
 {
     if (s->format == SMEAR_TEXEL_8888)

@@ -25,17 +25,8 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
                         bool bilinear, bool linear);
 
 /* u / 2^15 in q29 (mesh units over 2^15) to texels. Wraps: textures repeat. */
-static inline int32_t sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
-{
-    int32_t t = mulh_i32(ratio, s->scale_u);
-    return s->shift_u >= 0 ? shl_wrap(t, s->shift_u) : t >> -s->shift_u;
-}
-
-static inline int32_t sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
-{
-    int32_t t = mulh_i32(ratio, s->scale_v);
-    return s->shift_v >= 0 ? shl_wrap(t, s->shift_v) : t >> -s->shift_v;
-}
+int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio);
+int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio);
 
 /* Coordinates of a block of pixels: u above v, each in turns or in texels q16. One addition steps both (two where words
  * have 32 bits); what v carries into u is the last bit. Steps change by the bend every 2 pixels. */

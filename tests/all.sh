@@ -81,7 +81,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     for target in cortex-m0plus cortex-m3 cortex-m4; do
         suite "target-$target" $make -s TARGET=$target target-test
     done
-    suite objects-cortex-m0plus env CODE_LIMIT=40960 sh tests/target_objects.sh build/objects
+    suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then

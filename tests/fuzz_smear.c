@@ -46,7 +46,9 @@ static uint32_t take_word(struct source *s)
 static int take_range(struct source *s, int low, int high)
 {
     uint32_t span = (uint32_t)(high - low + 1);
-    uint32_t value = span <= 256 ? take(s) : (uint32_t)take(s) << 8 | take(s);
+    uint32_t value = take(s);
+    if (span > 256)
+        value = value << 8 | take(s);
     return low + (int)(value % span);
 }
 
@@ -64,9 +66,8 @@ static int32_t take_value(struct source *s, int32_t unit)
         return unit / 64 * (int8_t)take(s);
     if (kind < 200)
         return extreme[take(s) & 7u];
-    if (kind < 230)
-        return (int32_t)take_word(s);
-    return (int32_t)(take_word(s) >> (take(s) & 31u));
+    uint32_t word = take_word(s);
+    return (int32_t)(kind < 230 ? word : word >> (take(s) & 31u));
 }
 
 static int32_t take_positive(struct source *s, int32_t unit)
@@ -150,9 +151,10 @@ static void take_mesh(struct source *s, struct pool *p, smear_mesh *m, const int
     int16_t *position[2];
     for (int k = 0; k < 2; k++) {
         position[k] = pool_take(p, (size_t)vertices * 3 * sizeof **position);
-        for (int i = 0; i < vertices * 3; i++)
-            position[k][i] = k == 1 && take_chance(s, 2) ? position[0][i]
-                           : (int16_t)((int8_t)take(s) * (take_chance(s, 4) ? 256 : 1));
+        for (int i = 0; i < vertices * 3; i++) {
+            int scale = take_chance(s, 4) ? 256 : 1;
+            position[k][i] = k == 1 && take_chance(s, 2) ? position[0][i] : (int16_t)((int8_t)take(s) * scale);
+        }
     }
     uint16_t *index = pool_take(p, (size_t)triangles * 3 * sizeof *index);
     for (int i = 0; i < triangles * 3; i++)
@@ -236,7 +238,8 @@ static void take_frame(struct source *s, struct scene *scene, int method)
     int changes = take_range(s, 0, scene->draws);
     for (int i = 0; i < changes; i++) {
         int at = take_range(s, 0, DRAWS - 1);
-        take_transform(s, &scene->pose[at][take(s) % 3]);
+        int pose = take(s) % 3;
+        take_transform(s, &scene->pose[at][pose]);
     }
 }
 

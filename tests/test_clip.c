@@ -56,7 +56,15 @@ static struct smear_clip_vertex vertex_at(int32_t x, int32_t y, int32_t w, bool 
 static struct smear_clip_vertex random_vertex(bool orthographic)
 {
     int32_t reach = 1 << between(8, 29), depth = 1 << between(8, 29);
-    return vertex_at(between(-reach, reach), between(-reach, reach), between(-depth, depth), orthographic);
+    int32_t x = between(-reach, reach), y = between(-reach, reach);
+    return vertex_at(x, y, between(-depth, depth), orthographic);
+}
+
+/* At distance w, up to `spread` times as far from the axis. */
+static struct smear_clip_vertex vertex_within(int32_t w, int32_t spread, bool orthographic)
+{
+    int32_t x = between(-w, w) * spread, y = between(-w, w) * spread;
+    return vertex_at(x, y, w, orthographic);
 }
 
 /* Codes as the assembler sets them, of the one vertex, without the sides. */
@@ -98,7 +106,7 @@ static void test_what_lies_inside_is_left_alone(void)
         struct smear_clip_vertex v[SMEAR_CLIP_MAX], before[3];
         for (int i = 0; i < 3; i++) {
             int32_t w = between(NEAR_AT, FAR_AT);
-            v[i] = before[i] = vertex_at(between(-w, w) * 200, between(-w, w) * 200, w, false);
+            v[i] = before[i] = vertex_within(w, 200, false);
         }
         CHECK_EQ(smear_clip_triangle(v, &p, OUT_NEAR | OUT_FAR | OUT_GUARD), 3);
         for (int i = 0; i < 3; i++)
@@ -160,8 +168,8 @@ static void test_a_plane_cuts_at_its_place(void)
     random_state = 5;
     for (int n = 0; n < 100; n++) {
         struct smear_clip_vertex v[SMEAR_CLIP_MAX], a, b;
-        v[0] = a = vertex_at(between(-100000, 100000), between(-100000, 100000), NEAR_AT / 2, false);
-        v[1] = b = vertex_at(between(-100000, 100000), between(-100000, 100000), 3 * NEAR_AT / 2, false);
+        v[0] = a = vertex_within(NEAR_AT / 2, 50, false);
+        v[1] = b = vertex_within(3 * NEAR_AT / 2, 16, false);
         v[2] = vertex_at(0, 0, 2 * NEAR_AT, false);
         if (!CHECK_EQ(smear_clip_triangle(v, &p, OUT_NEAR), 4))
             return;
@@ -247,9 +255,9 @@ static void test_both_triangles_at_an_edge_get_the_same_new_vertices(void)
         struct smear_clip_vertex c = random_vertex(p.orthographic), d = random_vertex(p.orthographic);
         if (n & 1) {        /* mostly in view: one end of the edge */
             int32_t w = between(NEAR_AT, FAR_AT);
-            a.now = vertex_at(between(-w, w) * 300, between(-w, w) * 300, w, p.orthographic).now;
-            c.now = vertex_at(between(-w, w) * 50, between(-w, w) * 50, w, p.orthographic).now;
-            d.now = vertex_at(between(-w, w) * 50, between(-w, w) * 50, w, p.orthographic).now;
+            a.now = vertex_within(w, 300, p.orthographic).now;
+            c.now = vertex_within(w, 50, p.orthographic).now;
+            d.now = vertex_within(w, 50, p.orthographic).now;
         }
         /* From the one side and the other, walked from each corner in both directions. */
         struct smear_clip_vertex first[SMEAR_CLIP_MAX], other[SMEAR_CLIP_MAX];
@@ -334,8 +342,8 @@ static void test_a_cut_keeps_the_order_of_the_corners(void)
         struct smear_clip_vertex v[SMEAR_CLIP_MAX];
         int codes = 0;
         for (int i = 0; i < 3; i++) {
-            v[i] = vertex_at(between(-(1 << 23), 1 << 23), between(-(1 << 23), 1 << 23),
-                             between(-FAR_AT, 2 * FAR_AT), true);
+            int32_t x = between(-(1 << 23), 1 << 23), y = between(-(1 << 23), 1 << 23);
+            v[i] = vertex_at(x, y, between(-FAR_AT, 2 * FAR_AT), true);
             codes |= codes_of(&v[i], &p);
         }
         int64_t before = (int64_t)(v[1].now.x - v[0].now.x) * (v[2].now.y - v[0].now.y)

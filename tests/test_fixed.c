@@ -86,9 +86,11 @@ static void test_high_products_of_extremes_are_exact_in_both_forms(void)
 static void test_high_products_of_random_values_are_exact_in_both_forms(void)
 {
     random_state = 1;
-    for (int i = 0; i < RANDOMS; i++)
-        if (!check_products(random_i32(), random_i32()))
+    for (int i = 0; i < RANDOMS; i++) {
+        int32_t a = random_i32(), b = random_i32();
+        if (!check_products(a, b))
             return;
+    }
 }
 
 /* floor(v m / 2^16), computed upwards from a product that is never negative. The bits above 32 wrap. */
@@ -113,9 +115,11 @@ static void test_vertex_products_are_floored_alike_in_both_forms(void)
             if (!check_q16(vertex[i], extreme[j]))
                 return;
     random_state = 2;
-    for (int i = 0; i < RANDOMS; i++)
-        if (!check_q16((int16_t)(random_u32() & 0xffffu), random_i32()))
+    for (int i = 0; i < RANDOMS; i++) {
+        int16_t v = (int16_t)(random_u32() & 0xffffu);
+        if (!check_q16(v, random_i32()))
             return;
+    }
 }
 
 static void test_wrapping_arithmetic_is_modulo_2_to_the_32(void)

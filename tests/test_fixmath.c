@@ -68,8 +68,9 @@ static uint32_t random_u32(void)
 
 static uint64_t random_u64(void)
 {
-    uint64_t high = random_u32();
-    return (high << 32 | random_u32()) >> random_u32() % 64u;
+    uint64_t word = (uint64_t)random_u32() << 32;
+    word |= random_u32();
+    return word >> random_u32() % 64u;
 }
 
 static void test_leading_zeros_are_counted_at_every_bit(void)

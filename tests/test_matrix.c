@@ -35,9 +35,9 @@ static int32_t between(int32_t low, int32_t high)
 static int32_t wild(void)
 {
     static const int32_t value[] = { INT32_MAX, INT32_MIN, 1, -1, 0, 1 << 24, -(1 << 24), 65536 };
-    uint32_t kind = random_u32() % 3u;
+    uint32_t kind = random_u32() % 3u, kind_shift = random_u32() % 32u;
     return kind == 0 ? value[random_u32() & 7u] : kind == 1 ? between(INT32_MIN, INT32_MAX)
-                     : between(INT32_MIN, INT32_MAX) >> random_u32() % 32u;
+                     : (int32_t)random_u32() >> kind_shift;
 }
 
 static int32_t wild_positive(void)

@@ -150,10 +150,12 @@ static void test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_
         smear_texture t = texture_of(sizes[n % SIZES][0], sizes[n % SIZES][1], n / 3 % 3, n % 3, n / 9 % 3);
         struct smear_sampler s;
         smear_sampler_make(&s, &t, 15, n % 5 == 0, false);
+        static const int32_t reach[3] = { 1 << 20, 100000, 9000 };
+        uint32_t word[6];
+        for (int i = 0; i < 6; i++)
+            word[i] = (uint32_t)between(-reach[i / 2], reach[i / 2]);
         const struct smear_texture_run run = {
-            .at = packed_uv((uint32_t)between(-(1 << 20), 1 << 20), (uint32_t)between(-(1 << 20), 1 << 20)),
-            .step = packed_step((uint32_t)between(-100000, 100000), (uint32_t)between(-100000, 100000)),
-            .bend = packed_step((uint32_t)between(-9000, 9000), (uint32_t)between(-9000, 9000))
+            .at = packed_uv(word[0], word[1]), .step = packed_step(word[2], word[3]), .bend = packed_step(word[4], word[5])
         };
         /* Pixel by pixel: each as a run of one. */
         uint32_t want[16], out[17];
@@ -263,20 +265,21 @@ static void test_ratios_become_texels(void)
             struct smear_sampler s;
             smear_sampler_make(&s, &t, uv_shift, false, false);
             for (int n = 0; n < 60; n++) {
-                int32_t ratio = between(-(1 << 29), 1 << 29) >> between(0, 20);
+                int32_t ratio = between(-(1 << 29), 1 << 29);
+                ratio >>= between(0, 20);
                 /* q16 texels, exact: ratio size 2^(15 - uv_shift) / 2^13. The high product keeps 27 bits. */
                 int64_t scaled = (int64_t)ratio * size[k] * ((int64_t)1 << (15 - uv_shift));
                 int64_t want = floor_divide(scaled, 8192);
                 int64_t slack = 2 + ((int64_t)size[k] << (15 - uv_shift)) / 1024;
                 if (want > INT32_MAX || want < INT32_MIN)
                     continue;
-                if (!CHECK_NEAR(sampler_texel_u(&s, ratio), want, slack))
+                if (!CHECK_NEAR(smear_sampler_texel_u(&s, ratio), want, slack))
                     return;
                 scaled = (int64_t)ratio * size[9 - k] * ((int64_t)1 << (15 - uv_shift));
                 want = floor_divide(scaled, 8192);
                 slack = 2 + ((int64_t)size[9 - k] << (15 - uv_shift)) / 1024;
                 if (want <= INT32_MAX && want >= INT32_MIN
-                    && !CHECK_NEAR(sampler_texel_v(&s, ratio), want, slack))
+                    && !CHECK_NEAR(smear_sampler_texel_v(&s, ratio), want, slack))
                     return;
             }
         }

@@ -187,8 +187,10 @@ static void test_the_neighbourhood_is_the_longest_of_nine(void)
         int columns = between(1, 5), rows = between(1, 3);
         make_window(columns * 8 - between(0, 7), rows * 8, rows * 8, true);
         for (int r = 0; r < rows; r++)
-            for (int c = 0; c < columns; c++)
-                set_motion(r, c, between(-300, 300), between(-300, 300));
+            for (int c = 0; c < columns; c++) {
+                int x = between(-300, 300), y = between(-300, 300);
+                set_motion(r, c, x, y);
+            }
         for (int row = 0; row < rows; row++) {
             smear_neighbormax_row(&window, row, rows - 1, false);
             for (int c = 0; c < columns; c++) {

@@ -7,6 +7,5 @@ BOARD  := -M microbit -global nrf51-soc.flash-size=2097152 -global nrf51-soc.sra
 LAYOUT := m0-large.ld
 include platform/cortexm/cortexm.mk
 
-SMALL_LAYOUTS    := microbit lm3s6965evb
-RUN_microbit     := platform/cortexm/run.sh -M microbit
+SMALL_LAYOUTS    := lm3s6965evb
 RUN_lm3s6965evb  := platform/cortexm/run.sh -M lm3s6965evb -cpu cortex-m0
