@@ -89,7 +89,8 @@ typedef enum smear_texel_format {
 
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
 
-/* Row 0 is v = 0. Powers of two are fastest; any size from 1 to 4096 works. */
+/* Row 0 is v = 0. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay below
+ * 32768 texels, but for repeated powers of two, which may go on for ever. */
 typedef struct smear_texture {
     const void *texels;         /* width x height, no padding, aligned to a texel */
     const uint32_t *palette;    /* for SMEAR_TEXEL_PALETTE8 */
@@ -230,7 +231,7 @@ typedef struct smear_desc {
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
-    uint16_t max_draws;         /* draws per frame and ids kept; 0 means 16 */
+    uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
                                  * SMEAR_TRIANGLE_BYTES each; more are drawn in parts; 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
@@ -242,6 +243,8 @@ typedef struct smear_desc {
 } smear_desc;
 
 typedef struct smear_stats {
+    /* submitted; covering a pixel; left out for want of memory or for a bad index. In a frame drawn in parts the last
+     * two count a triangle once per part. */
     uint32_t triangles_in, triangles_drawn, triangles_dropped;
     uint32_t triangles_split;           /* times a frame was drawn in parts because the list was full */
     uint32_t pixels;                    /* of the frame */
@@ -268,7 +271,8 @@ size_t smear_memory_size(const smear_desc *desc);
  * lives in it and holds nothing else: forgetting the memory frees it. desc is copied. */
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
 
-/* Starts a frame. `frame` and the cameras are copied. A frame begun before is forgotten, unrendered. */
+/* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered, but its poses count as the
+ * past of this one. */
 int smear_begin(smear_context *ctx, const smear_frame *frame);
 
 /* Adds a draw. The struct is copied, what it points to is not. */
