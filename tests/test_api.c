@@ -1639,6 +1639,537 @@ static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
     rig_close(&r);
 }
 
+/* ------------------------------------------------------------------ instants */
+
+static double decode(uint32_t code)
+{
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double encode(double l)
+{
+    return 255 * (l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055);
+}
+
+/* Where a moving square is at u = -1 (shutter open) to 1 (close), in pixels. */
+typedef double place_fn(double u);
+
+static double one_frame_centred(double u) { return 10 * (u / 2); }              /* 360 degrees, 10 px a frame */
+static double one_frame_trailing(double u) { return 10 * (-0.5 + u / 2); }
+static double one_frame_leading(double u) { return 10 * (0.5 + u / 2); }
+static double quarter_centred(double u) { return 10 * (u / 8); }                /* 90 degrees */
+static double parabola(double u) { return (u * u - u) / 2 * -16 + (u * u + u) / 2 * 8; }   /* open, close of shutter poses */
+
+static void accumulate_against_mean(const smear_frame *like, place_fn *place, bool deformed)
+{
+    enum { W = 64, H = 24, N = 8 };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    desc.accumulate = 1;
+    /* focal 1 at distance 4: 3 px per unit; the square is 6 px wide. */
+    const double px = 1.0 / 3;
+    smear_camera camera = camera_at(0, 0, 0, 0);
+    smear_material material = { .unlit = 1, .color = { 255, 200, 40, 255 } };
+    if (rig_open(&r, &desc, false)) {
+        smear_frame sharp = { .camera = &camera, .method = SMEAR_NONE, .light = like->light, .clear = 0x102030 };
+        double mean[W * H][3];
+        memset(mean, 0, sizeof mean);
+        for (int k = 0; k < N; k++) {
+            smear_transform at = pose_at(place((2 * k + 1.0) / N - 1) * px, 0, -4, 0, 0);
+            smear_draw d = { .mesh = &square, .material = &material, .now = &at };
+            CHECK_EQ(rig_frame(&r, &sharp, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int i = 0; i < W * H; i++)
+                for (int c = 0; c < 3; c++) {
+                    uint32_t code = pixel[i] >> (16 - 8 * c) & 255u;
+                    mean[i][c] += (like->light == SMEAR_LIGHT_LINEAR ? decode(code) : code) / N;
+                }
+        }
+        smear_transform now = pose_at(0, 0, -4, 0, 0), before = pose_at(-10 * px, 0, -4, 0, 0);
+        smear_transform open = pose_at(-16 * px, 0, -4, 0, 0), close = pose_at(8 * px, 0, -4, 0, 0);
+        smear_draw d = { .mesh = &square, .material = &material, .now = &now, .open = &before };
+        int16_t moved[2][12];
+        if (like->shutter_poses) {
+            d.open = &open;
+            d.close = &close;
+        }
+        if (deformed) {             /* the same by the vertices: 256 steps are a unit */
+            for (int i = 0; i < 12; i++) {
+                double shift = i % 3 == 0 ? 256 * px : 0;
+                moved[0][i] = (int16_t)lrint(square_position[i] + shift * (like->shutter_poses ? -16 : -10));
+                moved[1][i] = (int16_t)lrint(square_position[i] + shift * 8);
+            }
+            d.open = d.close = NULL;
+            d.open_position = moved[0];
+            d.close_position = like->shutter_poses ? moved[1] : NULL;
+        }
+        smear_frame f = *like;
+        f.camera = f.open = f.close = &camera;
+        f.method = SMEAR_ACCUMULATE;
+        f.samples = N;
+        f.clear = 0x102030;
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+        for (int i = 0; i < W * H; i++)
+            for (int c = 0; c < 3; c++) {
+                double want = like->light == SMEAR_LIGHT_LINEAR ? encode(mean[i][c]) : mean[i][c];
+                if (!CHECK_CLOSE(pixel[i] >> (16 - 8 * c) & 255u, want, 1.0)) {
+                    CHECK_EQ(i % W, -1);
+                    goto done;
+                }
+            }
+    }
+done:
+    rig_close(&r);
+}
+
+static void test_accumulation_is_the_mean_of_the_instants_of_the_exposure(void)
+{
+    for (int deformed = 0; deformed < 2; deformed++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            smear_frame f = { .light = (uint8_t)light, .shutter_degrees = 360 };
+            f.exposure = SMEAR_CENTRED;
+            accumulate_against_mean(&f, one_frame_centred, deformed);
+            f.exposure = SMEAR_TRAILING;
+            accumulate_against_mean(&f, one_frame_trailing, deformed);
+            f.exposure = SMEAR_LEADING;
+            accumulate_against_mean(&f, one_frame_leading, deformed);
+            f.exposure = SMEAR_CENTRED;
+            f.shutter_degrees = 90;
+            accumulate_against_mean(&f, quarter_centred, deformed);
+            f.shutter_poses = 1;
+            accumulate_against_mean(&f, parabola, deformed);
+        }
+}
+
+static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        static const struct { uint8_t exposure; int shift; } middle[] = {       /* 4 px a frame, all of it open */
+            { SMEAR_CENTRED, 0 }, { SMEAR_TRAILING, -2 }, { SMEAR_LEADING, 2 }
+        };
+        for (int i = 0; i < 3; i++) {
+            smear_transform now = motion_pose(0, 0), before = motion_pose(-0.5, 0);
+            smear_draw d = { .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
+            smear_frame f = { .camera = &motion_camera, .shutter_degrees = 360, .exposure = middle[i].exposure };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            for (int x = 0; x < MOTION_W; x++)          /* 16 px wide around the centre */
+                CHECK_EQ(r.depth[32 * MOTION_W + x] != 0, x >= 24 + middle[i].shift && x < 40 + middle[i].shift);
+            CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 32)], 1024, STEPS);
+        }
+    }
+    rig_close(&r);
+}
+
+static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(96, 72);
+    if (rig_open(&r, &desc, true)) {
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_transform pose[2] = { pose_at(-2, 0, -4, 0, 0), pose_at(2, 0, -4, 0, 0) };
+        smear_draw d = { .id = 3, .mesh = &square, .now = &pose[1] };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+        uint8_t *sharp = rig_picture(&r, &f, &d, 1);
+        f.method = SMEAR_RECONSTRUCT;
+        d.now = &pose[0];
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        d.now = &pose[1];
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        CHECK_NEAR(r.velocity[2 * (36 * 96 + 66)], 36 * 256, 4 * STEPS);     /* 4 units of 9 px */
+        CHECK(memcmp(sharp, r.picture, r.picture_size) != 0);
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        same_picture(&r, sharp);
+        free(sharp);
+    }
+    rig_close(&r);
+}
+
+static void test_uniform_tiles_take_plain_means_only_when_asked(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(96, 72);
+    uint8_t *picture[2] = { NULL, NULL };
+    uint32_t taps[2];
+    for (int flag = 0; flag < 2; flag++) {
+        if (rig_open(&r, &desc, false))
+            for (int k = 0; k < 2; k++) {
+                /* A pan over a textured wall that fills the view. */
+                smear_transform pose = pose_at(0, 0, -2, 0, 0);
+                for (int i = 0; i < 9; i++)
+                    pose.basis[i] *= 6;
+                smear_camera camera = camera_at(0.3 * k, 0, 0, 0);
+                smear_material material = { .texture = &checker_texture, .unlit = 1 };
+                make_checker();
+                smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .reconstruct = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                smear_stats stats;
+                smear_get_stats(r.ctx, &stats);
+                if (k == 1) {
+                    CHECK_EQ(stats.tiles_uniform, 12 * 9);
+                    taps[flag] = stats.samples;
+                    picture[flag] = malloc(r.picture_room);
+                    memcpy(picture[flag], r.picture, r.picture_room);
+                }
+            }
+        rig_close(&r);
+    }
+    CHECK(taps[0] != taps[1]);
+    CHECK(memcmp(picture[0], picture[1], 96 * 72 * 4) != 0);
+    free(picture[0]);
+    free(picture[1]);
+}
+
+/* ------------------------------------------------------------------ what is drawn */
+
+/* A square that fills the frame, a texel per pixel: all sizes that have loops of their own, and some that have not. */
+static void test_textures_of_every_size_show_their_texels(void)
+{
+    static const uint16_t size[] = { 1, 2, 16, 32, 64, 128, 256, 512, 37, 100, 200 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int variant = 0; variant < 3; variant++) {
+            int width = size[i], height = variant == 0 ? width : variant == 1 ? 64 : size[(i + 3) % 11];
+            uint32_t *texels = malloc((size_t)width * (size_t)height * 4);
+            for (int k = 0; k < width * height; k++)
+                texels[k] = 0xff000000u | (uint32_t)(k / width) << 12 | (uint32_t)(k % width);
+            struct rig r;
+            smear_desc desc = small_desc(width, height);
+            desc.sharp = 1;
+            if (rig_open(&r, &desc, false)) {
+                smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
+                smear_material material = { .texture = &texture, .unlit = 1 };
+                /* Orthographic: one unit is half the height. */
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                camera.half_height = 65536;
+                smear_transform pose = pose_at(0, 0, -4, 0, 0);
+                pose.basis[0] = (int32_t)((int64_t)SMEAR_BASIS_ONE * width / height);
+                int16_t uv[8];
+                for (int k = 0; k < 8; k++)             /* a whole turn: 2^14 mesh units */
+                    uv[k] = square_uv[k] != 0 ? 16384 : 0;
+                smear_mesh mesh = square;
+                mesh.uv = uv;
+                mesh.uv_shift = 14;
+                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (int k = 0; k < width * height; k++)
+                    if (!CHECK_EQ(pixel[k], texels[k] & 0xffffffu)) {
+                        CHECK_EQ(width * 1000 + height, -1);
+                        break;
+                    }
+            }
+            rig_close(&r);
+            free(texels);
+        }
+}
+
+static void test_the_largest_textures_are_taken(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    if (rig_open(&r, &desc, false)) {
+        uint8_t *texels = calloc(4096, 1);
+        static const uint32_t palette[256] = { 0xff305070u };
+        smear_texture texture = { .texels = texels, .palette = palette, .width = 1, .height = 4096,
+                                  .format = SMEAR_TEXEL_PALETTE8 };
+        smear_material material = { .texture = &texture, .unlit = 1 };
+        smear_transform pose = pose_at(0, 0, -1.5, 0, 0);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_draw d = { .mesh = &square, .material = &material, .now = &pose };
+        smear_frame f = { .camera = &camera };
+        for (int turn = 0; turn < 2; turn++) {
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[8 * 16 + 8], 0x305070);
+            texture.width = 4096;
+            texture.height = 1;
+        }
+        free(texels);
+    }
+    rig_close(&r);
+}
+
+/* The ground y = -1 under a camera that looks along -z and down by nothing: pixel (x, y) shows the point that lies in its
+ * direction. Vertices are 127 units away: most is cut away by the near plane and the guard band. */
+static const int16_t ground_position[] = { -32512, 0, 32512, 32512, 0, 32512, 32512, 0, -32512, -32512, 0, -32512 };
+static const int16_t ground_uv[] = { -32512, 32512, 32512, 32512, 32512, -32512, -32512, -32512 };
+static const uint8_t ground_color[] = { 0, 255, 60, 255, 255, 255, 60, 255, 255, 0, 60, 255, 0, 0, 60, 255 };
+
+static void test_what_is_cut_keeps_its_colours_and_texels(void)
+{
+    enum { W = 96, H = 64 };
+    make_checker();
+    for (int textured = 0; textured < 2; textured++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            struct rig r;
+            smear_desc desc = small_desc(W, H);
+            smear_mesh mesh = { .position = ground_position, .uv = ground_uv, .index = square_index,
+                                .color = textured ? NULL : ground_color, .triangle_count = 2, .vertex_count = 4,
+                                .shift = 8, .uv_shift = 11 };
+            smear_material material = { .texture = textured ? &checker_texture : NULL, .unlit = 1 };
+            if (rig_open(&r, &desc, false)) {
+                smear_transform pose = pose_at(0, -1, 0, 0, 0);
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)light };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (int y = H / 2 + 2; y < H; y++)
+                    for (int x = 0; x < W; x++) {
+                        double z = H / 2 / (y + 0.5 - H / 2), side = (x + 0.5 - W / 2) / (H / 2.0) * z;
+                        uint32_t got = pixel[y * W + x];
+                        bool ok = true;
+                        if (textured) {
+                            /* 8 texels per 2048 steps, 256 steps per unit; v runs against z. One texel or pixel off. */
+                            double reach = 0.1 + z / 32, deep = 0.1 + z * z / 32;
+                            bool found = false;
+                            for (int k = 0; k < 9; k++) {
+                                int u = (int)floor(side + reach * (k % 3 - 1)), v = (int)floor(-z + deep * (k / 3 - 1));
+                                found = found || got == (checker[(v & 7) * 8 + (u & 7)] & 0xffffffu);
+                            }
+                            ok = CHECK(found);
+                        } else {
+                            double red = (side + 127) / 254, green = (127 - z) / 254;
+                            red = light == SMEAR_LIGHT_LINEAR ? encode(red) : red * 255;
+                            green = light == SMEAR_LIGHT_LINEAR ? encode(green) : green * 255;
+                            ok = CHECK_CLOSE(got >> 16, red, 2.0) && CHECK_CLOSE(got >> 8 & 255u, green, 2.0)
+                              && CHECK_CLOSE(got & 255u, 60, 1.0);
+                        }
+                        if (!ok) {
+                            CHECK_EQ(x * 1000 + y, -1);
+                            goto done;
+                        }
+                    }
+            }
+done:
+            rig_close(&r);
+        }
+}
+
+static void test_flat_faces_are_lit_by_their_own_plane(void)
+{
+    enum { W = 64, H = 64 };
+    static const double normal[6][3] = { { 0, 0, 1 }, { 0, 0, -1 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    smear_mesh mesh = { .position = cube_position, .index = cube_index, .triangle_count = 12, .vertex_count = 8,
+                        .shift = STEP };
+    if (rig_open(&r, &desc, false)) {
+        for (int n = 0; n < 40; n++) {
+            bool inside = n % 4 == 3;           /* from within, double-sided: normals turn to the eye */
+            double yaw = 0.37 * n, pitch = 0.23 * n;
+            smear_transform pose = pose_at(0, 0, inside ? 0 : -4, yaw, pitch);
+            if (n % 4 == 1)                     /* mirrored */
+                for (int i = 0; i < 3; i++)
+                    pose.basis[3 * i] = -pose.basis[3 * i];
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            camera.near_plane = 655;
+            smear_material material = { .double_sided = inside };
+            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int at = 0; at < W * H; at += 37) {
+                uint32_t got = pixel[at];
+                if (got == 0)
+                    continue;
+                bool found = false;             /* the light of one of the faces that may be seen */
+                for (int k = 0; k < 6; k++) {
+                    double world[3], dot = 0;
+                    for (int i = 0; i < 3; i++) {
+                        world[i] = 0;
+                        for (int j = 0; j < 3; j++)
+                            world[i] += pose.basis[3 * i + j] / 16777216.0 * normal[k][j];
+                    }
+                    if (inside)
+                        for (int i = 0; i < 3; i++)
+                            world[i] = -world[i];
+                    if (!inside && world[2] < 0.0)
+                        continue;
+                    dot = 0.36 * world[0] + 0.80 * world[1] + 0.48 * world[2];
+                    found = found || fabs(encode(0.30 + 0.70 * fmax(0, dot)) - (got & 255u)) <= 1.5;
+                }
+                if (!CHECK(found)) {
+                    CHECK_EQ(n * 10000 + at, -1);
+                    break;
+                }
+            }
+        }
+    }
+    rig_close(&r);
+}
+
+static void test_vertex_and_face_colours_pass_unlit(void)
+{
+    enum { W = 48, H = 48 };
+    static const uint8_t color[] = { 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255 };
+    static const uint8_t face[] = { 10, 220, 130, 255, 70, 5, 250, 255 };
+    for (int kind = 0; kind < 8; kind++) {
+        struct rig r;
+        smear_desc desc = small_desc(W, H);
+        smear_mesh mesh = square;
+        mesh.color = kind & 1 ? color : NULL;
+        mesh.face_color = kind & 2 ? face : NULL;
+        smear_material material = { .unlit = 1 };
+        if (rig_open(&r, &desc, false)) {
+            smear_transform pose = pose_at(0, 0, -1, 0, 0);
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(kind >> 2) };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int lower = 0; lower < 2; lower++) {
+                /* Triangle 0 is below the diagonal from bottom left to top right. */
+                uint32_t got = lower ? pixel[40 * W + 40] : pixel[8 * W + 8];
+                for (int c = 0; c < 3; c++) {
+                    double want = 1;
+                    if (kind & 1)
+                        want *= decode(color[c]);
+                    if (kind & 2)
+                        want *= decode(face[4 * !lower + c]);
+                    CHECK_CLOSE(got >> (16 - 8 * c) & 255u, encode(want), 1.0);
+                }
+            }
+        }
+        rig_close(&r);
+    }
+}
+
+/* A wavy field of cells of about a pixel and a half, a colour for each triangle or vertex. */
+enum { FIELD = 40 };
+static int16_t field_position[3 * (FIELD + 1) * (FIELD + 1)];
+static uint16_t field_index[6 * FIELD * FIELD];
+static uint8_t field_color[4 * 2 * FIELD * FIELD];
+
+static smear_mesh make_field(bool per_vertex)
+{
+    uint16_t *index = field_index;
+    for (int j = 0; j <= FIELD; j++)
+        for (int i = 0; i <= FIELD; i++) {
+            int16_t *p = field_position + 3 * (j * (FIELD + 1) + i);
+            p[0] = (int16_t)((i - FIELD / 2) * 24 + (i * 7 + j * 3) % 11 - 5);
+            p[1] = (int16_t)((j - FIELD / 2) * 24 + (i * 5 + j * 13) % 9 - 4);
+            p[2] = (int16_t)((i * i + j * 3) % 17);
+        }
+    for (int j = 0; j < FIELD; j++)
+        for (int i = 0; i < FIELD; i++) {
+            int a = j * (FIELD + 1) + i, b = a + 1, c = b + FIELD + 1, d = c - 1;
+            const int corner[6] = { a, b, c, a, c, d };
+            for (int k = 0; k < 6; k++)
+                *index++ = (uint16_t)corner[k];
+        }
+    for (int i = 0; i < 4 * 2 * FIELD * FIELD; i++)
+        field_color[i] = (uint8_t)(i % 4 == 3 ? 255 : i * 29 % 251 + 4);
+    return (smear_mesh){ .position = field_position, .index = field_index, .triangle_count = 2 * FIELD * FIELD,
+                         .vertex_count = (FIELD + 1) * (FIELD + 1), .shift = 8,
+                         .color = per_vertex ? field_color : NULL, .face_color = per_vertex ? NULL : field_color };
+}
+
+static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
+{
+    /* Without motion they may be kept as points; with it (one step of q16) they are triangles like any other. */
+    enum { W = 96, H = 72 };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    desc.max_triangles = 8000;
+    if (rig_open(&r, &desc, true)) {
+        static uint32_t color[W * H];
+        static uint16_t depth[W * H];
+        for (int n = 0; n < 24; n++) {
+            smear_mesh field = make_field(n & 1);
+            smear_material material = { .unlit = (uint8_t)(n >> 1 & 1), .double_sided = n % 3 == 0 };
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            smear_transform pose = pose_at(0.02 * n, 0.01 * n, -2 - 0.11 * n, 0.04 * n - 0.4, 0.1);
+            smear_transform before = pose;
+            before.origin[0]++;
+            smear_draw d = { .mesh = &field, .material = &material, .now = &pose, .open = &before };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(n >> 2 & 1) };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            memcpy(color, r.color, sizeof color);
+            memcpy(depth, r.depth, sizeof depth);
+            f.method = SMEAR_RECONSTRUCT;
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            int drawn = 0;
+            for (int i = 0; i < W * H; i++) {
+                bool ok = CHECK_EQ(depth[i] != 0, r.depth[i] != 0) && CHECK_NEAR(depth[i], r.depth[i], 1);
+                for (int c = 0; c < 24; c += 8)
+                    ok = ok && CHECK_NEAR(color[i] >> c & 255u, r.color[i] >> c & 255u, n & 1 ? 3 : 0);
+                drawn += depth[i] != 0;
+                if (!ok) {
+                    CHECK_EQ(n * 10000 + i, -1);
+                    break;
+                }
+            }
+            CHECK(drawn > 500);
+        }
+    }
+    rig_close(&r);
+}
+
+static void test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted(void)
+{
+    struct rig ample, tight;
+    smear_desc desc = small_desc(64, 96);
+    smear_mesh grid = make_grid();
+    desc.max_triangles = 4000;
+    smear_desc small = desc;
+    if (rig_open(&ample, &desc, false)) {
+        for (uint32_t room = 400; room >= 4; room /= 2) {
+            small.max_triangles = room;
+            if (rig_open(&tight, &small, false)) {
+                smear_transform pose = pose_at(0, -0.3, 0, 0.4, -1.5707963);
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_material material = { .double_sided = 1 };
+                smear_draw d = { .mesh = &grid, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+                smear_stats stats;
+                CHECK_EQ(rig_frame(&ample, &f, &d, 1), SMEAR_OK);
+                CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
+                smear_get_stats(tight.ctx, &stats);
+                bool same = memcmp(ample.picture, tight.picture, ample.picture_size) == 0;
+                CHECK(same || stats.triangles_dropped > 0);
+                CHECK(room > 4 || stats.triangles_dropped > 0);
+            }
+            rig_close(&tight);
+        }
+    }
+    rig_close(&ample);
+}
+
+static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
+{
+    for (int format = 0; format <= SMEAR_L1_PAGES; format++)
+        for (int white = 0; white < 2; white++) {
+            struct rig r;
+            smear_desc desc = small_desc(24, 21);
+            desc.format = (uint8_t)format;
+            if (rig_open(&r, &desc, false)) {
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_frame f = { .camera = &camera, .clear = white ? 0xffffff : 0 };
+                CHECK_EQ(rig_frame(&r, &f, NULL, 0), SMEAR_OK);
+                for (size_t i = 0; i < r.picture_size; i++) {
+                    uint32_t want = !white ? 0 : 0xff;
+                    if (white && format == SMEAR_XRGB8888) {
+                        uint32_t word;
+                        memcpy(&word, r.picture + i / 4 * 4, 4);
+                        CHECK_EQ(word, 0xffffff);
+                        continue;
+                    }
+                    if (white && format == SMEAR_RGB555)
+                        want = i & 1 ? 0x7f : 0xff;
+                    if (white && format == SMEAR_L1_PAGES && i >= 2 * 24)
+                        want = 0x1f;                    /* 21 rows: five in the last page */
+                    if (!CHECK_EQ(r.picture[i], want))
+                        break;
+                }
+            }
+            rig_close(&r);
+        }
+}
+
 /* ------------------------------------------------------------------ the filter alone */
 
 /* A distance whose depth code is `code`, for near plane one: the middle of the code's step. */
@@ -1672,7 +2203,8 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
                 smear_material m[4];
                 for (int i = 0; i < 4; i++) {
                     double px = (double)desc.height / 2 / (2 << i);     /* per unit */
-                    pose[i] = pose_at((i * 6 - 8 + k * (4 * i - 6)) / px, (8 - 5 * i + k * (2 - 3 * i)) / px, -(2 << i),
+                    static const int step[4][2] = { { -6, 0 }, { 0, 3 }, { 5, -4 }, { 0, 0 } };      /* px per frame */
+                    pose[i] = pose_at((i * 6 - 8 + k * step[i][0]) / px, (8 - 5 * i + k * step[i][1]) / px, -(2 << i),
                                       0, 0);
                     m[i] = (smear_material){ .texture = &checker_texture, .unlit = 1 };
                     d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &m[i], .now = &pose[i] };
@@ -1823,6 +2355,18 @@ void suite_api(void)
     RUN(test_statistics_add_up);
     RUN(test_a_clock_times_the_stages_and_changes_no_pixel);
     RUN(test_meshes_cut_by_planes_cover_every_pixel_once);
+    RUN(test_accumulation_is_the_mean_of_the_instants_of_the_exposure);
+    RUN(test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure);
+    RUN(test_a_teleport_without_a_cut_streaks_for_one_frame_only);
+    RUN(test_uniform_tiles_take_plain_means_only_when_asked);
+    RUN(test_textures_of_every_size_show_their_texels);
+    RUN(test_the_largest_textures_are_taken);
+    RUN(test_what_is_cut_keeps_its_colours_and_texels);
+    RUN(test_flat_faces_are_lit_by_their_own_plane);
+    RUN(test_vertex_and_face_colours_pass_unlit);
+    RUN(test_tiny_triangles_are_drawn_alike_with_and_without_motion);
+    RUN(test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted);
+    RUN(test_black_is_zero_and_white_is_all_ones_in_every_format);
     RUN(test_the_filter_gives_the_bits_of_rendering_the_same_content);
     RUN(test_the_filter_refuses_what_it_cannot_do);
     RUN(test_the_filter_takes_any_velocity_and_depth);

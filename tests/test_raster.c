@@ -174,13 +174,13 @@ static int64_t edge_value(const int32_t a[2], const int32_t b[2], int32_t x, int
     return (int64_t)(b[0] - a[0]) * (y - a[1]) - (int64_t)(b[1] - a[1]) * (x - a[0]);
 }
 
-static int64_t area_of(int32_t p[3][2])
+static int64_t area_of(int32_t (*p)[2])
 {
     return edge_value(p[0], p[1], p[2][0], p[2][1]);
 }
 
 /* The top-left rule for the centre of pixel (px, py). */
-static bool covers(int32_t p[3][2], int32_t px, int32_t py)
+static bool covers(int32_t (*p)[2], int32_t px, int32_t py)
 {
     int32_t x = px * 256 + 128, y = py * 256 + 128;
     bool clockwise = area_of(p) > 0;
@@ -198,7 +198,7 @@ static bool covers(int32_t p[3][2], int32_t px, int32_t py)
 static uint8_t count[W * H];
 
 /* Draws the triangle alone, checks every pixel against the rule, and adds it to `count`. */
-static bool draw_and_check(int32_t p[3][2])
+static bool draw_and_check(int32_t (*p)[2])
 {
     if (area_of(p) == 0)
         return true;            /* never reaches the raster */
@@ -618,7 +618,7 @@ static void set_motion(int at, uint16_t vertex, int pose, int32_t dx, int32_t dy
 }
 
 /* Weights of the corners at a pixel's centre; they add up to the area, which is positive. */
-static void weights_at(int32_t p[3][2], int32_t px, int32_t py, int64_t weight[3])
+static void weights_at(int32_t (*p)[2], int32_t px, int32_t py, int64_t *weight)
 {
     int32_t centre[2] = { px * 256 + 128, py * 256 + 128 };
     bool clockwise = area_of(p) > 0;
@@ -648,7 +648,7 @@ static int64_t weighted(const int64_t weight[3], const int32_t value[3])
 }
 
 /* Random corners of a triangle of at least `pixels` square pixels; false when luck is out. */
-static bool fat_triangle(int32_t p[3][2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
+static bool fat_triangle(int32_t (*p)[2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
 {
     for (int tries = 0; tries < 50; tries++) {
         for (int i = 0; i < 3; i++) {
@@ -803,7 +803,7 @@ static int32_t code_in(uint32_t pixel, int c)
 }
 
 /* A triangle with random colours; checks each pixel against the exact mean of its corners' values. */
-static bool check_colors(int32_t p[3][2], const int32_t q[3], bool flat_depth, bool linear, int32_t slack)
+static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, bool linear, int32_t slack)
 {
     list_begin();
     set_layout(0, false, true, 0, SHADE_GOURAUD);
@@ -828,6 +828,8 @@ static bool check_colors(int32_t p[3][2], const int32_t q[3], bool flat_depth, b
                 continue;
             int64_t weight[3], sum = 0;
             weights_at(p, x, y, weight);
+            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), 1))
+                return false;
             for (int i = 0; i < 3; i++) {
                 weight[i] = flat_depth ? weight[i] : (weight[i] >> 8) * (q[i] >> 14);
                 sum += weight[i];
@@ -995,10 +997,17 @@ static bool check_texels(struct textured *t)
     add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
     planes_clear(&full);
     draw_list(&full);
+    int32_t (*p)[2] = t->p;
     for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++)
-            if (covers(t->p, x, y) && !check_texel_at(t, x, y, full.color[y * W + x] & 0xffffffu))
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y))
+                continue;
+            int64_t weight[3];
+            weights_at(p, x, y, weight);
+            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, t->q)), 1)
+                || !check_texel_at(t, x, y, full.color[y * W + x] & 0xffffffu))
                 return false;
+        }
     return true;
 }
 
@@ -1020,6 +1029,25 @@ static void test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel(v
                 t.uv[i][axis] = between(-32768, 32767) / (n % 3 == 0 ? 1 : 8);
         }
         if (!check_texels(&t))
+            return;
+    }
+}
+
+static void test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel(void)
+{
+    random_state = 27;
+    for (int n = 0; n < 150; n++) {
+        struct textured t = { .width = 32, .height = 16, .uv_shift = 15 };
+        int32_t x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            t.p[i][0] = x + between(-size, size);
+            t.p[i][1] = y + between(-size, size);
+            t.q[i] = between(2400, 2600) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                t.uv[i][axis] = between(0, 8191);
+        }
+        int64_t area = area_of(t.p);
+        if ((area > 60000 || area < -60000) && !check_texels(&t))
             return;
     }
 }
@@ -1055,7 +1083,7 @@ static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
 /* ------------------------------------------------------------------ velocity */
 
 /* A moving triangle against the exact quotient; `slack` in 1/256 px. */
-static bool check_velocity(int32_t p[3][2], int poses, int32_t motion[2][3][3], int32_t slack)
+static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], int32_t slack)
 {
     list_begin();
     set_layout(0, false, false, poses, SHADE_FLAT);
@@ -1140,6 +1168,29 @@ static void test_velocities_of_changing_depth_are_quotients(void)
                 motion[pose][i][2] = between(3500, 4800) << 8;
             }
         if (!check_velocity(p, 1 + n % 2, motion, 48))
+            return;
+    }
+}
+
+static void test_velocities_of_small_triangles_are_planes(void)
+{
+    random_state = 28;
+    for (int n = 0; n < 150; n++) {
+        int32_t p[3][2], motion[2][3][3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+        }
+        int64_t area = area_of(p);
+        if (area < 60000 && area > -60000)
+            continue;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-500, 500);
+                motion[pose][i][1] = between(-500, 500);
+                motion[pose][i][2] = 1 << 20;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 8))
             return;
     }
 }
@@ -1369,6 +1420,11 @@ static void random_list(void)
     }
     for (uint32_t i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
+    /* One of the plainest textured kind, which has a loop of its own. */
+    set_layout(1, true, false, between(0, 1), SHADE_NONE);
+    draw[1].alpha = SMEAR_OPAQUE;
+    const smear_texture plain = { .texels = texels, .width = 32, .height = 16 };
+    smear_sampler_make(&draw[1].sampler, &plain, 13, false, frame.linear);
     for (int n = 0; n < 40 && list_has_room(); n++) {
         int at = between(0, SEGMENTS - 1);
         int32_t size = chance(4) ? SMEAR_GUARD_PX << 8 : 256 << between(0, 6), p[3][2];
@@ -1590,9 +1646,11 @@ void suite_raster(void)
     RUN(test_colors_are_right_in_perspective);
     RUN(test_colors_of_small_triangles_are_interpolated_within_a_code);
     RUN(test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel);
+    RUN(test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel);
     RUN(test_texels_of_a_flat_plane_are_exact_away_from_borders);
     RUN(test_velocities_of_unchanging_depth_are_planes);
     RUN(test_velocities_of_changing_depth_are_quotients);
+    RUN(test_velocities_of_small_triangles_are_planes);
     RUN(test_long_velocities_keep_their_direction_and_end_at_the_reach);
     RUN(test_a_still_triangle_stops_what_it_hides_and_nothing_else);
     RUN(test_only_columns_of_tiles_with_motion_are_marked);

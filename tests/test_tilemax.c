@@ -230,7 +230,7 @@ static void test_with_the_corner_rule_a_diagonal_counts_only_when_it_points_here
 {
     static const struct { int x, y; bool counts; } from_top_left[] = {
         { 50, 50, true }, { -50, -50, true }, { 50, -50, false }, { -50, 50, false }, { 70, 0, false },
-        { 0, 70, false }, { 90, 1, true }
+        { 0, 70, false }, { -70, 0, false }, { 0, -70, false }, { 90, 1, true }
     };
     for (int i = 0; i < (int)(sizeof from_top_left / sizeof from_top_left[0]); i++) {
         make_window(24, 24, 24, false);
