@@ -5,13 +5,13 @@
 
 #include "mover.h"
 
-/* Bytes of work memory per worker for tiles of this edge. */
-size_t smear_timemask_work(int32_t tile);
+/* Bytes of work memory per worker for this many slots, whatever the tile: 7.5 kB for 32, half of it for fewer. */
+size_t smear_timemask_bytes(int32_t slots);
 
 struct smear_timemask_settings {
     int32_t slots;              /* 8, 16 or 32 */
     int32_t bend;               /* q8 px: a chord may miss a path by this much; else the shutter is split */
-    int32_t tap;                /* q8 px of travel per texel taken along it */
+    int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
 };
 
 /* Opaque movers. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
