@@ -20,6 +20,7 @@ static void forget_all(struct smear_assembler *a)
 
 void smear_assembler_reset(struct smear_assembler *a)
 {
+    a->path_count = 0;
     if (a->serial == 0)         /* later, serial numbers tell old vertices from new ones */
         forget_all(a);
 }

@@ -138,7 +138,7 @@ static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bou
 static bool has_room(struct path_batch *b)
 {
     struct smear_segment *s = make_room(b->a, b->d, b->segment, 2);
-    if (s == NULL)
+    if (s == NULL || b->a->path_count == b->a->path_limit)
         return false;
     b->segment = s;
     return true;
@@ -165,6 +165,7 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
     t->vertex[2] = offset2;
     t->segment = (uint16_t)(b->segment - b->a->geometry->segment);
     t->color = smear_face_color(b->d, b->segment, &face);
+    b->a->path_count++;
     b->a->triangles_drawn++;
     return true;
 }
@@ -239,6 +240,7 @@ static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygo
         }
     }
     struct smear_triangle *t = geometry_add_path(g, list_of(b, &bounds), &bounds);
+    b->a->path_count++;
     b->a->triangles_drawn++;
     t->segment = (uint16_t)(s - g->segment);
     t->color = smear_face_color(b->d, s, face);

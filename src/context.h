@@ -63,7 +63,7 @@ struct smear_context {
     struct smear_shutter shutter;
     struct smear_chooser chooser;
     struct smear_mover *mover;      /* of the row */
-    uint32_t mover_limit, mover_count;
+    uint32_t mover_count;
     struct smear_tile_load *load;   /* per tile of the row */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;

@@ -635,8 +635,6 @@ static void list_movers(struct smear_context *c, int row)
     c->moving = smear_geometry_advance(g, g->mover_last, c->moving, row);
     for (uint32_t i = c->moving; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
         const struct smear_path_bounds *b = geometry_bounds(g, i);
-        if (c->mover_count == c->mover_limit)
-            break;
         c->mover[c->mover_count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
                                                            b->nearest };
         load_tiles(c, b->x0, b->x1, b, 0);

@@ -28,6 +28,7 @@ struct smear_assembler {
     bool cache_has_paths;           /* it holds vertices of assemble_path.c */
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
+    uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
     uint32_t triangles_drawn, triangles_dropped;
 };
 

@@ -88,8 +88,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     c->mover = NULL;
     if (d->timed) {
-        c->mover_limit = d->max_triangles;
-        c->mover = arena_take(a, c->mover_limit, sizeof *c->mover);
+        c->assembler.path_limit = d->max_triangles;
+        c->mover = arena_take(a, d->max_triangles, sizeof *c->mover);
         c->load = arena_take(a, columns, sizeof *c->load);
         c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
