@@ -230,7 +230,7 @@ static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_cl
     for (int i = 0; i < 3; i++)
         v[i] = *corner[(turn < 3 ? i + turn : 2 * i + turn) % 3];
     int codes = codes_of(&a, p) | codes_of(&b, p) | codes_of(&c, p);
-    int count = smear_clip_triangle(v, p, codes), found = 0;
+    int count = smear_clip_polygon(v, 3, p, codes), found = 0;
     CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX));
     for (int i = 0; i < count; i++) {
         if (v[i].pose[1].distance != 0)
