@@ -333,7 +333,7 @@ static struct box draw_instant(const struct subframes *f, int32_t time)
         return all;
     blend(f, time, BLEND_BOX, NULL, &all);
     if (!box_is_empty(&all)) {
-        struct smear_raster_target target = f->work; (void)within;
+        struct smear_raster_target target = within(f, &all);
         blend(f, time, BLEND_ALL, &target, NULL);
     }
     return all;
