@@ -78,7 +78,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
     *b = (struct smear_path_bounds){
         .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
         .travel = sixteenths(travel), .bend = sixteenths(bend), .nearest = code_above(depth),
-        .flags = (uint16_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
+        .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
                             | (d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
     };
     return true;
@@ -172,6 +172,13 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
 
 /* ------------------------------------------------------------------ clipped */
 
+/* What a triangle is cut against: the exposure, or one of PATH_PIECES parts of it. */
+struct cut {
+    struct smear_projection projection[KEYS];
+    int codes[KEYS];
+    uint8_t piece;          /* as in struct smear_path_bounds */
+};
+
 /* Brings another pose into the place that is clipped, or back. */
 static void exchange(struct smear_clip_vertex *v, int count, int key)
 {
@@ -183,25 +190,24 @@ static void exchange(struct smear_clip_vertex *v, int count, int key)
 }
 
 /* Leaves what is in front of the near plane and within the guard band at all three instants. */
-static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct smear_assembly *d,
-                    const int codes[KEYS])
+static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
 {
-    int count = smear_clip_polygon(polygon, 3, &d->at.now, codes[MIDDLE]);
+    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
     for (int key = OPEN; key <= CLOSE && count != 0; key++) {
         exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &d->key[key].now, codes[key] & ~OUT_FAR);
+        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
         exchange(polygon, count, key);
     }
     return count;
 }
 
 static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
-                           const struct smear_assembly *d, const struct smear_viewport *viewport)
+                           const struct cut *cut, const struct smear_viewport *viewport)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = viewport->width << 7, cy = viewport->height << 7;
     for (int key = 0; key < KEYS; key++) {
-        smear_project(&screen[key], &placement_of(d, key)->now, key == MIDDLE ? &v->now : &v->pose[key], viewport);
+        smear_project(&screen[key], &cut->projection[key], key == MIDDLE ? &v->now : &v->pose[key], viewport);
         screen[key].x = clamp_i32(screen[key].x, cx - guard, cx + guard);
         screen[key].y = clamp_i32(screen[key].y, cy - guard, cy + guard);
     }
@@ -213,7 +219,7 @@ static int64_t area_at(const struct smear_screen (*corner)[KEYS], int i, int k, 
 }
 
 /* One triangle of the fan, in the order that is clockwise when seen from its side. */
-static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygon,
+static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygon, uint8_t piece,
                     const struct smear_screen (*screen)[KEYS], const int fan[3], const struct smear_face *face)
 {
     const struct smear_screen *const corner[3] = { screen[fan[0]], screen[fan[1]], screen[fan[2]] };
@@ -222,6 +228,9 @@ static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygo
         return true;
     if (!has_room(b))
         return false;
+    bounds.piece = piece;
+    if (piece != 0)         /* of the whole exposure */
+        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);
     const struct smear_segment *s = b->segment;
     struct smear_geometry *g = b->a->geometry;
     uint16_t offset[3];
@@ -249,21 +258,126 @@ static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygo
     return true;
 }
 
-/* `corner` as the mesh has them: counter-clockwise in front. */
-static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const corner[3], uint32_t triangle,
-                                       const int codes[KEYS], bool back)
+/* Adds what is left of a triangle, if it is seen from the side that is drawn (`back`: counter-clockwise) at some
+ * instant. */
+static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
+                    const struct smear_face *face)
 {
     const struct smear_assembly *d = b->d;
     struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
     struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
+    for (int i = 0; i < 3; i++)
+        polygon[i] = corner[i];
+    int count = clip_all(polygon, cut);
+    for (int i = 0; i < count; i++)
+        project_corner(screen[i], &polygon[i], cut, &b->a->viewport);
+    bool seen = false;
+    for (int key = 0; key < KEYS && !seen; key++) {
+        int64_t area = 0;
+        for (int i = 2; i < count; i++)
+            area += area_at((const struct smear_screen (*)[KEYS])screen, i - 1, i, key);
+        seen = ((area > 0) != d->mirrored) == face->back && area != 0;
+    }
+    if (!seen)
+        return true;
+    bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
+    for (int i = 2; i < count; i++) {
+        const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
+        if (!add_fan(b, polygon, cut->piece, (const struct smear_screen (*)[KEYS])screen, fan, face))
+            return false;
+    }
+    return true;
+}
+
+/* Brings a projection to fewer bits of scale, as its vertices are. */
+static void lower_scale(struct smear_projection *p, int scale)
+{
+    int down = p->scale - scale;
+    p->scale = (int16_t)scale;
+    p->distance_scale = (int16_t)(p->distance_scale - down);
+    p->depth_shift = (int16_t)(p->depth_shift - down);
+    p->near_distance = max_i32(scale_sat(p->near_distance, -down), 1);
+    if (p->far_distance != INT32_MAX)
+        p->far_distance = scale_sat(p->far_distance, -down);
+}
+
+/* Coordinate at time u (q16, -1 .. 1) of the way from open over middle to close. */
+static int32_t on_way(int64_t open, int64_t middle, int64_t close, int32_t u)
+{
+    int64_t along = (close - open) + ((open + close - 2 * middle) * u >> 16);
+    return (int32_t)(middle + (along * u >> 17));
+}
+
+static void place_on_way(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
+{
+    out->x = on_way(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
+    out->y = on_way(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
+    out->w = on_way(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
+    out->distance = out->w;
+}
+
+static void scale_homogeneous(struct smear_homogeneous *h, int down)
+{
+    h->x = scale_sat(h->x, -down);
+    h->y = scale_sat(h->y, -down);
+    h->w = scale_sat(h->w, -down);
+}
+
+/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout would be too
+ * little. In short parts of the exposure it is about what is in front in the middle; at their ends a little of that may
+ * lie behind, though not behind the eye. */
+static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_clip_vertex corner[3],
+                                      struct cut *cut, const struct smear_face *face)
+{
+    /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
+    int scale = min_i32(cut->projection[MIDDLE].scale,
+                        min_i32(cut->projection[OPEN].scale, cut->projection[CLOSE].scale)) - 2;
+    struct smear_homogeneous key[3][KEYS];
+    for (int i = 0; i < 3; i++) {
+        key[i][MIDDLE] = corner[i].now;
+        key[i][OPEN] = corner[i].pose[OPEN];
+        key[i][CLOSE] = corner[i].pose[CLOSE];
+        for (int k = 0; k < KEYS; k++)
+            scale_homogeneous(&key[i][k], cut->projection[k].scale - scale);
+    }
+    lower_scale(&cut->projection[MIDDLE], scale);
+    cut->projection[OPEN] = cut->projection[CLOSE] = cut->projection[MIDDLE];
+    for (int key = OPEN; key <= CLOSE; key++)
+        cut->projection[key].near_distance = max_i32(cut->projection[MIDDLE].near_distance >> 2, 1);
+    for (int k = 0; k < KEYS; k++)
+        cut->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
+    const int32_t step = 131072 / PATH_PIECES;
+    for (int piece = 0; piece < PATH_PIECES; piece++) {
+        struct smear_clip_vertex part[3];
+        int32_t begin = piece * step - 65536;
+        for (int i = 0; i < 3; i++) {
+            part[i] = corner[i];
+            place_on_way(&part[i].pose[OPEN], key[i], begin);
+            place_on_way(&part[i].now, key[i], begin + step / 2);
+            place_on_way(&part[i].pose[CLOSE], key[i], begin + step);
+        }
+        cut->piece = (uint8_t)(piece + 1);
+        if (!add_cut(b, part, cut, face))
+            return false;
+    }
+    return true;
+}
+
+/* `corner` as the mesh has them: counter-clockwise in front. */
+static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3], uint32_t triangle,
+                                       const int codes[KEYS], bool back)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_clip_vertex corner[3];
     struct smear_face face = smear_face_of(d, triangle, back);
+    struct cut cut = { .piece = 0 };
     if (b->segment == NULL)
         b->segment = smear_record_segment(b->a, d);
     if (b->segment == NULL)
         return false;
     for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &polygon[i];
-        uint32_t index = corner[i]->tag & 0xffffu;
+        struct smear_clip_vertex *v = &corner[i];
+        uint32_t index = vertex[i]->tag & 0xffffu;
         placement_transform(&v->now, &d->at, index);
         for (int key = OPEN; key <= CLOSE; key++)
             placement_transform(&v->pose[key], &d->key[key], index);
@@ -275,27 +389,14 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         for (int c = 0; c < 4; c++)
             v->color[c] = color.channel[c];
     }
-    int count = clip_all(polygon, d, codes);
-    for (int i = 0; i < count; i++)
-        project_corner(screen[i], &polygon[i], d, &b->a->viewport);
-
-    /* Drawn where it is clockwise at some instant (`back`: counter-clockwise). */
-    bool seen = false;
-    for (int key = 0; key < KEYS && !seen; key++) {
-        int64_t area = 0;
-        for (int i = 2; i < count; i++)
-            area += area_at((const struct smear_screen (*)[KEYS])screen, i - 1, i, key);
-        seen = ((area > 0) != d->mirrored) == back && area != 0;
+    int near_codes = 0;
+    for (int key = 0; key < KEYS; key++) {
+        cut.codes[key] = codes[key];
+        cut.projection[key] = placement_of(d, key)->now;
+        near_codes |= codes[key] & OUT_NEAR;
     }
-    if (!seen)
-        return true;
-    bool turn = d->mirrored == back;        /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < count; i++) {
-        const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
-        if (!add_fan(b, polygon, (const struct smear_screen (*)[KEYS])screen, fan, &face))
-            return false;
-    }
-    return true;
+    return near_codes != 0 && !d->at.now.orthographic ? add_pieces(b, corner, &cut, &face)
+                                                      : add_cut(b, corner, &cut, &face);
 }
 
 /* ------------------------------------------------------------------ the loop */

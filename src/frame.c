@@ -499,19 +499,20 @@ static struct smear_row_table row_table(const struct smear_context *c, int row)
     return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
 }
 
-static bool is_still(const struct smear_window *w, int row, int column)
+static bool is_still(const struct smear_context *c, int row, int column)
 {
-    return window_around(w, row)[column].kind == TILE_STILL;
+    return c->assembler.keep_paths ? c->load[column].count == 0 && c->load[column].flags == 0
+                                   : window_around(&c->window, row)[column].kind == TILE_STILL;
 }
 
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
 static void convert_still(struct smear_context *c, const struct row_job *r, int column)
 {
     const struct smear_window *w = &c->window;
-    if (column > 0 && is_still(w, r->row, column - 1))
+    if (column > 0 && is_still(c, r->row, column - 1))
         return;
     int end = column + 1;
-    while (end < w->columns && is_still(w, r->row, end))
+    while (end < w->columns && is_still(c, r->row, end))
         end++;
     smear_format format = (smear_format)c->desc.format;
     uint32_t stride = smear_convert_stride(w->width, format);
@@ -537,7 +538,7 @@ static void tile_job(void *argument, int column, int worker)
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
-    if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
+    if (is_still(c, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
         convert_still(c, r, column);
         return;
     }
@@ -659,6 +660,10 @@ static void timed_job(void *argument, int column, int worker)
     const struct smear_window *w = &c->window;
     uint32_t *out = c->scratch + worker * w->tile * w->tile;
     struct smear_tile_choice choice;
+    if (is_still(c, r->row, column)) {
+        convert_still(c, r, column);
+        return;
+    }
     smear_choose(&choice, &c->chooser, &c->load[column]);
     struct smear_moving_tile tile = {
         .frame = &c->raster, .shutter = &c->shutter, .mover = c->mover, .mover_count = c->mover_count,

@@ -40,13 +40,17 @@ struct smear_path_bounds {
     uint16_t travel;        /* longest way of a vertex from open to close, 1/16 px, saturated */
     uint16_t bend;          /* path_bend of a vertex, at most, 1/16 px, saturated */
     uint16_t nearest;       /* depth code that is not exceeded */
-    uint16_t flags;         /* PATH_FLAT ... */
+    uint8_t flags;          /* PATH_TEXTURED ... */
+    uint8_t piece;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the k-th of
+                             * PATH_PIECES parts of the exposure, and it is there only then */
 };
 
 enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2      /* a cutout or blended: closed forms do not hold */
 };
+
+enum { PATH_PIECES = 16 };
 
 enum smear_shade_mode {
     SHADE_NONE,             /* texel alone */

@@ -176,6 +176,8 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
     const struct smear_raster_target *tile = &f->t->still;
     p->segment = s;
     p->color = t->color;
+    if (s->path && !path_piece_time(&time, geometry_bounds(frame->geometry, triangle)->piece))
+        return false;
     for (int i = 0; i < 3; i++)
         p->v[i] = geometry_vertex(frame->geometry, s, t->vertex[i]);
     const int32_t u = (time - SHUTTER_CLOSE / 2) * 32768;

@@ -118,13 +118,17 @@ static int64_t area_at(const struct corners *c, int pose)
 
 static bool has_room(void)
 {
-    return geometry_has_room(&geometry, 3 * 16, 1) && mover_count < MOVERS;
+    return geometry_has_room(&geometry, 3 * 16, 2) && mover_count < MOVERS;
 }
 
 /* Stores a triangle; of a still segment the middle alone. */
 static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
 {
     const struct smear_segment *s = &segment[at];
+    if (s->path) {          /* bounds of its way: the subframes only ask for how long it is there */
+        void *entry = geometry_triangle(&geometry, geometry.triangle_count++);
+        *(struct smear_path_bounds *)entry = (struct smear_path_bounds){ .piece = 0 };
+    }
     uint32_t i = geometry.triangle_count++;
     struct smear_triangle *t = geometry_triangle(&geometry, i);
     *t = (struct smear_triangle){ .segment = (uint16_t)at, .next = SMEAR_NO_TRIANGLE, .color = color };
