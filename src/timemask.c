@@ -3,6 +3,7 @@
  * into time slots over the still scene; then their mean. */
 #include "timemask.h"
 
+#include "shutter.h"
 #include "timemask_cover.h"
 #include "timemask_shade.h"
 #include "timemask_slots.h"
@@ -22,13 +23,30 @@ struct job {
     uint32_t fragments;
 };
 
-static const struct smear_triangle *triangle_of(const struct job *j, const struct smear_mover *m,
-                                                const struct smear_segment **segment)
+/* A moving triangle. */
+struct mover {
+    const struct smear_path_bounds *bounds;
+    const struct smear_triangle *triangle;
+    const struct smear_segment *segment;
+    const int32_t *record[3];
+};
+
+/* Movers that may be seen in a box of pixels. */
+static bool mover_take(struct mover *m, const struct job *j, uint32_t i)
 {
-    const struct smear_geometry *g = j->tile->frame->geometry;
-    const struct smear_triangle *t = geometry_triangle(g, m->triangle);
-    *segment = &g->segment[t->segment];
-    return t;
+    const struct smear_moving_tile *t = j->tile;
+    const struct smear_geometry *g = t->frame->geometry;
+    if (!mover_is_in(&t->mover[i], t->column))
+        return false;
+    m->bounds = geometry_bounds(g, t->mover[i].triangle);
+    if (m->bounds->x0 >= j->x + j->width || m->bounds->x1 <= j->x
+        || m->bounds->y0 >= j->y + j->height || m->bounds->y1 <= j->y)
+        return false;
+    m->triangle = geometry_triangle(g, t->mover[i].triangle);
+    m->segment = &g->segment[m->triangle->segment];
+    for (int k = 0; k < 3; k++)
+        m->record[k] = geometry_vertex(g, m->segment, m->triangle->vertex[k]);
+    return true;
 }
 
 /* ------------------------------------------------------------------ segments */
@@ -46,62 +64,39 @@ static int32_t shutter_bend(const struct smear_shutter *s, int log2)
     return worst;
 }
 
-/* Bounds over the tile's triangles, q8 px. */
-struct tile_motion {
-    int32_t bend;               /* how far an edge's middle lies off where its ends say, whole exposure as a segment */
-    int32_t travel;
-};
-
-/* Edges are taken to sweep evenly: what an edge that turns or grows lies off in the middle, |move x change| / (4 length),
- * and what its vertices do. */
-static int32_t edge_bend(const int32_t *const open[3], const int32_t *const close[3], int i, int j)
+/* Edges are taken to sweep evenly: how far one that turns or grows lies off in the middle, |move x change| / (4 length),
+ * q8 px, rounded up. */
+static int32_t edge_bend(const struct mover *m, int i, int j)
 {
-    int32_t ex = open[j][PATH_X] - open[i][PATH_X], ey = open[j][PATH_Y] - open[i][PATH_Y];
-    int32_t cx = close[j][PATH_X] - close[i][PATH_X] - ex, cy = close[j][PATH_Y] - close[i][PATH_Y] - ey;
-    int32_t mx = close[i][PATH_X] - open[i][PATH_X], my = close[i][PATH_Y] - open[i][PATH_Y];
+    const int32_t *a = m->record[i] + m->segment->motion, *b = m->record[j] + m->segment->motion;
+    int32_t ex = b[PATH_X] - a[PATH_X], ey = b[PATH_Y] - a[PATH_Y];
+    int32_t cx = b[PATH_POSE_WORDS + PATH_X] - a[PATH_POSE_WORDS + PATH_X] - ex;
+    int32_t cy = b[PATH_POSE_WORDS + PATH_Y] - a[PATH_POSE_WORDS + PATH_Y] - ey;
+    int32_t mx = a[PATH_POSE_WORDS + PATH_X] - a[PATH_X], my = a[PATH_POSE_WORDS + PATH_Y] - a[PATH_Y];
     int64_t turn = (int64_t)mx * cy - (int64_t)my * cx;
-    int64_t length = max_i32(abs_i32(ex + (cx >> 1)), abs_i32(ey + (cy >> 1))) + 16;
+    uint32_t length = (uint32_t)max_i32(abs_i32(ex + (cx >> 1)), abs_i32(ey + (cy >> 1))) + 16u;
     turn = (turn < 0 ? -turn : turn) >> 2;
-    /* Quotient to the next power of two would do; bits are few. */
-    int32_t over = 0;
-    while (turn > length) {
-        turn >>= 1;
-        over = 2 * over + 1;
-    }
-    return over;
+    int zeros = count_leading_zeros(length);
+    uint64_t over = (uint64_t)(turn >> 8) * recip_norm(length << zeros) >> (61 - 8 - zeros);
+    return over >= INT32_MAX ? INT32_MAX : (int32_t)over + 1;
 }
 
-static void mover_motion(struct tile_motion *b, const struct smear_geometry *g, const struct smear_segment *s,
-                         const struct smear_triangle *t)
-{
-    const int32_t *open[3], *close[3];
-    for (int i = 0; i < 3; i++) {
-        const int32_t *record = geometry_vertex(g, s, t->vertex[i]);
-        open[i] = record + s->motion;
-        close[i] = open[i] + PATH_POSE_WORDS;
-        b->bend = max_i32(b->bend, path_bend(record, s) >> 1);
-        b->travel = max_i32(b->travel, max_i32(abs_i32(close[i][PATH_X] - open[i][PATH_X]),
-                                               abs_i32(close[i][PATH_Y] - open[i][PATH_Y])));
-    }
-    b->bend = max_i32(b->bend, max_i32(edge_bend(open, close, 0, 1),
-                                       max_i32(edge_bend(open, close, 1, 2), edge_bend(open, close, 2, 0))));
-}
-
-/* The fewest segments that do for all triangles of the tile. */
+/* The fewest segments that do for all triangles of the tile, of the whole exposure. */
 static void choose_segments(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
-    struct tile_motion motion = { 0, 0 };
+    int32_t bend = 0, travel = 0;               /* q8 px */
+    struct mover m;
     for (uint32_t i = 0; i < t->mover_count; i++)
-        if (mover_is_in(&t->mover[i], t->column)) {
-            const struct smear_segment *segment;
-            const struct smear_triangle *triangle = triangle_of(j, &t->mover[i], &segment);
-            mover_motion(&motion, t->frame->geometry, segment, triangle);
+        if (mover_take(&m, j, i) && m.bounds->piece == 0) {
+            travel = max_i32(travel, m.bounds->travel << 4);
+            bend = max_i32(bend, m.bounds->bend << 3);
+            bend = max_i32(bend, max_i32(edge_bend(&m, 0, 1), max_i32(edge_bend(&m, 1, 2), edge_bend(&m, 2, 0))));
         }
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
-           && (motion.bend >> (2 * log2) > j->settings->bend
-               || (int64_t)motion.travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend))
+           && (bend >> (2 * log2) > j->settings->bend
+               || (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend))
         log2++;
     j->segments_log2 = log2;
     j->slots_log2 = j->slots.slots_log2 - log2;
@@ -111,13 +106,12 @@ static void choose_segments(struct job *j)
 
 /* ------------------------------------------------------------------ triangles */
 
-static void pose_at(struct timemask_pose *p, const struct job *j, const int32_t *const record[3],
-                    const struct smear_segment *s, int32_t time)
+static void pose_at(struct timemask_pose *p, const struct job *j, const struct mover *m, int32_t time)
 {
     int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
     for (int i = 0; i < 3; i++) {
         int32_t place[3];
-        path_at(place, record[i], s, time);
+        path_at(place, m->record[i], m->segment, time);
         p->x[i] = place[0] - x;
         p->y[i] = place[1] - y;
         p->depth[i] = max_i32(place[2], 1);
@@ -133,19 +127,25 @@ static inline uint32_t still_at(const struct smear_plane_rows *r, const struct s
     return (uint32_t)(slot * r->stride + x - r->x0);
 }
 
-/* Fragments of a triangle in one segment; `first` is the segment's first slot. */
-static void draw_segment(struct job *j, const struct timemask_cover *c, const struct timemask_shade *s, int32_t first)
+/* A triangle in a segment of 2^slots_log2 slots, from pose a to pose b; `first` is the segment's first slot. */
+static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *a,
+                         const struct timemask_pose *b, int32_t first, int32_t slots_log2)
 {
     const struct smear_raster_target *still = &j->tile->still;
+    struct timemask_cover c;
+    struct timemask_shade s;
     struct timemask_run run[TIMEMASK_BLOCK];
-    for (int32_t y = c->y0; y < c->y1; y++) {
-        int32_t n = smear_timemask_row(c, y, run);
+    if (!smear_timemask_cover(&c, a, b, j->width, j->height, slots_log2))
+        return;
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, a, b, slots_log2, j->settings->tap);
+    for (int32_t y = c.y0; y < c.y1; y++) {
+        int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
-            uint32_t code = timemask_depth(s, y, &run[i]);
+            uint32_t code = timemask_depth(&s, y, &run[i]);
             if (code <= depth[run[i].x])
                 continue;
-            uint32_t color = s->gouraud || s->sampler != NULL ? smear_timemask_color(s, y, &run[i]) : s->color;
+            uint32_t color = s.gouraud || s.sampler != NULL ? smear_timemask_color(&s, y, &run[i]) : s.color;
             uint32_t mask = (UINT32_MAX >> (32 - (run[i].to - run[i].from))) << (first + run[i].from);
             smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + run[i].x), mask, color, code);
             j->fragments++;
@@ -153,25 +153,27 @@ static void draw_segment(struct job *j, const struct timemask_cover *c, const st
     }
 }
 
-static void draw_mover(struct job *j, const struct smear_mover *m)
+static void draw_mover(struct job *j, const struct mover *m)
 {
-    const struct smear_raster_frame *frame = j->tile->frame;
-    const struct smear_segment *segment;
-    const struct smear_triangle *t = triangle_of(j, m, &segment);
-    const int32_t *record[3];
-    for (int i = 0; i < 3; i++)
-        record[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
     struct timemask_pose pose[2];
-    pose_at(&pose[0], j, record, segment, j->time[0]);
+    pose_at(&pose[0], j, m, j->time[0]);
     for (int i = 0; i < 1 << j->segments_log2; i++) {
-        struct timemask_pose *a = &pose[i & 1], *b = &pose[~i & 1];
-        struct timemask_cover c;
-        pose_at(b, j, record, segment, j->time[i + 1]);
-        if (!smear_timemask_cover(&c, a, b, j->width, j->height, j->slots_log2))
+        pose_at(&pose[~i & 1], j, m, j->time[i + 1]);
+        draw_segment(j, m, &pose[i & 1], &pose[~i & 1], i << j->slots_log2, j->slots_log2);
+    }
+}
+
+/* One that is there for a piece of the exposure: as it is in the middle of each slot. */
+static void draw_piece(struct job *j, const struct mover *m)
+{
+    struct timemask_pose pose;
+    int32_t slots = 1 << j->slots.slots_log2;
+    for (int32_t slot = 0; slot < slots; slot++) {
+        int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
+        if (!path_piece_time(&time, m->bounds->piece))
             continue;
-        struct timemask_shade s;
-        smear_timemask_shade(&s, frame, segment, t, a, b, j->slots_log2, j->settings->tap);
-        draw_segment(j, &c, &s, i << j->slots_log2);
+        pose_at(&pose, j, m, time);
+        draw_segment(j, m, &pose, &pose, slot, 0);
     }
 }
 
@@ -193,20 +195,27 @@ static void finish_block(const struct job *j)
     }
 }
 
-static int32_t block_height(int32_t slots)
+/* Rows of a block that the memory is enough for. */
+static int32_t block_height(uint32_t work_bytes)
 {
-    return slots > 16 ? TIMEMASK_BLOCK : TIMEMASK_BLOCK / 2;
+    int32_t height = TIMEMASK_BLOCK;
+    while (work_bytes != 0 && height > 1 && timemask_slots_bytes((uint32_t)(TIMEMASK_BLOCK * height)) > work_bytes)
+        height >>= 1;
+    return height;
 }
 
-size_t smear_timemask_bytes(int32_t slots)
+size_t smear_timemask_work(int32_t tile)
 {
-    return timemask_slots_bytes((uint32_t)(TIMEMASK_BLOCK * block_height(slots)));
+    (void)tile;
+    return timemask_slots_bytes(TIMEMASK_BLOCK * TIMEMASK_BLOCK);
 }
 
 uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
 {
-    const int32_t height = block_height(settings->slots);
-    struct job j = { .tile = t, .settings = settings };
+    const int32_t height = block_height(t->work_bytes);
+    struct job j = { .tile = t, .settings = settings, .x = t->still.x0, .y = t->still.y0, .width = t->tile,
+                     .height = t->tile };
+    struct mover m;
     smear_timemask_slots_place(&j.slots, t->work, (uint32_t)(TIMEMASK_BLOCK * height),
                                31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
     choose_segments(&j);
@@ -215,9 +224,14 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
             j.width = min_i32(t->still.x1 - j.x, TIMEMASK_BLOCK);
             j.height = min_i32(t->still.y1 - j.y, height);
             smear_timemask_slots_clear(&j.slots);
-            for (uint32_t i = 0; i < t->mover_count; i++)
-                if (mover_is_in(&t->mover[i], t->column))
-                    draw_mover(&j, &t->mover[i]);
+            for (uint32_t i = 0; i < t->mover_count; i++) {
+                if (!mover_take(&m, &j, i))
+                    continue;
+                if (m.bounds->piece == 0)
+                    draw_mover(&j, &m);
+                else
+                    draw_piece(&j, &m);
+            }
             finish_block(&j);
         }
     return j.fragments;

@@ -5,8 +5,9 @@
 
 #include "mover.h"
 
-/* Bytes of work memory per worker for this many slots, whatever the tile: 7.5 kB for 32, half of it for fewer. */
-size_t smear_timemask_bytes(int32_t slots);
+/* Bytes of work memory per worker: 7.5 kB, whatever the tile. Half or a quarter of it does, too, at the cost of more set-up:
+ * tell by smear_moving_tile.work_bytes. */
+size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {
     int32_t slots;              /* 8, 16 or 32 */

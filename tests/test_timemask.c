@@ -22,7 +22,7 @@ static struct smear_geometry geometry;
 static struct smear_raster_frame frame;
 static struct smear_shutter shutter;
 static struct smear_mover mover[MOVERS];
-static uint32_t mover_count;
+static uint32_t mover_count, list_last;
 
 static uint32_t still_color[W * H], result[W * H];
 static uint16_t still_depth[W * H];
@@ -88,6 +88,7 @@ static void scene_begin(bool linear)
     for (int i = 0; i <= SHUTTER_SLOTS; i++)
         shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SLOTS);
     mover_count = 0;
+    list_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i < W * H; i++) {
         still_color[i] = 0x204060u + (uint32_t)(i % 7) * 0x10101u;
         still_depth[i] = 0;
@@ -143,17 +144,45 @@ static void set_vertex_uv(int at, uint16_t v, int32_t u, int32_t w)
     vertex_words(v)[segment[at].uv] = ((uint32_t)u & 0xffffu) | (uint32_t)w << 16;
 }
 
+/* As assemble_path.c has them. */
+static struct smear_path_bounds bounds_of(int at, const int32_t *const v[3])
+{
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, travel = 0, bend = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *pose[3] = { v[i], v[i] + segment[at].motion, v[i] + segment[at].motion + PATH_POSE_WORDS };
+        for (int k = 0; k < 3; k++) {
+            x0 = min_i32(x0, pose[k][PATH_X]);
+            x1 = max_i32(x1, pose[k][PATH_X]);
+            y0 = min_i32(y0, pose[k][PATH_Y]);
+            y1 = max_i32(y1, pose[k][PATH_Y]);
+        }
+        int32_t dx = abs_i32(pose[2][PATH_X] - pose[1][PATH_X]), dy = abs_i32(pose[2][PATH_Y] - pose[1][PATH_Y]);
+        travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
+        bend = max_i32(bend, path_bend(v[i], &segment[at]));
+    }
+    int32_t margin = bend >> 3;
+    return (struct smear_path_bounds){
+        .x0 = (int16_t)((x0 - margin + 127) >> 8), .y0 = (int16_t)((y0 - margin + 127) >> 8),
+        .x1 = (int16_t)((x1 + margin + 255) >> 8), .y1 = (int16_t)((y1 + margin + 255) >> 8),
+        .travel = (uint16_t)min_i32((travel + 15) >> 4, 65535), .bend = (uint16_t)min_i32((bend + 15) >> 4, 65535),
+        .nearest = 65535
+    };
+}
+
 /* Clockwise on the screen in the middle of the exposure, whatever the order given. */
 static void add_mover(int at, uint16_t a, uint16_t b, uint16_t c, uint32_t color)
 {
     const int32_t *v[3] = { (int32_t *)pool + a, (int32_t *)pool + b, (int32_t *)pool + c };
     int64_t area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1])
                  - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
-    uint32_t i = geometry.triangle_count++;
-    *geometry_triangle(&geometry, i) = (struct smear_triangle){
-        .vertex = { a, area < 0 ? c : b, area < 0 ? b : c }, .segment = (uint16_t)at, .color = 0xff000000u | color
-    };
-    mover[mover_count++] = (struct smear_mover){ i, 0, 255, 65535 };
+    const struct smear_path_bounds bounds = bounds_of(at, v);
+    struct smear_triangle *t = geometry_add_path(&geometry, &list_last, &bounds);
+    t->vertex[0] = a;
+    t->vertex[1] = area < 0 ? c : b;
+    t->vertex[2] = area < 0 ? b : c;
+    t->segment = (uint16_t)at;
+    t->color = 0xff000000u | color;
+    mover[mover_count++] = (struct smear_mover){ list_last, 0, 255, bounds.nearest };
 }
 
 static struct path path_moved(struct place p, int32_t dx, int32_t dy, int32_t depth)
@@ -168,7 +197,7 @@ static struct path path_moved(struct place p, int32_t dx, int32_t dy, int32_t de
 static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
 {
     const struct smear_timemask_settings settings = { slots, bend, tap };
-    const size_t words = (smear_timemask_bytes(slots) + 3) / 4;
+    const size_t words = (smear_timemask_work(tile) + 3) / 4;
     const struct smear_plane_rows rows = { W, 0, H, 0 };
     bool intact = CHECK(words <= WORK_WORDS);
     for (int i = 0; i < CANARY + WORK_WORDS + CANARY; i++)
