@@ -179,17 +179,18 @@ static uint32_t in_front(uint32_t mask, uint32_t *code, int32_t slope, uint32_t 
     return (UINT32_MAX >> (32 - (to - from))) << (first + from);
 }
 
-/* A triangle in a segment of 2^slots_log2 slots, from pose a to pose b; `first` is the segment's first slot. */
-static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *a,
-                         const struct timemask_pose *b, int32_t first, int32_t slots_log2)
+/* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
+static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3], int32_t first,
+                         int32_t slots_log2)
 {
     const struct smear_raster_target *still = &j->tile->still;
     struct timemask_cover c;
     struct timemask_shade s;
-    struct timemask_run run[TIMEMASK_BLOCK];
-    if (!smear_timemask_cover(&c, a, b, j->width, j->height, slots_log2))
+    struct timemask_run run[TIMEMASK_RUNS];
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, a, b, slots_log2, j->settings->tap);
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose[0], pose[2], slots_log2,
+                         j->settings->tap);
     const uint32_t slope[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
@@ -209,11 +210,13 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
 
 static void draw_whole(struct job *j, const struct mover *m)
 {
-    struct timemask_pose pose[2];
+    struct timemask_pose pose[3];
     pose_at(&pose[0], j, m, j->time[0]);
     for (int i = 0; i < 1 << j->segments_log2; i++) {
-        pose_at(&pose[~i & 1], j, m, j->time[i + 1]);
-        draw_segment(j, m, &pose[i & 1], &pose[~i & 1], i << j->slots_log2, j->slots_log2);
+        const struct timemask_pose *poses[3] = { &pose[i & 1 ? 2 : 0], &pose[1], &pose[i & 1 ? 0 : 2] };
+        pose_at(&pose[1], j, m, (j->time[i] + j->time[i + 1]) >> 1);
+        pose_at(&pose[i & 1 ? 0 : 2], j, m, j->time[i + 1]);
+        draw_segment(j, m, poses, i << j->slots_log2, j->slots_log2);
     }
 }
 
@@ -226,8 +229,9 @@ static void draw_piece(struct job *j, const struct mover *m)
         int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
         if (!path_piece_time(&time, m->bounds->piece))
             continue;
+        const struct timemask_pose *poses[3] = { &pose, &pose, &pose };
         pose_at(&pose, j, m, time);
-        draw_segment(j, m, &pose, &pose, slot, 0);
+        draw_segment(j, m, poses, slot, 0);
     }
 }
 
