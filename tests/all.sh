@@ -73,6 +73,7 @@ else
     needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
 fi
 suite command-line sh tests/cli.sh build/smear
+suite view sh tests/view.sh build/smear
 suite golden-host $make -s TARGET=host target-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
