@@ -84,11 +84,11 @@ static bool find(const char *title)
     return false;
 }
 
-/* Each channel's upper bits, the rest repeated from them. */
+/* The code nearest to a channel's level. */
 static uint8_t channel(uint32_t value, int shift, int bits)
 {
-    uint32_t c = value >> shift & ((1u << bits) - 1u);
-    return (uint8_t)(c * 255u / ((1u << bits) - 1u));
+    uint32_t top = (1u << bits) - 1u, level = value >> shift & top;
+    return (uint8_t)((level * 510u + top) / (2u * top));
 }
 
 static bool shot(uint32_t window, const char *path)

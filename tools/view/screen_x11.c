@@ -18,7 +18,7 @@ enum {
 };
 enum { SHM_ATTACH = 1, SHM_DETACH = 2, SHM_PUT_IMAGE = 3 };
 enum {
-    KEY_PRESS = 2, BUTTON_PRESS = 4, BUTTON_RELEASE = 5, MOTION = 6, EXPOSE = 12, UNMAP = 18,
+    KEY_PRESS = 2, BUTTON_PRESS = 4, BUTTON_RELEASE = 5, MOTION = 6, EXPOSE = 12, DESTROY = 17,
     CONFIGURE = 22, CLIENT_MESSAGE = 33, MAPPING = 34
 };
 enum { SHIFT = 1, LOCK = 2 };
@@ -409,6 +409,9 @@ static bool translate(struct window *w, const uint8_t *e, struct event *out)
     case MAPPING:
         read_keyboard(w);
         return false;
+    case DESTROY:
+        *out = (struct event){ .kind = EVENT_CLOSE };
+        return true;
     case CLIENT_MESSAGE:
         *out = (struct event){ .kind = EVENT_CLOSE };
         return x11_get32(e + 8) == w->wm_protocols && x11_get32(e + 12) == w->wm_delete;
