@@ -27,6 +27,8 @@ static int take_band(void *user, const smear_band *band)
     size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
     if (!device->is_timed)
         memcpy(device->pixels + row * device->stride, band->pixels, band->size);
+    if (device->setup.band != NULL)
+        device->setup.band(device->setup.band_user, band);
     return 0;
 }
 
@@ -91,6 +93,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.dither = (uint8_t)s->dither;
     desc.workers = (uint8_t)s->threads;
     desc.sharp = s->sharp;
+    desc.timed = s->timed;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;

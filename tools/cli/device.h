@@ -17,12 +17,14 @@ struct device_setup {
     int width, height, reach, tile;     /* reach and tile: 0 for the library's defaults */
     smear_format format;
     smear_dither dither;
-    bool sharp, accumulate;
+    bool sharp, accumulate, timed;
     int threads;                        /* 1..8 */
     size_t arena;                       /* bytes there are; 0: as many as it takes */
     uint32_t max_triangles;             /* 0: enough for every frame */
     smear_inspect_fn *inspect;
     void *inspect_user;
+    void (*band)(void *user, const smear_band *band);   /* sees each band; null: nobody does */
+    void *band_user;
 };
 
 /* One frame in ticks of DEVICE_TICKS_PER_US. */

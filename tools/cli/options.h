@@ -28,6 +28,7 @@ struct render_options {
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;
     int reconstruct;            /* SMEAR_FENCE | ... */
+    int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;
     unsigned clear;
 
@@ -50,11 +51,16 @@ struct render_options {
 
 /* Reads argv (behind the command). Returns a status; *wants_help and STATUS_OK for --help. */
 int options_read(struct render_options *options, int count, char **text, bool *wants_help);
+/* The same for `smear view`: the scene may be missing, and nothing is checked about files. */
+int options_read_seen(struct render_options *options, int count, char **text, bool *wants_help);
 
 /* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
 int options_reach(const struct render_options *options, int height, int *reach, int *tile);
 
-/* The name of the method and of the format as the command line has them. */
+/* The methods there are, as the command line has them: name and value of number `index`, or null
+ * when there are not so many. */
+const char *options_method(int index, smear_method *method);
+/* The name of the format as the command line has it. */
 const char *options_format_name(smear_format format);
 
 #endif
