@@ -9,12 +9,13 @@
 #include "fixmath.h"
 #include "pixel.h"
 #include "raster.h"
+#include "shutter.h"
 #include "transform.h"
 
 enum {
     LISTED = 128,           /* triangles of the tile that are remembered; others are looked for at each instant */
     PACKED_MAX = 257,       /* instants whose codes add up in 16 bits */
-    RECORD_WORDS = VERTEX_BASE_WORDS + 3 + PATH_WORDS
+    RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
 
 /* Pixels [x0, x1) x [y0, y1). */
@@ -77,14 +78,6 @@ static inline uint32_t mean_of(const struct mean *m, uint32_t sum)
     return mulh_u32((sum + m->half) << 5, m->factor) >> m->shift;
 }
 
-/* The middle of slot k of n. */
-static int32_t instant_time(const struct smear_shutter *shutter, uint32_t k, uint32_t n)
-{
-    uint32_t place = ((2 * k + 1) << 20) / n;       /* in slots of the table, q16 */
-    const int32_t *t = shutter->time + (place >> 16);
-    return t[0] + (int32_t)((uint32_t)(t[1] - t[0]) * (place & 0xffffu) >> 16);
-}
-
 /* ------------------------------------------------------------------ what is still */
 
 static inline int32_t still_row(const struct smear_raster_target *s, const struct smear_plane_rows *rows, int32_t y)
@@ -99,15 +92,20 @@ static inline int32_t work_row(const struct subframes *f, const struct box *b, i
     return (y - f->t->still.y0) * f->t->tile + (b->x0 - f->t->still.x0);
 }
 
-static void restore(const struct subframes *f, const struct box *b)
+static void restore_depth(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    size_t n = (size_t)(b->x1 - b->x0);
-    for (int32_t y = b->y0; y < b->y1; y++) {
-        int32_t to = work_row(f, b, y);
-        __builtin_memcpy(f->work.color + to, s->color + still_row(s, &s->color_rows, y) + b->x0, n * sizeof *s->color);
-        __builtin_memcpy(f->work.depth + to, s->depth + still_row(s, &s->window_rows, y) + b->x0, n * sizeof *s->depth);
-    }
+    for (int32_t y = b->y0; y < b->y1; y++)
+        __builtin_memcpy(f->work.depth + work_row(f, b, y), s->depth + still_row(s, &s->window_rows, y) + b->x0,
+                         (size_t)(b->x1 - b->x0) * sizeof *s->depth);
+}
+
+static void copy_color(const struct subframes *f, const struct box *b)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    for (int32_t y = b->y0; y < b->y1; y++)
+        __builtin_memcpy(f->work.color + work_row(f, b, y), s->color + still_row(s, &s->color_rows, y) + b->x0,
+                         (size_t)(b->x1 - b->x0) * sizeof *s->color);
 }
 
 static uint32_t lowest_depth(const struct smear_raster_target *s)
@@ -132,35 +130,41 @@ struct posed {
     int32_t record[3][RECORD_WORDS];
 };
 
-/* Vertices beyond the guard band, where a parabola leaves it between places that lie within. */
-static SMEAR_NOINLINE void keep_within_guard(struct posed *p, const struct smear_raster_frame *frame)
+struct range {
+    int32_t low, high;
+};
+
+static inline struct range range_of(int32_t a, int32_t b, int32_t c)
 {
-    const int32_t guard = SMEAR_GUARD_PX << 8, x = frame->width << 7, y = frame->height << 7;
-    for (int i = 0; i < 3; i++) {
-        p->record[i][VERTEX_X] = clamp_i32(p->record[i][VERTEX_X], x - guard, x + guard);
-        p->record[i][VERTEX_Y] = clamp_i32(p->record[i][VERTEX_Y], y - guard, y + guard);
-    }
+    return (struct range){ min_i32(a, min_i32(b, c)), max_i32(a, max_i32(b, c)) };
 }
 
-static inline struct box bounds_of(const int32_t *const v[3])
+/* Pixels of [low, high) whose centres may lie in a range of q8. */
+static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
 {
-    struct box b = { v[0][VERTEX_X], v[0][VERTEX_Y], v[0][VERTEX_X], v[0][VERTEX_Y] };
-    for (int i = 1; i < 3; i++) {
-        b.x0 = min_i32(b.x0, v[i][VERTEX_X]);
-        b.x1 = max_i32(b.x1, v[i][VERTEX_X]);
-        b.y0 = min_i32(b.y0, v[i][VERTEX_Y]);
-        b.y1 = max_i32(b.y1, v[i][VERTEX_Y]);
-    }
-    return b;
+    return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
-/* Pixels of the tile whose centres may lie within bounds in q8. */
-static inline struct box box_of(const struct smear_raster_target *s, const struct box *bounds)
+/* path_value of screen coordinates within the guard band: their products fit 32 x 32 bits. `u` is q30, -1 at shutter
+ * open and 1 at close. */
+static inline int32_t coordinate_at(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
-    return (struct box){
-        max_i32((bounds->x0 + 127) >> 8, s->x0), max_i32((bounds->y0 + 127) >> 8, s->y0),
-        min_i32((bounds->x1 + 127) >> 8, s->x1), min_i32((bounds->y1 + 127) >> 8, s->y1)
-    };
+    int32_t slope = close - open, bend = open + close - 2 * middle;
+    return middle + mulh_i32((slope + mulh_i32(bend * 4, u)) * 2, u);
+}
+
+/* Coordinate VERTEX_X or VERTEX_Y of all three. Between places within the guard band a parabola may leave it. */
+static inline struct range place(struct posed *p, int axis, int32_t u, int32_t middle)
+{
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    const int open = p->segment->motion + axis;
+    for (int i = 0; i < 3; i++)
+        p->record[i][axis] = coordinate_at(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS], u);
+    struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+    if (r.low < middle - guard || r.high > middle + guard)
+        for (int i = 0; i < 3; i++)
+            p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
+    return r;
 }
 
 /* False where the triangle is not seen in the tile at this time: elsewhere, or turned away. */
@@ -176,32 +180,33 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
         return false;
     for (int i = 0; i < 3; i++)
         p->v[i] = geometry_vertex(frame->geometry, s, t->vertex[i]);
-    if (!s->path) {
-        struct box bounds = bounds_of(p->v);
-        p->box = box_of(tile, &bounds);
-        return !box_is_empty(&p->box);
-    }
+    const int32_t u = (time - SHUTTER_CLOSE / 2) * 32768;
+    struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
+                             : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
+    x = pixels_of(x, tile->x0, tile->x1);
+    if (x.low >= x.high)
+        return false;
+    struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
+                             : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    y = pixels_of(y, tile->y0, tile->y1);
+    if (y.low >= y.high)
+        return false;
+    p->box = (struct box){ x.low, y.low, x.high, y.high };
+    if (!s->path)
+        return true;
+    int32_t *a = p->record[0], *b = p->record[1], *c = p->record[2];
+    if ((int64_t)(b[VERTEX_X] - a[VERTEX_X]) * (c[VERTEX_Y] - a[VERTEX_Y])
+        <= (int64_t)(c[VERTEX_X] - a[VERTEX_X]) * (b[VERTEX_Y] - a[VERTEX_Y]))
+        return false;
     for (int i = 0; i < 3; i++) {
-        path_at(p->record[i], p->v[i], s, time);
-        if (s->uv != 0)
-            p->record[i][s->uv] = p->v[i][s->uv];
-        if (s->color != 0) {
-            p->record[i][s->color] = p->v[i][s->color];
-            p->record[i][s->color + 1] = p->v[i][s->color + 1];
-        }
+        const int32_t *v = p->v[i], *open = v + s->motion, *close = open + PATH_POSE_WORDS;
+        int32_t depth = path_value(open[PATH_DEPTH], v[VERTEX_DEPTH], close[PATH_DEPTH], time);
+        p->record[i][VERTEX_DEPTH] = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+        for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
+            p->record[i][k] = v[k];
         p->v[i] = p->record[i];
     }
-    struct box bounds = bounds_of(p->v);
-    p->box = box_of(tile, &bounds);
-    if (box_is_empty(&p->box))
-        return false;
-    const int32_t guard = SMEAR_GUARD_PX << 8, x = frame->width << 7, y = frame->height << 7;
-    if (bounds.x0 < x - guard || bounds.x1 > x + guard || bounds.y0 < y - guard || bounds.y1 > y + guard)
-        keep_within_guard(p, frame);
-    for (int i = 0; i < 3; i++)
-        p->record[i][VERTEX_DEPTH] = clamp_i32(p->record[i][VERTEX_DEPTH], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-    return (int64_t)(p->v[1][VERTEX_X] - p->v[0][VERTEX_X]) * (p->v[2][VERTEX_Y] - p->v[0][VERTEX_Y])
-         > (int64_t)(p->v[2][VERTEX_X] - p->v[0][VERTEX_X]) * (p->v[1][VERTEX_Y] - p->v[0][VERTEX_Y]);
+    return true;
 }
 
 static inline void draw(const struct posed *p, const struct subframes *f, const struct smear_raster_target *target)
@@ -221,21 +226,28 @@ static inline bool is_seen(const struct subframes *f, const struct smear_mover *
 static bool touches(const struct subframes *f, uint32_t triangle)
 {
     const struct smear_geometry *g = f->t->frame->geometry;
+    const struct smear_raster_target *tile = &f->t->still;
     const struct smear_triangle *t = geometry_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
-    struct box bounds = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
-    for (int i = 0; i < 3; i++) {
-        const int32_t *v = geometry_vertex(g, s, t->vertex[i]);
-        int32_t margin = s->path ? (path_bend(v, s) >> 3) + 2 : 0;
-        for (int pose = 0; pose < (s->path ? 3 : 1); pose++) {
-            const int32_t *place = pose == 0 ? v : v + s->motion + (pose - 1) * PATH_POSE_WORDS;
-            struct box b = { place[PATH_X] - margin, place[PATH_Y] - margin, place[PATH_X] + margin,
-                             place[PATH_Y] + margin };
-            box_add(&bounds, &b);
+    for (int axis = VERTEX_X; axis <= VERTEX_Y; axis++) {
+        struct range all = { INT32_MAX, INT32_MIN };
+        for (int i = 0; i < 3; i++) {
+            const int32_t *v = geometry_vertex(g, s, t->vertex[i]);
+            struct range r = { v[axis], v[axis] };
+            if (s->path) {
+                int32_t margin = (path_bend(v, s) >> 3) + 1;
+                r = range_of(v[axis], v[s->motion + axis], v[s->motion + PATH_POSE_WORDS + axis]);
+                r.low -= margin;
+                r.high += margin;
+            }
+            all.low = min_i32(all.low, r.low);
+            all.high = max_i32(all.high, r.high);
         }
+        all = axis == VERTEX_X ? pixels_of(all, tile->x0, tile->x1) : pixels_of(all, tile->y0, tile->y1);
+        if (all.low >= all.high)
+            return false;
     }
-    struct box box = box_of(&f->t->still, &bounds);
-    return !box_is_empty(&box);
+    return true;
 }
 
 /* Lists what may be seen. True when something moves. */
@@ -348,31 +360,47 @@ static inline uint32_t value_of(uint32_t code, bool linear)
     return linear ? smear_srgb_decode[code] : code;
 }
 
-/* Adds the box. What looks still need not be counted: it is what the rest of the mean is made of. */
+/* Adds the box and makes it still again. What looks still need not be counted: it is what the rest of the mean is made
+ * of. */
+static void add_packed(const struct subframes *f, const struct box *b)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const uint32_t all = f->blends;
+    for (int32_t y = b->y0; y < b->y1; y++) {
+        int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
+        const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
+        uint32_t *p = f->work.color + at, *sum = f->sum + 2 * at;
+        for (int32_t i = 0; i < n; i++, sum += 2) {
+            uint32_t c = p[i], behind = still[i];
+            if (((c ^ behind) | all) != 0) {
+                sum[0] += c & 0xff00ffu;
+                sum[1] += (c >> 8 & 0xffu) + 0x10000u;
+                p[i] = behind;
+            }
+        }
+    }
+}
+
 static void add(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const bool linear = f->t->frame->linear, all = f->blends;
+    const bool linear = f->t->frame->linear;
+    const uint32_t all = f->blends;
     for (int32_t y = b->y0; y < b->y1; y++) {
-        int32_t at = work_row(f, b, y);
-        const uint32_t *p = f->work.color + at, *end = p + (b->x1 - b->x0);
+        int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
         const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
-        if (f->packed) {
-            for (uint32_t *sum = f->sum + 2 * at; p < end; p++, still++, sum += 2)
-                if (all || *p != *still) {
-                    sum[0] += *p & 0xff00ffu;
-                    sum[1] += (*p >> 8 & 0xffu) + 0x10000u;
-                }
-            continue;
-        }
+        uint32_t *p = f->work.color + at, *sum = f->sum + 3 * at;
         uint16_t *times = f->times + at;
-        for (uint32_t *sum = f->sum + 3 * at; p < end; p++, still++, sum += 3, times++)
-            if (all || *p != *still) {
-                sum[0] += value_of(pixel_red(*p), linear);
-                sum[1] += value_of(pixel_green(*p), linear);
-                sum[2] += value_of(pixel_blue(*p), linear);
-                ++*times;
+        for (int32_t i = 0; i < n; i++, sum += 3) {
+            uint32_t c = p[i], behind = still[i];
+            if (((c ^ behind) | all) != 0) {
+                sum[0] += value_of(pixel_red(c), linear);
+                sum[1] += value_of(pixel_green(c), linear);
+                sum[2] += value_of(pixel_blue(c), linear);
+                times[i]++;
+                p[i] = behind;
             }
+        }
     }
 }
 
@@ -423,7 +451,8 @@ uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instant
     f.work.depth = f.times + pixels;
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->tile, 0, t->tile, s->x0 };
 
-    restore(&f, &whole);
+    copy_color(&f, &whole);
+    restore_depth(&f, &whole);
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
@@ -432,11 +461,14 @@ uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instant
         if (!f.packed)
             __builtin_memset(f.times, 0, (size_t)pixels * sizeof *f.times);
         for (int32_t k = 0; k < instants; k++) {
-            struct box box = draw_instant(&f, instant_time(t->shutter, (uint32_t)k, (uint32_t)instants));
+            struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))
                 continue;
-            add(&f, &box);
-            restore(&f, &box);
+            if (f.packed)
+                add_packed(&f, &box);
+            else
+                add(&f, &box);
+            restore_depth(&f, &box);
             samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
             box_add(&all, &box);
         }

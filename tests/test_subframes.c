@@ -618,19 +618,66 @@ static void test_more_movers_than_a_tile_remembers(void)
     }
 }
 
+/* A triangle over the whole frame, at one depth. */
+static struct corners sheet(int32_t depth)
+{
+    struct corners c;
+    for (int pose = 0; pose < 3; pose++)
+        for (int k = 0; k < 3; k++) {
+            c.at[pose][k][0] = k == 1 ? 2 * W * 256 : 0;
+            c.at[pose][k][1] = k == 2 ? 2 * H * 256 : 0;
+            c.at[pose][k][2] = depth;
+        }
+    return c;
+}
+
+static void test_more_panes_than_a_tile_remembers(void)
+{
+    /* What moves comes last, and is all that moves. */
+    scene_begin(false);
+    set_layout(9, false, false, true, SHADE_FLAT);
+    draw[2].alpha = draw[9].alpha = SMEAR_BLEND;
+    const struct corners pane = sheet(1 << 28);
+    for (int i = 0; i < 140; i++) {
+        uint32_t at = add_triangle(2, &pane, 0x04ffffffu * (uint32_t)(i & 1) + 0x04000000u);
+        link_in(&blend_head, &blend_last, at);
+    }
+    struct corners moving = sheet(1 << 29);
+    for (int k = 0; k < 3; k++) {
+        moving.at[0][k][0] += 30 * 256;
+        moving.at[2][k][0] += 10 * 256;
+    }
+    uint32_t at = add_triangle(9, &moving, 0x80ff0000u);
+    link_in(&blend_head, &blend_last, at);
+    CHECK(check_scene(16, 4));
+    CHECK(samples != 0);
+}
+
+static void test_movers_of_the_background_s_colour_hide_panes(void)
+{
+    for (int linear = 0; linear < 2; linear++) {
+        square_scene(linear, 9);
+        for (uint32_t m = 0; m < mover_count; m++)
+            geometry_triangle(&geometry, mover[m].triangle)->color = 0xff305070u;
+        draw[2].alpha = SMEAR_BLEND;
+        const struct corners pane = sheet(1 << 27);
+        uint32_t at = add_triangle(2, &pane, 0x80ff8000u);
+        link_in(&blend_head, &blend_last, at);
+        CHECK(check_scene(16, 6));
+        CHECK_EQ(want[15 * W + 25], 0x305070u);
+        CHECK(want[15 * W + 5] != 0x305070u);
+    }
+}
+
 static void test_movers_that_are_hidden_cost_nothing(void)
 {
     square_scene(false, 9);
-    struct corners wall;
-    for (int k = 0; k < 3; k++) {
-        wall.at[1][k][0] = k == 1 ? 2 * W * 256 : 0;
-        wall.at[1][k][1] = k == 2 ? 2 * H * 256 : 0;
-        wall.at[1][k][2] = 1 << 29;
-    }
+    const struct corners wall = sheet(1 << 29);
     uint32_t i = add_triangle(0, &wall, 0xff00ff00u);
     link_in(&still_head, &still_last, i);
+    draw_still();
     for (uint32_t m = 0; m < mover_count; m++)
-        mover[m].nearest = 1 << 15;     /* code of 2^28 is less */
+        mover[m].nearest = still_depth[20 * W];      /* as near as the wall: hidden */
     check_scene(16, 5);
     CHECK_EQ(samples, 0);
     CHECK_EQ(want[15 * W + 20], 0x00ff00u);
@@ -667,6 +714,8 @@ void suite_subframes(void)
     RUN(test_paths_that_stand_turn_over_or_vanish);
     RUN(test_paths_that_leave_the_guard_band);
     RUN(test_more_movers_than_a_tile_remembers);
+    RUN(test_more_panes_than_a_tile_remembers);
+    RUN(test_movers_of_the_background_s_colour_hide_panes);
     RUN(test_movers_that_are_hidden_cost_nothing);
     RUN(test_samples_are_the_pixels_near_movers);
     RUN(test_work_memory_of_small_tiles_is_small);
