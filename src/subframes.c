@@ -221,33 +221,17 @@ static inline bool is_seen(const struct subframes *f, const struct smear_mover *
     return mover_is_in(m, f->t->column) && m->nearest > f->lowest;
 }
 
-/* The triangle may touch the tile at some time. A parabola leaves the range of its three places by an eighth of its bend
- * at most. */
+/* The triangle may touch the tile at some time. */
 static bool touches(const struct subframes *f, uint32_t triangle)
 {
     const struct smear_geometry *g = f->t->frame->geometry;
     const struct smear_raster_target *tile = &f->t->still;
-    const struct smear_triangle *t = geometry_triangle(g, triangle);
-    const struct smear_segment *s = &g->segment[t->segment];
-    for (int axis = VERTEX_X; axis <= VERTEX_Y; axis++) {
-        struct range all = { INT32_MAX, INT32_MIN };
-        for (int i = 0; i < 3; i++) {
-            const int32_t *v = geometry_vertex(g, s, t->vertex[i]);
-            struct range r = { v[axis], v[axis] };
-            if (s->path) {
-                int32_t margin = (path_bend(v, s) >> 3) + 1;
-                r = range_of(v[axis], v[s->motion + axis], v[s->motion + PATH_POSE_WORDS + axis]);
-                r.low -= margin;
-                r.high += margin;
-            }
-            all.low = min_i32(all.low, r.low);
-            all.high = max_i32(all.high, r.high);
-        }
-        all = axis == VERTEX_X ? pixels_of(all, tile->x0, tile->x1) : pixels_of(all, tile->y0, tile->y1);
-        if (all.low >= all.high)
-            return false;
+    if (!g->segment[geometry_triangle(g, triangle)->segment].path) {
+        struct posed p;
+        return pose(&p, f, triangle, 0);
     }
-    return true;
+    const struct smear_path_bounds *b = geometry_bounds(g, triangle);
+    return b->x0 < tile->x1 && b->x1 > tile->x0 && b->y0 < tile->y1 && b->y1 > tile->y0;
 }
 
 /* Lists what may be seen. True when something moves. */

@@ -22,6 +22,7 @@ static struct smear_shutter shutter;
 static struct smear_mover mover[MOVERS];
 static uint32_t mover_count, still_head, still_last, blend_head, blend_last;
 static uint32_t texels[32 * 16];
+static uint8_t piece;           /* of the exposure, in which triangles with a path are there; 0: all of it */
 
 /* Its still surfaces, in a ring of rows like the window's. */
 static uint32_t still_color[W * RING];
@@ -72,6 +73,7 @@ static void scene_begin(bool linear)
     }
     frame = (struct smear_raster_frame){ .geometry = &geometry, .draw = draw, .linear = linear, .width = W, .height = H };
     mover_count = 0;
+    piece = 0;
     still_head = still_last = blend_head = blend_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i <= SHUTTER_SLOTS; i++)
         shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SLOTS);
@@ -121,13 +123,30 @@ static bool has_room(void)
     return geometry_has_room(&geometry, 3 * 16, 2) && mover_count < MOVERS;
 }
 
+/* Pixels near its way, and the part of the exposure in which it is there. */
+static struct smear_path_bounds bounds_of(const struct corners *c)
+{
+    int32_t low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN };
+    for (int32_t time = 0; time <= SHUTTER_CLOSE; time += 64)
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 2; j++) {
+                int32_t at = path_value(c->at[0][k][j], c->at[1][k][j], c->at[2][k][j], time);
+                low[j] = at < low[j] ? at : low[j];
+                high[j] = at > high[j] ? at : high[j];
+            }
+    return (struct smear_path_bounds){
+        .x0 = (int16_t)((low[0] + 125) >> 8), .y0 = (int16_t)((low[1] + 125) >> 8),
+        .x1 = (int16_t)((high[0] + 129) >> 8), .y1 = (int16_t)((high[1] + 129) >> 8), .piece = piece
+    };
+}
+
 /* Stores a triangle; of a still segment the middle alone. */
 static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
 {
     const struct smear_segment *s = &segment[at];
-    if (s->path) {          /* bounds of its way: the subframes only ask for how long it is there */
+    if (s->path) {
         void *entry = geometry_triangle(&geometry, geometry.triangle_count++);
-        *(struct smear_path_bounds *)entry = (struct smear_path_bounds){ .piece = 0 };
+        *(struct smear_path_bounds *)entry = bounds_of(c);
     }
     uint32_t i = geometry.triangle_count++;
     struct smear_triangle *t = geometry_triangle(&geometry, i);
@@ -160,17 +179,11 @@ static void link_in(uint32_t *head, uint32_t *last, uint32_t i)
     *last = i;
 }
 
-/* Columns are counted in tiles of 8 px here; tile_of() makes them those of the tile. */
+/* Columns are counted in tiles of 8 px here; check_tile() makes them those of its tile. */
 static void add_mover(int at, const struct corners *c, uint32_t color)
 {
-    int32_t low = INT32_MAX, high = INT32_MIN;
-    for (int32_t time = 0; time <= SHUTTER_CLOSE; time += 64)
-        for (int k = 0; k < 3; k++) {
-            int32_t x = path_value(c->at[0][k][0], c->at[1][k][0], c->at[2][k][0], time);
-            low = x < low ? x : low;
-            high = x > high ? x : high;
-        }
-    int32_t first = ((low >> 8) - 1) >> 3, last = ((high >> 8) + 1) >> 3;
+    const struct smear_path_bounds b = bounds_of(c);
+    int32_t first = b.x0 >> 3, last = (b.x1 - 1) >> 3;
     if (last < 0 || first > W / 8)
         return;
     mover[mover_count++] = (struct smear_mover){
@@ -195,7 +208,12 @@ static void pose_triangle(uint32_t i, int32_t time)
 {
     const struct smear_triangle *from = geometry_triangle(&geometry, i);
     const struct smear_segment *s = &segment[from->segment];
-    int32_t place[3][3];
+    int32_t place[3][3], part = s->path ? geometry_bounds(&geometry, i)->piece : 0;
+    if (part != 0) {        /* a 16th of the exposure */
+        if (time >> 12 != part - 1)
+            return;
+        time = (time & 4095) << 4;
+    }
     for (int k = 0; k < 3; k++) {
         const int32_t *v = (const int32_t *)pool + from->vertex[k];
         for (int j = 0; j < 3; j++) {
@@ -435,6 +453,7 @@ static void random_scene(bool blends)
         if (area_at(&c, 1) == 0)
             continue;
         uint32_t color = random_u32();
+        piece = (uint8_t)(chance(4) ? between(1, PATH_PIECES) : 0);
         if (kind == 2 || kind == 9) {
             uint32_t i = add_triangle(kind, &c, color);
             link_in(&blend_head, &blend_last, i);
