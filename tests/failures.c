@@ -10,11 +10,15 @@
 
 /* One line per column of the table. */
 const struct fail_method fail_method[METHODS] = {
-    [NONE] = {"none", SMEAR_NONE, 0, 0},
-    [ACCUMULATE] = {"accumulate 32", SMEAR_ACCUMULATE, 32, 0},
-    [PLAIN] = {"reconstruct 8", SMEAR_RECONSTRUCT, 8, 0},
+    [NONE] = {"none", SMEAR_NONE, 0, 0, 0},
+    [ACCUMULATE] = {"accumulate 32", SMEAR_ACCUMULATE, 32, 0, 0},
+    [PLAIN] = {"reconstruct 8", SMEAR_RECONSTRUCT, 8, 0, 0},
     [MENDED] = {"mended 8", SMEAR_RECONSTRUCT, 8,
-                SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM},
+                SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
+    [SUBFRAMES] = {"subframes 32", SMEAR_SUBFRAMES, 32, 0, 0},
+    [TIMEMASK] = {"timemask 32", SMEAR_TIMEMASK, 32, 0, 0},
+    [AUTO] = {"auto balanced", SMEAR_AUTO, 0, 0, SMEAR_BALANCED},
+    [FINE] = {"auto fine", SMEAR_AUTO, 0, 0, SMEAR_FINE},
 };
 
 static bool broken(const struct subject *s, const char *why)
@@ -34,6 +38,7 @@ struct present_options fail_options(const struct subject *s, const struct fail_m
     present.method = method->method;
     present.samples = method->samples;
     present.reconstruct = method->flags;
+    present.target = method->target;
     return present;
 }
 
@@ -60,7 +65,8 @@ static smear_context *context_for(const struct presented *p, int width, int heig
     desc.reach = FAIL_REACH;
     desc.tile = FAIL_TILE;
     desc.format = SMEAR_XRGB8888;
-    desc.accumulate = 1;
+    desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
+    desc.timed = p->frame.method >= SMEAR_SUBFRAMES;
     desc.max_triangles *= 5;
     desc.max_draws += 4;        /* more may come in later frames */
     desc.flush = take_band;
@@ -82,7 +88,9 @@ static uint8_t *draw_once(struct subject *s, const struct presented *p, int widt
 {
     struct canvas canvas = {.width = width, .rgb = malloc((size_t)width * (size_t)height * 3)};
     void *memory = NULL;
-    smear_context *ctx = canvas.rgb != NULL ? context_for(p, width, height, &canvas, &memory) : NULL;
+    smear_context *ctx = NULL;
+    if (canvas.rgb != NULL)
+        ctx = context_for(p, width, height, &canvas, &memory);
     if (ctx == NULL || draw(p, ctx) != SMEAR_OK) {
         broken(s, "the library does not draw the frame");
         free(canvas.rgb);
@@ -116,40 +124,59 @@ uint8_t *fail_sharp(struct subject *s, const struct present_options *options)
     return fail_take(s, &sharp, 0, 0);
 }
 
-static void move_origin(int32_t origin[3], const int offset[3])
+static void move_origin(int32_t origin[3], const int32_t offset[3])
 {
     for (int i = 0; i < 3; i++)
-        origin[i] += offset[i] * 65536;
+        origin[i] += offset[i];
 }
 
-enum { AWAY_DRAWS = 8 };
+enum { MOVED_DRAWS = 8 };
+
+/* Draws p with its draws and its cameras moved, Q16.16. */
+static uint8_t *draw_moved(struct subject *s, const struct presented *p, const int32_t draws[3],
+                           const int32_t cameras[3])
+{
+    struct presented moved = *p;
+    smear_draw draw[MOVED_DRAWS];
+    smear_transform pose[MOVED_DRAWS][3];
+    if (!CHECK(p->draw_count <= MOVED_DRAWS))
+        return NULL;
+    for (int i = 0; i < p->draw_count; i++) {
+        draw[i] = p->draw[i];
+        const smear_transform **of[3] = {&draw[i].now, &draw[i].open, &draw[i].close};
+        for (int k = 0; k < 3; k++)
+            if (*of[k] != NULL) {
+                pose[i][k] = **of[k];
+                move_origin(pose[i][k].origin, draws);
+                *of[k] = &pose[i][k];
+            }
+    }
+    for (int k = 0; k < 3; k++)
+        move_origin(moved.camera[k].pose.origin, cameras);
+    moved.frame.camera = &moved.camera[0];
+    moved.frame.open = p->frame.open != NULL ? &moved.camera[1] : NULL;
+    moved.frame.close = p->frame.close != NULL ? &moved.camera[2] : NULL;
+    moved.draw = draw;
+    return draw_once(s, &moved, s->width, s->height);
+}
 
 uint8_t *fail_take_away(struct subject *s, const struct present_options *options,
                         const int offset[3])
 {
     const struct presented *p = present(s, options);
-    if (p == NULL || !CHECK(p->draw_count <= AWAY_DRAWS))
+    int32_t fixed[3];
+    for (int i = 0; i < 3; i++)
+        fixed[i] = offset[i] * 65536;
+    return p != NULL ? draw_moved(s, p, fixed, fixed) : NULL;
+}
+
+uint8_t *fail_take_aside(struct subject *s, const struct present_options *options, int x, int y)
+{
+    const struct presented *p = present(s, options);
+    if (p == NULL)
         return NULL;
-    struct presented away = *p;
-    smear_draw moved[AWAY_DRAWS];
-    smear_transform pose[AWAY_DRAWS][3];
-    for (int i = 0; i < p->draw_count; i++) {
-        const smear_transform **of[3] = {&moved[i].now, &moved[i].open, &moved[i].close};
-        moved[i] = p->draw[i];
-        for (int k = 0; k < 3; k++)
-            if (*of[k] != NULL) {
-                pose[i][k] = **of[k];
-                move_origin(pose[i][k].origin, offset);
-                *of[k] = &pose[i][k];
-            }
-    }
-    for (int k = 0; k < 3; k++)
-        move_origin(away.camera[k].pose.origin, offset);
-    away.frame.camera = &away.camera[0];
-    away.frame.open = p->frame.open != NULL ? &away.camera[1] : NULL;
-    away.frame.close = p->frame.close != NULL ? &away.camera[2] : NULL;
-    away.draw = moved;
-    return draw_once(s, &away, s->width, s->height);
+    int32_t unit = (int32_t)(p->world_scale * 65536), still[3] = {0};
+    return draw_moved(s, p, still, (int32_t[3]){-x * unit, y * unit, 0});
 }
 
 bool fail_look(struct subject *s, const struct present_options *options, struct shot *out)

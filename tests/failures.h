@@ -21,7 +21,7 @@
 /* ------------------------------------------------------------------ methods and rows */
 
 /* The columns, in the order of fail_method. */
-enum { NONE, ACCUMULATE, PLAIN, MENDED, METHODS };
+enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, METHODS };
 
 #define ONLY(method) (1u << (method))
 #define FILTERS (ONLY(PLAIN) | ONLY(MENDED))
@@ -30,7 +30,7 @@ enum { NONE, ACCUMULATE, PLAIN, MENDED, METHODS };
 struct fail_method {
     const char *name;
     smear_method method;
-    int samples, flags;
+    int samples, flags, target;
 };
 
 extern const struct fail_method fail_method[METHODS];
@@ -44,6 +44,7 @@ struct fail_measure {
     double known[METHODS];      /* at most: fails as it is known to; 0: must pass */
     unsigned only;              /* methods it is taken of, ONLY(...) or-ed; 0: all */
     const char *otherwise;      /* why it is not taken of the others */
+    bool hard;                  /* SMEAR_AUTO has no known failure here */
 };
 
 enum { FAIL_MEASURES = 3 };
@@ -76,6 +77,9 @@ uint8_t *fail_sharp(struct subject *s, const struct present_options *present);
  * world. */
 uint8_t *fail_take_away(struct subject *s, const struct present_options *present,
                         const int offset[3]);
+
+/* Of a flat scene, so many pixels to the right and down of where it was. */
+uint8_t *fail_take_aside(struct subject *s, const struct present_options *present, int x, int y);
 
 /* What a filter reads. Free with shot_free. */
 bool fail_look(struct subject *s, const struct present_options *present, struct shot *out);

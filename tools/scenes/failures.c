@@ -170,13 +170,14 @@ static void rotation_build(struct stage *stage)
     }
     /* The rim: squares all around. */
     enum { SIDES = 72 };
-    b.at = xform_identity();
+    b.at = xform_move(0, 0, 0.5);
     for (int i = 0; i < SIDES; i++) {
         double a = 2 * PI * i / SIDES, c = 2 * PI * (i + 1) / SIDES;
         double low = 56, high = FAIL_WHEEL_RADIUS;
         build_color(&b, i / 6 & 1 ? 0x2f6fd0 : 0xf3b52c);
-        build_quad(&b, vec3(low * cos(a), low * sin(a), 0.5), vec3(high * cos(a), high * sin(a), 0.5),
-                   vec3(high * cos(c), high * sin(c), 0.5), vec3(low * cos(c), low * sin(c), 0.5));
+        struct vec3 from = vec3(cos(a), sin(a), 0), to = vec3(cos(c), sin(c), 0);
+        build_quad(&b, vec3_scale(from, low), vec3_scale(from, high), vec3_scale(to, high),
+                   vec3_scale(to, low));
     }
     stage_add(stage, fail_unlit(&b));
 }
@@ -226,7 +227,7 @@ static void opposite_build(struct stage *stage)
     fail_rectangle(stage, 14, 22, 0xe0402a);
 }
 
-/* The upper one runs to the right, the lower one, in front, to the left; rows -6 to 6 are shared. */
+/* The upper one runs to the right, the lower one, in front, to the left; they share 12 rows. */
 static void opposite_move(const struct stage *stage, double time, struct scene_instant *out)
 {
     double u = still_camera(stage, time, out);
@@ -554,7 +555,7 @@ static void seams_build(struct stage *stage)
 static void seams_move(const struct stage *stage, double time, struct scene_instant *out)
 {
     double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(-46 + 1.45 * u, -12 + 0.37 * u, 0));
+    stage_place(out, 1, xform_move(-92 + 2.9 * u, -12 + 0.37 * u, 0));
 }
 
 /* ------------------------------------------------------------------ 20 jitter */
@@ -741,7 +742,7 @@ const struct stage_kind failure_flat_kinds[] = {
     {"fail/pane", 192, 144, FAIL_TIME, 0, pane_build, pane_move},
     {"fail/leaf", 192, 144, FAIL_TIME, 0, leaf_build, leaf_move},
     {"fail/light", 192, 144, FAIL_TIME, 0, light_build, light_move},
-    {"fail/seams", 128, 64, FAIL_TIME, 0, seams_build, seams_move},
+    {"fail/seams", 192, 64, FAIL_TIME, 0, seams_build, seams_move},
     {"fail/jitter", 192, 96, FAIL_TIME, 0, jitter_build, jitter_move},
     {"fail/rate", 128, 64, FAIL_TIME, 0, rate_build, rate_move},
     {"fail/strobe", 192, 64, FAIL_TIME, 0, strobe_build, strobe_move},

@@ -95,9 +95,9 @@ static void billboard_move(const struct stage *stage, double time, struct scene_
     stage_place(out, 2, xform_move(0.2, 0.3, 0.4));
     float *position = stage_soft_position(out, 2);
     for (int i = 0; i < flag->vertex_count; i++) {
-        double x = (double)flag->position[3 * i];
+        double x = (double)flag->position[3 * i], y = (double)flag->position[3 * i + 1];
         position[3 * i] = flag->position[3 * i];
-        position[3 * i + 1] = flag->position[3 * i + 1] + (float)(0.12 * x * sin(2.5 * x + 1.6 * u));
+        position[3 * i + 1] = (float)(y + 0.12 * x * sin(2.5 * x + 1.6 * u));
         position[3 * i + 2] = (float)(0.2 * x * cos(2.5 * x - 1.6 * u));
     }
     float *normal = stage_soft_normal(out, 2);
