@@ -127,7 +127,7 @@ SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
 endif
 
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
