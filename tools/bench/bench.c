@@ -66,12 +66,7 @@ static int finish(bool ok, const char *what, const struct failure *f)
 static int serve(char **argument)
 {
     struct failure f = { "" };
-    char *end[2];
-    long first = strtol(argument[1], &end[0], 10), frames = strtol(argument[2], &end[1], 10);
-    if (*end[0] != '\0' || *end[1] != '\0' || first < 0 || first > 1 << 20 || frames < 1
-        || frames > COUNT_MAX_FRAMES)
-        return usage();
-    return finish(count_serve(argument[0], (int)first, (int)frames, &f), argument[0], &f);
+    return finish(count_serve(argument[0], argument[1], &f), argument[0], &f);
 }
 
 int main(int argc, char **argv)
@@ -81,7 +76,7 @@ int main(int argc, char **argv)
                            .counter = { .program = argv[0], .folder = "build/bench" } };
     bool strict = false, ok = true;
     int asked = 0;
-    if (argc == 5 && strcmp(argv[1], "--draw") == 0)
+    if (argc == 4 && strcmp(argv[1], "--draw") == 0)
         return serve(argv + 2);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "targets") == 0) {
