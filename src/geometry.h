@@ -50,6 +50,7 @@ struct smear_segment {
     uint8_t shade;          /* smear_shade_mode */
     uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
+    uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in place of motion words; moves is 0 */
 };
 
 /* Words of a vertex record. */

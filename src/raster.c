@@ -490,18 +490,19 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 
 /* ------------------------------------------------------------------ a triangle */
 
-static void draw_triangle(const struct smear_raster_frame *frame,
-                          const struct smear_raster_target *target, const struct smear_triangle *t,
-                          bool *moved)
+static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
+                                         const struct smear_raster_target *target,
+                                         const struct smear_segment *segment, uint32_t color,
+                                         const int32_t *const v[3], bool *moved)
 {
     struct setup s;
     s.frame = frame;
     s.target = target;
-    s.segment = &frame->geometry->segment[t->segment];
+    s.segment = segment;
     s.draw = &frame->draw[s.segment->draw];
-    s.color = t->color;
+    s.color = color;
     for (int i = 0; i < 3; i++)
-        s.v[i] = geometry_vertex(frame->geometry, s.segment, t->vertex[i]);
+        s.v[i] = v[i];
 
     int32_t left = min_i32(s.v[0][VERTEX_X], min_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
     int32_t right = max_i32(s.v[0][VERTEX_X], max_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
@@ -573,9 +574,21 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
     while (head != SMEAR_NO_TRIANGLE) {
         const struct smear_triangle *t = geometry_triangle(frame->geometry, head);
         head = t->next;
-        if (t->segment == SMEAR_POINT)
+        if (t->segment == SMEAR_POINT) {
             draw_point(target, t, moved);
-        else
-            draw_triangle(frame, target, t, &moved);
+            continue;
+        }
+        const struct smear_segment *segment = &frame->geometry->segment[t->segment];
+        const int32_t *v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
+        draw_triangle(frame, target, segment, t->color, v, &moved);
     }
+}
+
+void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
+{
+    bool moved = false;
+    draw_triangle(frame, target, segment, color, v, &moved);
 }

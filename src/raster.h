@@ -9,4 +9,9 @@
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);
 
+/* Draws one triangle whose vertices are given: records laid out as in the segment, clockwise on the screen, of positive
+ * area and within the guard band. No velocities. */
+void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3]);
+
 #endif

@@ -27,6 +27,8 @@ static int take_band(void *user, const smear_band *band)
     size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
     if (!device->is_timed)
         memcpy(device->pixels + row * device->stride, band->pixels, band->size);
+    if (device->setup.band != NULL)
+        device->setup.band(device->setup.band_user, band);
     return 0;
 }
 

@@ -23,6 +23,8 @@ struct device_setup {
     uint32_t max_triangles;             /* 0: enough for every frame */
     smear_inspect_fn *inspect;
     void *inspect_user;
+    void (*band)(void *user, const smear_band *band);   /* sees each band; null: nobody does */
+    void *band_user;
 };
 
 /* One frame in ticks of DEVICE_TICKS_PER_US. */

@@ -119,19 +119,41 @@ static const char *read_poses(void *to, const char *value)
     return NULL;
 }
 
+/* Every method of the contract; those that are not built have no value. */
+static const struct {
+    const char *name;
+    bool is_built;
+    smear_method method;
+} methods[] = {
+    { "auto", true, SMEAR_DEFAULT_METHOD },     { "none", true, SMEAR_NONE },
+    { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
+    { "object", false, SMEAR_DEFAULT_METHOD },  { "camera", false, SMEAR_DEFAULT_METHOD },
+    { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
+    { "layered", false, SMEAR_DEFAULT_METHOD }, { "subframes", false, SMEAR_DEFAULT_METHOD },
+    { "timemask", false, SMEAR_DEFAULT_METHOD },
+};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+const char *options_method(int index, smear_method *method)
+{
+    for (int i = 0; i < METHODS; i++) {
+        if (methods[i].is_built && index-- == 0) {
+            *method = methods[i].method;
+            return methods[i].name;
+        }
+    }
+    return NULL;
+}
+
 static const char *read_method(void *to, const char *value)
 {
-    static const char *const built[] = { "auto", "none", "accumulate", "reconstruct", NULL };
-    static const char *const planned[] = { "object", "camera", "pingpong", "half", "layered",
-                                           "subframes", "timemask", NULL };
-    static const smear_method methods[] = { SMEAR_DEFAULT_METHOD, SMEAR_NONE, SMEAR_ACCUMULATE,
-                                            SMEAR_RECONSTRUCT };
-    int found = read_name(value, built);
-    if (found < 0)
-        return read_name(value, planned) >= 0 ? "not built yet"
-                                              : "needs auto, none, accumulate or reconstruct";
-    ((struct render_options *)to)->method = methods[found];
-    return NULL;
+    for (int i = 0; i < METHODS; i++) {
+        if (strcmp(methods[i].name, value) != 0)
+            continue;
+        ((struct render_options *)to)->method = methods[i].method;
+        return methods[i].is_built ? NULL : "not built yet";
+    }
+    return "needs auto, none, accumulate or reconstruct";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -461,24 +483,30 @@ static int check_outputs(struct render_options *o)
     return status;
 }
 
-int options_read(struct render_options *o, int count, char **text, bool *wants_help)
+int options_read_seen(struct render_options *o, int count, char **text, bool *wants_help)
 {
     *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1,
                                   .shutter_degrees = 180, .view = { .fov_degrees = 45.0 } };
     int status = arguments_read(count, text, table, o, &o->scene, 1, wants_help);
     if (status != STATUS_OK || *wants_help)
         return status;
-    if (o->scene == NULL)
-        return say_bad_usage("render", "needs a scene (smear help render)");
     status = check_camera_options(o);
     if (status == STATUS_OK)
         status = check_method(o);
-    if (status == STATUS_OK && source_builtin_name(o->scene) != NULL)
+    if (status == STATUS_OK && o->scene != NULL && source_builtin_name(o->scene) != NULL)
         status = check_builtin(o);
-    if (status == STATUS_OK)
-        status = check_outputs(o);
     o->view.aspect = (double)o->width / o->height;
     return status;
+}
+
+int options_read(struct render_options *o, int count, char **text, bool *wants_help)
+{
+    int status = options_read_seen(o, count, text, wants_help);
+    if (status != STATUS_OK || *wants_help)
+        return status;
+    if (o->scene == NULL)
+        return say_bad_usage("render", "needs a scene (smear help render)");
+    return check_outputs(o);
 }
 
 int options_reach(const struct render_options *o, int height, int *reach, int *tile)

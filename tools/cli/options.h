@@ -50,11 +50,16 @@ struct render_options {
 
 /* Reads argv (behind the command). Returns a status; *wants_help and STATUS_OK for --help. */
 int options_read(struct render_options *options, int count, char **text, bool *wants_help);
+/* The same for `smear view`: the scene may be missing, and nothing is checked about files. */
+int options_read_seen(struct render_options *options, int count, char **text, bool *wants_help);
 
 /* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
 int options_reach(const struct render_options *options, int height, int *reach, int *tile);
 
-/* The name of the method and of the format as the command line has them. */
+/* The methods there are, as the command line has them: name and value of number `index`, or null
+ * when there are not so many. */
+const char *options_method(int index, smear_method *method);
+/* The name of the format as the command line has it. */
 const char *options_format_name(smear_format format);
 
 #endif

@@ -8,6 +8,7 @@
 #include "picture.h"
 #include "planes.h"
 #include "say.h"
+#include "setup.h"
 #include "stats.h"
 
 #include <stdlib.h>
@@ -16,10 +17,8 @@
 struct render {
     struct render_options options;
     struct source source;
+    struct setup setup;
     struct presenter *presenter;
-    struct present_options present;     /* of every frame, but for cuts */
-    uint8_t *motion;                    /* per draw */
-    int width, height;
     struct device device;               /* what is measured */
     struct exact exact;                 /* with --exact */
     struct planes planes;               /* with --depth or --velocity */
@@ -29,73 +28,23 @@ struct render {
     struct stats_file stats;
 };
 
-static bool is_sharp_method(const struct render *r)
-{
-    return r->options.shutter_degrees == 0 || r->options.method == SMEAR_NONE ||
-           r->options.method == SMEAR_ACCUMULATE;
-}
-
 /* ------------------------------------------------------------------ setting up */
 
-static void fill_present_options(struct render *r)
+static bool open_devices(struct render *r, struct failure *f)
 {
     const struct render_options *o = &r->options;
-    const struct scene *scene = &r->source.scene;
-    bool is_builtin = !r->source.is_file;
-    r->width = is_builtin && !o->has_size ? scene->width : o->width;
-    r->height = is_builtin && !o->has_size ? scene->height : o->height;
-    r->present = (struct present_options){
-        .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
-        .shutter_degrees = o->shutter_degrees, .exposure = o->exposure,
-        .shutter_poses = o->shutter_poses, .method = o->method,
-        .samples = o->exact ? 0 : o->samples, .light = o->light,
-        .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
-        .reconstruct = o->reconstruct,
-    };
-    r->options.picture_sink.fps = r->present.fps;
-}
-
-static int set_motion(struct render *r)
-{
-    struct failure f = { "" };
-    struct scene_instant instant = { 0 };
-    int status = STATUS_OK;
-    if (r->options.motion_count == 0)
-        return STATUS_OK;
-    if (!scene_pose(&r->source.scene, 0.0, &instant, &f)) {
-        status = say_bad_input(r->source.name, &f);
-    } else {
-        r->motion = calloc((size_t)instant.draw_count + 1, 1);
-        r->present.motion = r->motion;
-        r->present.motion_count = instant.draw_count;
-        if (r->motion == NULL)
-            status = say_bad_input(r->source.name, &f);
-        else
-            status = source_motion(&r->source, r->options.motion, r->options.motion_count, &instant,
-                                   r->motion);
-    }
-    scene_instant_free(&r->source.scene, &instant);
-    return status;
-}
-
-static bool open_devices(struct render *r, int reach, int tile, struct failure *f)
-{
-    const struct render_options *o = &r->options;
-    const bool accumulates = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0;
-    struct device_setup setup = { .width = r->width, .height = r->height, .reach = reach,
-                                  .tile = tile, .format = o->format, .dither = o->dither,
-                                  .sharp = is_sharp_method(r), .accumulate = accumulates,
-                                  .threads = o->threads, .arena = o->arena };
+    const int width = r->setup.width, height = r->setup.height;
+    struct device_setup setup = setup_device(&r->setup, o);
     if (o->exact) {
-        if (!exact_open(&r->exact, r->width, r->height, o->format, o->dither, f))
+        if (!exact_open(&r->exact, width, height, o->format, o->dither, f))
             return false;
         setup.format = SMEAR_XRGB8888;
         setup.accumulate = false;
     }
-    if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, r->width, r->height, f))
+    if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, width, height, f))
         return false;
     if ((o->depth != NULL || o->velocity != NULL) &&
-        !planes_open(&r->planes, r->width, r->height, f))
+        !planes_open(&r->planes, width, height, f))
         return false;
     size_t repeat = o->repeat > 0 ? (size_t)o->repeat : 1;
     r->times = calloc(repeat, sizeof *r->times);
@@ -107,15 +56,6 @@ static bool open_devices(struct render *r, int reach, int tile, struct failure *
 }
 
 /* ------------------------------------------------------------------ a frame */
-
-static struct present_options options_of_frame(const struct render *r, long frame)
-{
-    struct present_options p = r->present;
-    for (int i = 0; i < r->options.cut_count; i++)
-        if (r->options.cut[i] == frame)
-            p.cut = true;
-    return p;
-}
 
 /* What a frame is drawn from. */
 struct shot {
@@ -193,7 +133,8 @@ static int render_frame(struct render *r, long frame, double time)
     struct failure f = { "" };
     struct render_options *o = &r->options;
     struct frame_report report = { .frame = frame, .time = time };
-    struct shot shot = { .frame = frame, .time = time, .options = options_of_frame(r, frame) };
+    struct shot shot = { .frame = frame, .time = time,
+                         .options = setup_frame(&r->setup, o, frame) };
     bool is_timed = o->stats != NULL || o->repeat > 0;
     if (!o->exact) {
         shot.presented = presenter_frame(r->presenter, time, &shot.options, &f);
@@ -222,7 +163,7 @@ static int render_frames(struct render *r)
     const struct scene *scene = &r->source.scene;
     int status = STATUS_OK;
     for (long frame = o->first; frame <= o->last && status == STATUS_OK; frame++) {
-        double time = o->has_frames ? (double)frame / r->present.fps
+        double time = o->has_frames ? (double)frame / r->setup.present.fps
                       : o->has_time || r->source.is_file ? o->time
                                                          : scene->time;
         status = render_frame(r, frame, time);
@@ -248,14 +189,11 @@ static int finish(struct render *r)
 static int render_scene(struct render *r)
 {
     struct failure f = { "" };
-    int reach, tile;
-    fill_present_options(r);
-    int status = options_reach(&r->options, r->height, &reach, &tile);
-    if (status == STATUS_OK)
-        status = set_motion(r);
+    int status = setup_open(&r->options, &r->source, &r->setup);
     if (status != STATUS_OK)
         return status;
-    if (!open_devices(r, reach, tile, &f))
+    r->options.picture_sink.fps = r->setup.present.fps;
+    if (!open_devices(r, &f))
         return say_bad_input(r->source.name, &f);
     if (r->options.stats != NULL && !stats_open(&r->stats, r->options.stats, &f))
         return say_bad_input(r->options.stats, &f);
@@ -272,7 +210,7 @@ static void release(struct render *r)
     exact_close(&r->exact);
     device_close(&r->device);
     image_free(&r->picture);
-    free(r->motion);
+    setup_release(&r->setup);
     free(r->times);
     free(r->spare);
     source_close(&r->source);

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* mover.h - the moving triangles of a tile row, and a tile in which some are seen. */
+#ifndef SMEAR_MOVER_H
+#define SMEAR_MOVER_H
+
+#include "path.h"
+#include "target.h"
+
+/* A moving triangle of the tile row, in submission order. */
+struct smear_mover {
+    uint32_t triangle;
+    uint8_t first, last;        /* tile columns it may touch during the exposure */
+    uint16_t nearest;           /* depth code it does not exceed: larger is nearer */
+};
+
+/* One tile, to be finished by a time-resolved method. */
+struct smear_moving_tile {
+    const struct smear_raster_frame *frame;
+    const struct smear_shutter *shutter;
+    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1 are the tile's. Only read. */
+    const struct smear_mover *mover;    /* of the row: those whose columns hold `column` are seen here */
+    uint32_t mover_count;
+    int32_t column;
+    uint32_t blend;                     /* blended draws of the row, still and moving ones; or SMEAR_NO_TRIANGLE */
+    uint32_t *out;                      /* finished working pixels, rows `tile` apart */
+    int32_t tile;                       /* edge, pixels */
+    void *work;                         /* memory of the worker's own */
+};
+
+static inline bool mover_is_in(const struct smear_mover *m, int32_t column)
+{
+    return (uint32_t)(column - m->first) <= (uint32_t)(m->last - m->first);
+}
+
+#endif

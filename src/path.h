@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* path.h - where a moving vertex is during the exposure.
+ *
+ * Methods that look at several instants keep three places of every moving vertex: at shutter open, in the middle and at
+ * close. Between them it moves along the parabola through the three. */
+#ifndef SMEAR_PATH_H
+#define SMEAR_PATH_H
+
+#include "geometry.h"
+
+/* Time in the exposure, q16: 0 is open, SHUTTER_CLOSE is close. */
+#define SHUTTER_CLOSE 65536
+
+/* Slots of equal weight in which time is counted. */
+#define SHUTTER_SLOTS 32
+
+/* When each slot begins, time[SHUTTER_SLOTS] when the last one ends. A box shutter has even steps; where a shutter lets
+ * through less light, slots are longer. */
+struct smear_shutter {
+    int32_t time[SHUTTER_SLOTS + 1];
+};
+
+/* Record of a vertex with a path (struct smear_segment.path): the place in the middle at VERTEX_X .. VERTEX_DEPTH, then at
+ * segment->motion those at open and at close, in the same units: q8 px, q8 px, q11 depth units. */
+enum { PATH_X, PATH_Y, PATH_DEPTH, PATH_POSE_WORDS, PATH_WORDS = 2 * PATH_POSE_WORDS };
+
+/* middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2 with u = 2 time - 1. */
+static inline int32_t path_value(int32_t open, int32_t middle, int32_t close, int32_t time)
+{
+    int32_t u = time - SHUTTER_CLOSE / 2;       /* q15 */
+    int64_t slope = (int64_t)close - open, bend = (int64_t)open + close - 2 * (int64_t)middle;
+    return middle + (int32_t)((slope + (bend * u >> 15)) * u >> 16);
+}
+
+/* The vertex at a time of the exposure: x, y, depth. */
+static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
+{
+    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;
+    for (int i = 0; i < 3; i++)
+        out[i] = path_value(open[i], record[i], close[i], time);
+}
+
+/* How far the middle lies off the chord, twice, in q8 px: |open + close - 2 middle|, the larger of x and y. */
+static inline int32_t path_bend(const int32_t *record, const struct smear_segment *s)
+{
+    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;
+    int32_t x = open[PATH_X] + close[PATH_X] - 2 * record[VERTEX_X];
+    int32_t y = open[PATH_Y] + close[PATH_Y] - 2 * record[VERTEX_Y];
+    return max_i32(x < 0 ? -x : x, y < 0 ? -y : y);
+}
+
+#endif

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* timemask.h - a tile blurred by the time each moving triangle covers each pixel. */
+#ifndef SMEAR_TIMEMASK_H
+#define SMEAR_TIMEMASK_H
+
+#include "mover.h"
+
+/* Bytes of work memory per worker for tiles of this edge. */
+size_t smear_timemask_work(int32_t tile);
+
+struct smear_timemask_settings {
+    int32_t slots;              /* 8, 16 or 32 */
+    int32_t bend;               /* q8 px: a chord may miss a path by this much; else the shutter is split */
+    int32_t tap;                /* q8 px of travel per texel taken along it */
+};
+
+/* Opaque movers. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings);
+
+#endif

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/* setup.c - see setup.h. */
+#include "setup.h"
+
+#include "say.h"
+
+#include <stdlib.h>
+
+static bool is_sharp_method(const struct render_options *o)
+{
+    return o->shutter_degrees == 0 || o->method == SMEAR_NONE || o->method == SMEAR_ACCUMULATE;
+}
+
+static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
+{
+    struct failure f = { "" };
+    struct scene_instant instant = { 0 };
+    int status = STATUS_OK;
+    if (o->motion_count == 0)
+        return STATUS_OK;
+    if (!scene_pose(&source->scene, 0.0, &instant, &f)) {
+        status = say_bad_input(source->name, &f);
+    } else {
+        out->motion = calloc((size_t)instant.draw_count + 1, 1);
+        out->present.motion = out->motion;
+        out->present.motion_count = instant.draw_count;
+        if (out->motion == NULL)
+            status = say_bad_input(source->name, &f);
+        else
+            status = source_motion(source, o->motion, o->motion_count, &instant, out->motion);
+    }
+    scene_instant_free(&source->scene, &instant);
+    return status;
+}
+
+int setup_change(const struct render_options *o, const struct source *source, struct setup *out)
+{
+    const struct scene *scene = &source->scene;
+    bool is_builtin = !source->is_file;
+    out->width = is_builtin && !o->has_size ? scene->width : o->width;
+    out->height = is_builtin && !o->has_size ? scene->height : o->height;
+    out->present = (struct present_options){
+        .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
+        .shutter_degrees = o->shutter_degrees, .exposure = o->exposure,
+        .shutter_poses = o->shutter_poses, .method = o->method,
+        .samples = o->exact ? 0 : o->samples, .light = o->light,
+        .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
+        .reconstruct = o->reconstruct,
+        .motion = out->present.motion, .motion_count = out->present.motion_count,
+    };
+    return options_reach(o, out->height, &out->reach, &out->tile);
+}
+
+int setup_open(const struct render_options *o, struct source *source, struct setup *out)
+{
+    *out = (struct setup){ .motion = NULL };
+    int status = setup_change(o, source, out);
+    return status == STATUS_OK ? set_motion(o, source, out) : status;
+}
+
+void setup_release(struct setup *setup)
+{
+    free(setup->motion);
+    *setup = (struct setup){ .motion = NULL };
+}
+
+struct device_setup setup_device(const struct setup *s, const struct render_options *o)
+{
+    return (struct device_setup){
+        .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
+        .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
+        .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
+        .threads = o->threads, .arena = o->arena,
+    };
+}
+
+struct present_options setup_frame(const struct setup *s, const struct render_options *o,
+                                   long frame)
+{
+    struct present_options p = s->present;
+    for (int i = 0; i < o->cut_count; i++)
+        if (o->cut[i] == frame)
+            p.cut = true;
+    return p;
+}
