@@ -2,10 +2,12 @@
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
  *     bench [peers] [accuracy] [methods] [threads] [memory] [targets FILE...]
+ *     bench chart [options]
  *
  * Without arguments, the first five. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
+#include "chart.h"
 #include "count.h"
 #include "groups.h"
 #include "sheet.h"
@@ -21,6 +23,8 @@ bool group_take(const char *group, int index, struct take *out)
         return peers_take(index, out);
     if (strcmp(group, "methods") == 0)
         return methods_take(index, out);
+    if (strcmp(group, "chart") == 0)
+        return chart_take(index, out);
     return strcmp(group, "threads") == 0 && threads_take(index, out);
 }
 
@@ -38,7 +42,7 @@ enum { REPORTS = sizeof reports / sizeof *reports };
 static int usage(void)
 {
     fprintf(stderr, "usage: bench [--strict] [peers] [accuracy] [methods] [threads] "
-                    "[memory] [targets FILE...]\n");
+                    "[memory] [targets FILE...]\n       bench chart [options]\n");
     return 2;
 }
 
@@ -78,6 +82,8 @@ int main(int argc, char **argv)
     int asked = 0;
     if (argc == 4 && strcmp(argv[1], "--draw") == 0)
         return serve(argv + 2);
+    if (argc >= 2 && strcmp(argv[1], "chart") == 0)
+        return chart_command(argv[0], argc - 2, argv + 2);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "targets") == 0) {
             if (i + 1 == argc)

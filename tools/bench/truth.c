@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* truth.c - draws truths, with the reference or with the library, or reads what was drawn before. */
+/* truth.c - draws truths, with the reference or with the library, or reads what was drawn
+ * before. */
 #include "truth.h"
 
 #include "take.h"
