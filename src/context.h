@@ -7,10 +7,14 @@
 #include "smear.h"
 
 #include "assemble.h"
+#include "assemble_path.h"
 #include "blur.h"
+#include "choose.h"
 #include "geometry.h"
 #include "jobs.h"
 #include "raster.h"
+#include "shutter.h"
+#include "subframes.h"
 #include "window.h"
 
 /* The pose a draw had, kept under its id. */
@@ -55,6 +59,16 @@ struct smear_context {
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
+    /* methods that look at several instants */
+    struct smear_shutter shutter;
+    struct smear_chooser chooser;
+    struct smear_mover *mover;      /* of the row */
+    uint32_t mover_count;
+    struct smear_tile_load *load;   /* per tile of the row */
+    uint8_t *work;                  /* work_bytes per worker */
+    uint32_t work_bytes;
+    uint32_t moving;                /* list of the row being drawn */
+
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
 

@@ -141,6 +141,36 @@ static void project_pose(struct smear_projection *out, const struct smear_contex
     smear_projection_make(out, &view, p->camera[i], c->window.height);
 }
 
+/* Where the vertices are at an instant: a sum of poses, linear in clip space. */
+static void place(struct smear_placement *out, const struct smear_context *c, const struct draw_poses *p,
+                  const smear_mesh *mesh, const struct instant *instant)
+{
+    struct smear_projection sum[3];
+    const int16_t *position[3];
+    int32_t weight[3];
+    int count = 0;
+    out->extra_count = 0;
+    for (int k = 0; k < 3; k++) {
+        if (instant->weight[k] == 0)
+            continue;
+        project_pose(&sum[count], c, p, k, mesh);
+        position[count] = p->position[k];
+        weight[count++] = instant->weight[k];
+    }
+    if (count > 1)
+        smear_projection_weigh(sum, weight, count, &c->camera);
+    out->now = sum[0];
+    out->position = position[0];
+    for (int k = 1; k < count; k++) {
+        if (position[k] == out->position) {
+            smear_projection_add(&out->now, &sum[k]);
+        } else {
+            out->extra[out->extra_count] = sum[k];
+            out->extra_position[out->extra_count++] = position[k];
+        }
+    }
+}
+
 /* Everything the assembler needs of draw `i`, for the given instant. */
 static void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
                           struct smear_assembly *a)
@@ -154,41 +184,19 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->draw = (uint16_t)i;
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->extra_count = 0;
-    a->position = poses.position[0];
+    a->path = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
                        c->frame.light == SMEAR_LIGHT_LINEAR);
 
-    bool moves[3] = { false, pose_differs(&poses, 1), pose_differs(&poses, 2) };
-    project_pose(&a->now, c, &poses, 0, a->mesh);
-    if (!moves[1] && !moves[2])
+    bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
+    place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
+    if (!moves)
         return;
-
-    /* Another instant than now: a sum of poses, linear in clip space. */
-    bool shifted = instant->weight[0] != 1 << 24;
-    struct smear_projection sum[3];
-    const int16_t *position[3];
-    int32_t weight[3];
-    int count = 0;
-    if (shifted) {
-        for (int k = 0; k < 3; k++) {
-            if (instant->weight[k] == 0)
-                continue;
-            project_pose(&sum[count], c, &poses, k, a->mesh);
-            position[count] = poses.position[k];
-            weight[count++] = instant->weight[k];
-        }
-        smear_projection_weigh(sum, weight, count, &c->camera);
-        a->now = sum[0];
-        a->position = position[0];
-        for (int k = 1; k < count; k++) {
-            if (position[k] == a->position) {
-                smear_projection_add(&a->now, &sum[k]);
-            } else {
-                a->extra[a->extra_count] = sum[k];
-                a->extra_position[a->extra_count++] = position[k];
-            }
-        }
+    if (c->assembler.keep_paths) {
+        struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
+        a->path = true;
+        place(&a->key[0], c, &poses, a->mesh, &open);
+        place(&a->key[1], c, &poses, a->mesh, &close);
     }
     if (!c->assembler.keep_motion)
         return;
@@ -197,7 +205,7 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     project_pose(&a->pose[0], c, &poses, 1, a->mesh);
     a->pose_position[0] = poses.position[1];
     a->moves = 1;
-    if (c->frame.shutter_poses || shifted) {
+    if (c->frame.shutter_poses || instant->weight[0] != 1 << 24) {
         int later = c->frame.shutter_poses ? 2 : 0;
         project_pose(&a->pose[1], c, &poses, later, a->mesh);
         a->pose_position[1] = poses.position[later];
@@ -216,7 +224,7 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     for (uint32_t i = 0; i < c->draw_count; i++) {
         struct smear_assembly a;
         make_assembly(c, i, instant, &a);
-        if (!smear_assemble(&c->assembler, &a, drop))
+        if (!(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -239,9 +247,9 @@ static int assemble_part(struct smear_context *c, int first, int before, const s
         end = first + (end - first) / 2;
         c->stats.triangles_split++;
     }
-    c->opaque = c->blend = SMEAR_NO_TRIANGLE;
+    c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
     for (int row = top; row < first; row++)
-        c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
+        c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     charge(c, &c->stats.time_submit, start);
     return end;
 }
@@ -359,7 +367,7 @@ static void draw_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
     uint32_t start = now(c);
-    c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
+    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
     smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
@@ -373,7 +381,7 @@ static void blend_row(struct smear_context *c, int row)
     if (!c->blends)
         return;
     struct row_job job = { .c = c, .row = row };
-    c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+    c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
     smear_jobs_run(&c->jobs, blend_job, &job, c->jobs.workers);
 }
 
@@ -491,19 +499,20 @@ static struct smear_row_table row_table(const struct smear_context *c, int row)
     return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
 }
 
-static bool is_still(const struct smear_window *w, int row, int column)
+static bool is_still(const struct smear_context *c, int row, int column)
 {
-    return window_around(w, row)[column].kind == TILE_STILL;
+    return c->assembler.keep_paths ? c->load[column].count == 0 && c->load[column].flags == 0
+                                   : window_around(&c->window, row)[column].kind == TILE_STILL;
 }
 
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
 static void convert_still(struct smear_context *c, const struct row_job *r, int column)
 {
     const struct smear_window *w = &c->window;
-    if (column > 0 && is_still(w, r->row, column - 1))
+    if (column > 0 && is_still(c, r->row, column - 1))
         return;
     int end = column + 1;
-    while (end < w->columns && is_still(w, r->row, end))
+    while (end < w->columns && is_still(c, r->row, end))
         end++;
     smear_format format = (smear_format)c->desc.format;
     uint32_t stride = smear_convert_stride(w->width, format);
@@ -513,12 +522,23 @@ static void convert_still(struct smear_context *c, const struct row_job *r, int 
                           row_top(c, r->row), format, (smear_dither)c->desc.dither);
 }
 
+static void convert_tile(struct smear_context *c, const struct row_job *r, int column, const uint32_t *tile)
+{
+    const struct smear_window *w = &c->window;
+    smear_format format = (smear_format)c->desc.format;
+    uint32_t stride = smear_convert_stride(w->width, format);
+    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
+    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++, tile += w->tile)
+        smear_convert_row(r->band, stride, tile, x1 - x0, x0, y, row_top(c, r->row), format,
+                          (smear_dither)c->desc.dither);
+}
+
 static void tile_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
-    if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
+    if (is_still(c, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
         convert_still(c, r, column);
         return;
     }
@@ -533,13 +553,7 @@ static void tile_job(void *argument, int column, int worker)
         c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
     if (c->blend != SMEAR_NO_TRIANGLE)
         blend_tile(c, r->row, column, tile);
-
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++, tile += w->tile)
-        smear_convert_row(r->band, stride, tile, x1 - x0, x0, y, row_top(c, r->row), format,
-                          (smear_dither)c->desc.dither);
+    convert_tile(c, r, column, tile);
 }
 
 static void count_tiles(struct smear_context *c, int row)
@@ -572,11 +586,128 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
         c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, w->height - 1)) * w->width);
     if (c->blends)
-        c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
     uint32_t start = now(c);
     struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
     smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
+    charge(c, &c->stats.time_blur, start);
+    return flush_band(c, row, job.band);
+}
+
+/* ------------------------------------------------------------------ finishing by time */
+
+/* What the row's movers mean for its tiles. */
+static void load_tiles(struct smear_context *c, int32_t x0, int32_t x1, const struct smear_path_bounds *b, uint16_t flags)
+{
+    const struct smear_window *w = &c->window;
+    int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
+    for (int32_t column = first; column <= last; column++) {
+        struct smear_tile_load *load = &c->load[column];
+        load->flags |= flags;
+        if (b == NULL)
+            continue;
+        load->flags |= b->flags;
+        load->travel = (uint16_t)max_i32(load->travel, b->travel);
+        load->bend = (uint16_t)max_i32(load->bend, b->bend);
+        load->count++;
+    }
+}
+
+/* Columns of pixels that a still triangle may cover. */
+static void still_columns(const struct smear_geometry *g, const struct smear_triangle *t, int32_t *x0, int32_t *x1)
+{
+    *x0 = INT32_MAX;
+    *x1 = INT32_MIN;
+    for (int i = 0; i < 3; i++) {
+        int32_t x = geometry_vertex(g, &g->segment[t->segment], t->vertex[i])[VERTEX_X];
+        *x0 = min_i32(*x0, x >> 8);
+        *x1 = max_i32(*x1, (x >> 8) + 1);
+    }
+}
+
+static void list_movers(struct smear_context *c, int row)
+{
+    const struct smear_geometry *g = &c->geometry;
+    int shift = c->window.tile_shift;
+    for (int32_t i = 0; i < c->window.columns; i++)
+        c->load[i] = (struct smear_tile_load){ 0, 0, 0, 0 };
+    c->mover_count = 0;
+    c->moving = smear_geometry_advance(g, g->mover_last, c->moving, row);
+    for (uint32_t i = c->moving; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
+        const struct smear_path_bounds *b = geometry_bounds(g, i);
+        c->mover[c->mover_count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
+                                                           b->nearest };
+        load_tiles(c, b->x0, b->x1, b, 0);
+    }
+    for (uint32_t i = c->blend; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
+        const struct smear_triangle *t = geometry_triangle(g, i);
+        int32_t x0, x1;
+        if (g->segment[t->segment].path) {
+            const struct smear_path_bounds *b = geometry_bounds(g, i);
+            load_tiles(c, b->x0, b->x1, b, TILE_BLENDED);
+        } else {
+            still_columns(g, t, &x0, &x1);
+            load_tiles(c, x0, x1, NULL, TILE_BLENDED);
+        }
+    }
+}
+
+static void timed_job(void *argument, int column, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_context *c = r->c;
+    const struct smear_window *w = &c->window;
+    uint32_t *out = c->scratch + worker * w->tile * w->tile;
+    struct smear_tile_choice choice;
+    if (is_still(c, r->row, column)) {
+        convert_still(c, r, column);
+        return;
+    }
+    smear_choose(&choice, &c->chooser, &c->load[column]);
+    struct smear_moving_tile tile = {
+        .frame = &c->raster, .shutter = &c->shutter, .mover = c->mover, .mover_count = c->mover_count,
+        .column = column, .blend = c->blend, .out = out, .tile = w->tile,
+        .work = c->work + (uint32_t)worker * c->work_bytes
+    };
+    window_target(c, r->row, &tile.still);
+    tile.still.x0 = column << w->tile_shift;
+    tile.still.x1 = min_i32(tile.still.x0 + w->tile, w->width);
+    if (choice.method == TILE_SUBFRAMES) {
+        c->worker_samples[worker] += smear_subframes_tile(&tile, choice.instants);
+    } else if (choice.method == TILE_TIMEMASK) {
+        c->worker_samples[worker] += smear_timemask_tile(&tile, &choice.timemask);
+    } else {
+        smear_blur_copy(out, w, r->row, column);
+        if (c->load[column].flags & TILE_BLENDED)
+            blend_tile(c, r->row, column, out);
+    }
+    convert_tile(c, r, column, out);
+}
+
+static void count_timed(struct smear_context *c)
+{
+    for (int32_t i = 0; i < c->window.columns; i++) {
+        struct smear_tile_choice choice;
+        smear_choose(&choice, &c->chooser, &c->load[i]);
+        c->stats.tiles_still += choice.method == TILE_COPY;
+        c->stats.tiles_complex += choice.method != TILE_COPY;
+        c->stats.tiles_none += choice.method == TILE_COPY;
+        c->stats.tiles_subframes += choice.method == TILE_SUBFRAMES;
+        c->stats.tiles_timemask += choice.method == TILE_TIMEMASK;
+    }
+}
+
+/* The row's still scene lies in the window. */
+static int finish_timed(struct smear_context *c, int row)
+{
+    if (c->blends)
+        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
+    list_movers(c, row);
+    count_timed(c);
+    uint32_t start = now(c);
+    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    smear_jobs_run(&c->jobs, timed_job, &job, c->window.columns);
     charge(c, &c->stats.time_blur, start);
     return flush_band(c, row, job.band);
 }
@@ -622,6 +753,21 @@ static int render_reconstruct(struct smear_context *c)
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
+            if (result != SMEAR_OK)
+                return result;
+        }
+    }
+    return SMEAR_OK;
+}
+
+static int render_timed(struct smear_context *c)
+{
+    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    for (int row = 0; row < c->window.rows;) {
+        int end = assemble_part(c, row, 0, &middle);
+        for (; row < end; row++) {
+            draw_row(c, row);
+            int result = finish_timed(c, row);
             if (result != SMEAR_OK)
                 return result;
         }
@@ -714,6 +860,8 @@ static void prepare(struct smear_context *c)
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
+    c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -763,7 +911,8 @@ int smear_frame_render(struct smear_context *c)
     uint32_t start = now(c);
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
-               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c) : render_reconstruct(c);
+               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
+               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     charge(c, &c->stats.time_total, start);
