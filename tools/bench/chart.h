@@ -7,7 +7,7 @@
  *     chart_means.c      means over groups of scenes; which points lie on the frontier
  *     chart_bars.c       the bars, met or missed
  *     chart_tables.c     tables for the terminal and in Markdown
- *     chart_plot.c       pictures (svg.c draws, labels.c finds room for labels)
+ *     chart_plot.c       pictures, made of chart_panel.c (svg.c draws, labels.c finds room)
  *     chart_command.c    options and progress
  *
  * Cost is instructions per frame relative to the sharp frame (`none`) of the same scene under the
@@ -42,6 +42,7 @@ enum chart_mark { MARK_CIRCLE, MARK_SQUARE, MARK_TRIANGLE, MARK_DIAMOND, MARK_CR
 
 struct chart_curve {
     const char *name;           /* as a stranger should read it */
+    const char *method;         /* where there is little room */
     const char *color;
     enum chart_mark mark;
     bool bold;
@@ -163,11 +164,14 @@ struct chart_verdict {
 };
 
 void chart_print_means(FILE *out, const struct chart *chart, int condition);
-void chart_print_bars(FILE *out, const struct chart *chart, struct chart_verdict *verdict);
+void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
+/* `all`: with those that were not measured. */
+void chart_print_bars(FILE *out, const struct chart *chart, bool all,
+                      struct chart_verdict *verdict);
 bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 
-/* object.svg, camera.svg, all.svg: means; scenes.svg: each scene for itself. Those for which
- * nothing is known are left out. */
+/* object.svg, camera.svg, all.svg: means; both.svg: the first two side by side; scenes.svg: each
+ * scene for itself. Those for which nothing is known are left out. */
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
 
 /* The command `chart`, arguments behind its name. */

@@ -11,6 +11,7 @@ struct bars {
     FILE *out;
     const struct chart *chart;
     struct chart_verdict *verdict;
+    bool all;                   /* those that were not measured, too */
 };
 
 /* Presets of the method `auto`: one number, the error it aims at. */
@@ -47,8 +48,11 @@ static void bar(struct bars *b, const char *what, double value, enum side side, 
 {
     const char *word = "not measured";
     char number[32] = "-";
+    char bound[32];
     if (isnan(value)) {
         b->verdict->unknown++;
+        if (!b->all)
+            return;
     } else {
         bool met = side == AT_MOST ? value <= limit : value >= limit;
         b->verdict->met += met;
@@ -56,8 +60,9 @@ static void bar(struct bars *b, const char *what, double value, enum side side, 
         word = met ? "met" : "MISSED";
         snprintf(number, sizeof number, "%.2f%s", value, unit);
     }
-    fprintf(b->out, "  %-52s %8s   %s %.4g%-2s  %-6s %s\n", what, number,
-            side == AT_MOST ? "at most " : "at least", limit, unit, word, note);
+    snprintf(bound, sizeof bound, "%.4g%s", limit, unit);
+    fprintf(b->out, "  %-52s %7s  %s %-5s %-6s %s\n", what, number,
+            side == AT_MOST ? "at most " : "at least", bound, word, note);
 }
 
 static void bar_mean(struct bars *b, const char *what, enum chart_set set, int preset,
@@ -116,7 +121,8 @@ static void bars_of_still(struct bars *b)
     snprintf(note, sizeof note, "(dearest of %d settings of auto)", known);
     bar(b, "still scene: cost", known > 0 ? worst : NAN, AT_MOST, 1.02, "x",
         known > 0 ? note : "");
-    bar(b, "still scene: settings whose picture differs from none", known > 0 ? known - same : NAN,
+    double different = known - same;
+    bar(b, "still scene: settings whose picture differs from none", known > 0 ? different : NAN,
         AT_MOST, 0.0, "", "");
 }
 
@@ -162,11 +168,12 @@ static bool has_auto(const struct bars *b, int kind)
 }
 
 /* The filter's cost against that of auto at no greater error. Where no setting of auto is as right
- * the ratio is 0. */
+ * the ratio is 0. Beside it the same for what blur adds to the sharp frame; it counts as a thousandth
+ * of that at least. */
 static void bars_of_filter(struct bars *b, enum chart_set set, const char *what, double limit,
                            double *worst, int *worst_kind)
 {
-    double ratio[KINDS];
+    double ratio[KINDS], added[KINDS];
     int n = 0, filter = best_filter(b, set), never = -1;
     bool known = filter >= 0;
     char text[80], note[96] = "";
@@ -182,12 +189,14 @@ static void bars_of_filter(struct bars *b, enum chart_set set, const char *what,
             *worst = r;
             *worst_kind = k;
         }
+        added[n] = fmax(cost_of(b, k, filter) - 1.0, 1e-3) / fmax(cost - 1.0, 1e-3);
         ratio[n++] = r;
     }
     if (known && never >= 0)
         snprintf(note, sizeof note, "(never as right on %s)", kinds[never].name);
     else if (known)
-        snprintf(note, sizeof note, "(%s)", chart_settings[filter].name);
+        snprintf(note, sizeof note, "(%s; what blur adds: %.2fx)", chart_settings[filter].name,
+                 geometric_mean(added, n));
     snprintf(text, sizeof text, "cheaper than reconstruct at its error, %s", what);
     bar(b, text, !known ? NAN : never >= 0 ? 0.0 : geometric_mean(ratio, n), AT_LEAST, limit, "x",
         note);
@@ -267,6 +276,13 @@ static void bar_flicker(struct bars *b, int preset, double limit)
 
 /* ------------------------------------------------------------------ the frontier */
 
+/* Cheaper or more accurate by more than 1 %, and not worse in the other. */
+static bool clearly_beats(const struct chart_point *a, const struct chart_point *b)
+{
+    return a->cost <= b->cost && a->error <= b->error
+        && (1.01 * a->cost < b->cost || 1.01 * a->error < b->error);
+}
+
 /* Settings of auto that another method beats. Names each when `what` is there. */
 static int beaten(struct bars *b, const struct chart_point *point, int count, const char *what)
 {
@@ -276,9 +292,7 @@ static int beaten(struct bars *b, const struct chart_point *point, int count, co
         if (!is_auto(point[i].setting))
             continue;
         for (int j = 0; j < count; j++)
-            if (!is_auto(point[j].setting) && point[j].cost <= point[i].cost
-                && point[j].error <= point[i].error
-                && (point[j].cost < point[i].cost || point[j].error < point[i].error)
+            if (!is_auto(point[j].setting) && clearly_beats(&point[j], &point[i])
                 && (by == NULL || point[j].cost < by->cost))
                 by = &point[j];
         if (by == NULL)
@@ -311,7 +325,8 @@ static void bar_frontier(struct bars *b)
     int points = 0, worse = 0;
     for (int i = 0; i < 2; i++) {
         int count = chart_points_of_set(b->chart, CHART_MAIN, sets[i].set, point);
-        int autos = autos_among(point, count), by_others = beaten(b, point, count, NULL);
+        int autos = autos_among(point, count);
+        double by_others = beaten(b, point, count, NULL);
         snprintf(text, sizeof text, "settings of auto above the frontier, %s", sets[i].name);
         snprintf(note, sizeof note, "(of %d)", autos);
         bar(b, text, autos > 0 ? by_others : NAN, AT_MOST, 0.0, "", autos > 0 ? note : "");
@@ -319,22 +334,24 @@ static void bar_frontier(struct bars *b)
     }
     for (int k = 0; k < KINDS; k++) {
         int count = chart_points_of_kind(b->chart, CHART_MAIN, k, point);
+        if (kinds[k].group == GROUP_STILL)      /* has a bar of its own */
+            continue;
         points += autos_among(point, count);
         worse += beaten(b, point, count, NULL);
     }
     if (points > 0)
         fprintf(b->out, "  Scene by scene %d of %d points of auto lie above it:\n", worse, points);
-    for (int k = 0; k < KINDS; k++) {
-        int count = chart_points_of_kind(b->chart, CHART_MAIN, k, point);
-        beaten(b, point, count, kinds[k].name);
-    }
+    for (int k = 0; k < KINDS; k++)
+        if (kinds[k].group != GROUP_STILL)
+            beaten(b, point, chart_points_of_kind(b->chart, CHART_MAIN, k, point), kinds[k].name);
 }
 
 /* ------------------------------------------------------------------ all */
 
-void chart_print_bars(FILE *out, const struct chart *chart, struct chart_verdict *verdict)
+void chart_print_bars(FILE *out, const struct chart *chart, bool all,
+                      struct chart_verdict *verdict)
 {
-    struct bars b = { out, chart, verdict };
+    struct bars b = { out, chart, verdict, all };
     *verdict = (struct chart_verdict){ 0, 0, 0 };
     fprintf(out, "Bars (%s; errors against the truth rounded to 8 bits)\n",
             chart_conditions[CHART_MAIN].what);

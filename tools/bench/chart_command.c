@@ -19,7 +19,7 @@ struct options {
     struct chart_choice choice;
     const char *from, *out;
     int jobs;
-    bool is_part, quick, strict;
+    bool is_part, few_scenes, quick, strict;
 };
 
 static int bad_usage(const char *what, const char *text)
@@ -104,7 +104,7 @@ static int read_options(struct options *o, int count, char **text)
             return bad_usage(name, "wants a value");
         i++;
         if (strcmp(name, "--scenes") == 0 && value[0] != '\0') {
-            o->is_part = true;
+            o->is_part = o->few_scenes = true;
             if (!choose_scenes(o, value))
                 return bad_usage(value, "not scenes of the suite");
         } else if (strcmp(name, "--methods") == 0 && value[0] != '\0') {
@@ -202,9 +202,14 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
     snprintf(path, sizeof path, "%s/tables.md", o->out);
     if (!chart_write_tables(chart, path, f) || !chart_write_pictures(chart, o->out, f))
         return false;
-    chart_print_means(stdout, chart, CHART_MAIN);
-    printf("\n");
-    chart_print_bars(stdout, chart, verdict);
+    for (int k = 0; k < KINDS && o->few_scenes; k++)
+        if (o->choice.kind[k])
+            chart_print_scene(stdout, chart, CHART_MAIN, k);
+    if (!o->few_scenes) {
+        chart_print_means(stdout, chart, CHART_MAIN);
+        printf("\n");
+    }
+    chart_print_bars(stdout, chart, !o->is_part, verdict);
     printf("\n%d bars met, %d missed, %d not measured. Tables and pictures: %s\n", verdict->met,
            verdict->missed, verdict->unknown, o->out);
     return true;

@@ -1,373 +1,96 @@
 /* SPDX-License-Identifier: MIT */
-/* chart_plot.c - error against cost, both on logarithmic scales, with the frontier. */
-#include "chart.h"
+/* chart_plot.c - the pictures of a chart: panels, titles, axes. */
+#include "chart_panel.h"
 
-#include "labels.h"
-#include "svg.h"
+static const char cost_axis[] = "cost: instructions per frame, relative to the sharp frame";
+static const char error_axis[] = "error: RMSE in codes of 1/255";
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+static const struct svg_font title_font = { .size = 19, .color = PANEL_INK, .bold = true };
+static const struct svg_font axis_font = { .size = 14, .color = PANEL_INK };
+static const struct svg_font note_font = { .size = 12.5, .color = PANEL_PALE };
 
-static const char ink[] = "#1f2937", pale[] = "#6b7280", grid[] = "#e5e7eb", shade[] = "#f6f7f9";
-
-/* ------------------------------------------------------------------ scales */
-
-struct axis {
-    double low, high;           /* values */
-    double from, to;            /* pixels */
-};
-
-static double at(const struct axis *axis, double value)
+/* What all who look at a picture have to know. */
+static void draw_notes(struct svg *svg, double x, double y)
 {
-    return axis->from + (axis->to - axis->from) * log(value / axis->low)
-                      / log(axis->high / axis->low);
+    svg_text(svg, x, y, ANCHOR_START, note_font,
+             "Dashed: the frontier, on which marks are filled; in the shaded area something else "
+             "is both cheaper and more accurate.");
+    svg_text(svg, x, y + 16, ANCHOR_START, note_font,
+             "Error against 1024 exact instants; shutter 180\u00b0; one thread; both scales are "
+             "logarithmic.");
 }
-
-static const double ticks[] = { 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50,
-                                100, 200 };
-enum { TICKS = sizeof ticks / sizeof *ticks };
-
-/* Powers of ten, twos and fives always; the others where there is room. */
-static bool is_labelled(const struct axis *axis, int tick, double room)
-{
-    double digit = ticks[tick] / pow(10.0, floor(log10(ticks[tick] * 1.001)));
-    bool main = fabs(digit - 1.0) < 0.1 || fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1;
-    if (main)
-        return true;
-    double before = fabs(at(axis, ticks[tick]) - at(axis, ticks[tick - 1]));
-    double after = fabs(at(axis, ticks[tick + 1]) - at(axis, ticks[tick]));
-    return fmin(before, after) >= room;
-}
-
-static bool is_on(const struct axis *axis, double value)
-{
-    return value >= axis->low * 0.999 && value <= axis->high * 1.001;
-}
-
-/* ------------------------------------------------------------------ panels */
-
-struct panel {
-    struct box box;             /* of the plane itself */
-    struct chart_point point[CHART_MAX_SETTINGS];
-    int points;
-    struct axis x, y;
-    double mark;                /* size of marks */
-    double tick_size;           /* of the font */
-    bool labelled;
-};
-
-static void include(double *low, double *high, double value)
-{
-    *low = fmin(*low, value);
-    *high = fmax(*high, value);
-}
-
-/* The plane that shows all points of some panels. Points without error, as on a still scene, are
- * left out. */
-static void fit(struct panel *panel, int panels)
-{
-    double x[2] = { INFINITY, 0.0 }, y[2] = { INFINITY, 0.0 };
-    for (int i = 0; i < panels; i++)
-        for (int k = 0; k < panel[i].points; k++) {
-            include(&x[0], &x[1], panel[i].point[k].cost);
-            include(&y[0], &y[1], panel[i].point[k].error);
-        }
-    for (int i = 0; i < panels; i++) {
-        const struct box *box = &panel[i].box;
-        panel[i].x = (struct axis){ x[0] / 1.12, x[1] * 1.15, box->x, box->x + box->width };
-        panel[i].y = (struct axis){ y[0] / 1.25, y[1] * 1.25, box->y + box->height, box->y };
-    }
-}
-
-static void draw_grid(struct svg *svg, const struct panel *p)
-{
-    const struct svg_style style = { grid, 1.0, NULL, 0.0 };
-    const struct svg_font font = { .size = p->tick_size, .color = ink };
-    const struct box *b = &p->box;
-    char text[32];
-    for (int i = 0; i < TICKS; i++) {
-        if (is_on(&p->x, ticks[i])) {
-            double x = at(&p->x, ticks[i]);
-            svg_line(svg, x, b->y, x, b->y + b->height, style);
-            snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
-            if (is_labelled(&p->x, i, 2.6 * p->tick_size))
-                svg_text(svg, x, b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
-        }
-        if (is_on(&p->y, ticks[i])) {
-            double y = at(&p->y, ticks[i]);
-            svg_line(svg, b->x, y, b->x + b->width, y, style);
-            snprintf(text, sizeof text, "%g", ticks[i]);
-            if (is_labelled(&p->y, i, 1.4 * p->tick_size))
-                svg_text(svg, b->x - 6.0, y + 0.35 * p->tick_size, ANCHOR_END, font, text);
-        }
-    }
-}
-
-/* ------------------------------------------------------------------ frontier */
-
-static int compare_cost(const void *a, const void *b)
-{
-    const struct chart_point *p = a, *q = b;
-    return p->cost != q->cost ? (p->cost > q->cost) - (p->cost < q->cost)
-                              : (p->error < q->error) - (p->error > q->error);
-}
-
-/* A staircase from the top edge to the right one; all above it is beaten. */
-static int staircase(const struct panel *p, double *x, double *y)
-{
-    struct chart_point point[CHART_MAX_SETTINGS];
-    int steps = 0, n = 0;
-    for (int i = 0; i < p->points; i++)
-        if (p->point[i].on_frontier)
-            point[steps++] = p->point[i];
-    qsort(point, (size_t)steps, sizeof *point, compare_cost);
-    for (int i = 0; i < steps; i++) {
-        x[n] = at(&p->x, point[i].cost);
-        y[n] = i > 0 ? at(&p->y, point[i - 1].error) : p->box.y;
-        n++;
-        x[n] = at(&p->x, point[i].cost);
-        y[n++] = at(&p->y, point[i].error);
-    }
-    x[n] = p->box.x + p->box.width;
-    y[n] = y[n - 1];
-    return n + 1;
-}
-
-static void draw_frontier(struct svg *svg, const struct panel *p, bool area)
-{
-    double x[2 * CHART_MAX_SETTINGS + 2], y[2 * CHART_MAX_SETTINGS + 2];
-    int n = staircase(p, x, y);
-    if (area) {
-        x[n] = p->box.x + p->box.width;
-        y[n] = p->box.y;
-        svg_area(svg, x, y, n + 1, shade);
-    } else {
-        svg_polyline(svg, x, y, n, (struct svg_style){ "#9ca3af", p->labelled ? 1.6 : 1.0,
-                                                       p->labelled ? "5,4" : "3,2", 0.0 });
-    }
-}
-
-/* ------------------------------------------------------------------ curves */
-
-/* The points of a curve in order of its settings; pixels. */
-static int curve_points(const struct panel *p, int curve, double *x, double *y)
-{
-    int n = 0;
-    for (int i = 0; i < p->points; i++)
-        if (chart_settings[p->point[i].setting].curve == curve) {
-            x[n] = at(&p->x, p->point[i].cost);
-            y[n++] = at(&p->y, p->point[i].error);
-        }
-    return n;
-}
-
-static double mark_size(const struct panel *p, const struct chart_point *point)
-{
-    const struct chart_setting *setting = &chart_settings[point->setting];
-    double size = setting->label != NULL ? p->mark : 0.45 * p->mark;
-    return chart_curves[setting->curve].bold && setting->label != NULL ? 1.25 * size : size;
-}
-
-/* Bold curves last, so that they lie on top. */
-static void draw_curves(struct svg *svg, const struct panel *p)
-{
-    double x[CHART_MAX_SETTINGS], y[CHART_MAX_SETTINGS];
-    for (int bold = 0; bold < 2; bold++)
-        for (int c = 0; c < chart_curve_count; c++) {
-            const struct chart_curve *curve = &chart_curves[c];
-            if (curve->bold != (bold == 1))
-                continue;
-            int n = curve_points(p, c, x, y);
-            if (n > 1)
-                svg_polyline(svg, x, y, n, (struct svg_style){
-                    curve->color, (curve->bold ? 0.5 : 0.28) * p->mark, NULL, 0.0 });
-            for (int i = 0; i < p->points; i++)
-                if (chart_settings[p->point[i].setting].curve == c)
-                    svg_mark(svg, curve->mark, at(&p->x, p->point[i].cost),
-                             at(&p->y, p->point[i].error), mark_size(p, &p->point[i]),
-                             curve->color, p->point[i].on_frontier || p->mark < 3.0
-                                 || chart_settings[p->point[i].setting].label == NULL);
-        }
-}
-
-/* ------------------------------------------------------------------ labels */
-
-enum { MOST_OBSTACLES = 8192, MOST_LABELS = 2 * CHART_MAX_SETTINGS };
-
-struct lettering {
-    struct obstacle obstacle[MOST_OBSTACLES];
-    int obstacles;
-    struct label label[MOST_LABELS];
-    struct svg_font font[MOST_LABELS];
-    const char *text[MOST_LABELS];
-    int labels;
-};
-
-static void add_obstacle(struct lettering *l, double x, double y, double half, double weight)
-{
-    if (l->obstacles < MOST_OBSTACLES)
-        l->obstacle[l->obstacles++] = (struct obstacle){
-            { x - half, y - half, 2.0 * half, 2.0 * half }, weight };
-}
-
-/* Small squares along a line. */
-static void add_line(struct lettering *l, const double *x, const double *y, int count,
-                     double weight)
-{
-    const double step = 3.0;
-    for (int i = 0; i + 1 < count; i++) {
-        double length = hypot(x[i + 1] - x[i], y[i + 1] - y[i]);
-        for (double d = 0.0; d < length; d += step)
-            add_obstacle(l, x[i] + (x[i + 1] - x[i]) * d / length,
-                         y[i] + (y[i + 1] - y[i]) * d / length, step / 2.0, weight);
-    }
-}
-
-static void add_obstacles(struct lettering *l, const struct panel *p)
-{
-    double x[2 * CHART_MAX_SETTINGS + 2], y[2 * CHART_MAX_SETTINGS + 2];
-    for (int c = 0; c < chart_curve_count; c++)
-        add_line(l, x, y, curve_points(p, c, x, y), 1.5);
-    add_line(l, x, y, staircase(p, x, y), 0.6);
-    for (int i = 0; i < p->points; i++)
-        add_obstacle(l, at(&p->x, p->point[i].cost), at(&p->y, p->point[i].error),
-                     1.2 * mark_size(p, &p->point[i]), 4.0);
-}
-
-static struct label *add_label(struct lettering *l, struct svg_font font, const char *text)
-{
-    int i = l->labels++;
-    l->font[i] = font;
-    l->text[i] = text;
-    l->label[i] = (struct label){ .width = svg_text_width(font, text) + 4.0,
-                                  .height = 1.15 * font.size, .gap = 7.0 };
-    return &l->label[i];
-}
-
-static void add_anchor(struct label *label, double x, double y)
-{
-    if (label->anchors < LABEL_ANCHORS) {
-        label->anchor_x[label->anchors] = x;
-        label->anchor_y[label->anchors++] = y;
-    }
-}
-
-/* Beside any point of the curve or the middle of any of its lines, ends first. */
-static void add_names(struct lettering *l, const struct panel *p)
-{
-    double x[CHART_MAX_SETTINGS], y[CHART_MAX_SETTINGS];
-    for (int c = 0; c < chart_curve_count; c++) {
-        int n = curve_points(p, c, x, y);
-        if (n == 0)
-            continue;
-        struct label *label = add_label(l, (struct svg_font){
-            .size = chart_curves[c].bold ? 15.0 : 13.0, .color = chart_curves[c].color,
-            .bold = true, .halo = true }, chart_curves[c].name);
-        label->gap = 9.0;
-        add_anchor(label, x[n - 1], y[n - 1]);
-        add_anchor(label, x[0], y[0]);
-        for (int i = 0; i + 1 < n; i++) {
-            add_anchor(label, (x[i] + x[i + 1]) / 2.0, (y[i] + y[i + 1]) / 2.0);
-            if (i > 0)
-                add_anchor(label, x[i], y[i]);
-        }
-    }
-}
-
-static void add_point_labels(struct lettering *l, const struct panel *p)
-{
-    for (int i = 0; i < p->points; i++) {
-        const struct chart_setting *s = &chart_settings[p->point[i].setting];
-        const struct chart_curve *curve = &chart_curves[s->curve];
-        if (s->label == NULL || s->label[0] == '\0')
-            continue;
-        struct label *label = add_label(l, (struct svg_font){
-            .size = curve->bold ? 13.5 : 12.0, .color = curve->color, .bold = curve->bold,
-            .halo = true }, s->label);
-        add_anchor(label, at(&p->x, p->point[i].cost), at(&p->y, p->point[i].error));
-    }
-}
-
-static void draw_labels(struct svg *svg, const struct panel *p, struct failure *f)
-{
-    struct lettering *l = calloc(1, sizeof *l);
-    const struct box *b = &p->box;
-    if (l == NULL) {
-        fail(f, "out of memory");
-        return;
-    }
-    add_obstacles(l, p);
-    add_point_labels(l, p);
-    add_names(l, p);
-    struct box inside = { b->x + 3.0, b->y + 3.0, b->width - 6.0, b->height - 6.0 };
-    labels_place(l->label, l->labels, l->obstacle, l->obstacles, inside);
-    for (int i = 0; i < l->labels; i++) {
-        const struct label *label = &l->label[i];
-        double x = label->x + label->width / 2.0, y = label->y + label->height / 2.0;
-        if (label->distance > label->gap + 9.0)
-            svg_line(svg, label->anchor_x[label->anchor], label->anchor_y[label->anchor],
-                     fmin(fmax(label->anchor_x[label->anchor], label->x), label->x + label->width),
-                     fmin(fmax(label->anchor_y[label->anchor], label->y),
-                          label->y + label->height),
-                     (struct svg_style){ l->font[i].color, 0.8, NULL, 0.6 });
-        svg_text(svg, x, y + 0.36 * l->font[i].size, ANCHOR_MIDDLE, l->font[i], l->text[i]);
-    }
-    free(l);
-}
-
-static void draw_panel(struct svg *svg, const struct panel *p, struct failure *f)
-{
-    const struct box *b = &p->box;
-    draw_frontier(svg, p, true);
-    draw_grid(svg, p);
-    svg_rectangle(svg, b->x, b->y, b->width, b->height, "none", "#9ca3af");
-    draw_frontier(svg, p, false);
-    draw_curves(svg, p);
-    if (p->labelled)
-        draw_labels(svg, p, f);
-}
-
-/* ------------------------------------------------------------------ pictures */
 
 static bool draw_set(const struct chart *chart, enum chart_set set, const char *path,
                      const char *title, const char *what, struct failure *f)
 {
     enum { WIDTH = 800, HEIGHT = 600, LEFT = 66, TOP = 66, RIGHT = 18, BOTTOM = 86 };
     struct panel p = { .box = { LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM },
-                       .mark = 5.0, .tick_size = 13.0, .labelled = true };
-    const struct svg_font small = { .size = 12.5, .color = pale };
-    const struct svg_font axis = { .size = 14.0, .color = ink };
+                       .mark = 5.0, .tick_size = 13.0, .name_size = 13.5 };
     struct svg svg;
     p.points = chart_points_of_set(chart, CHART_MAIN, set, p.point);
     if (p.points == 0)
         return true;
-    fit(&p, 1);
+    panel_fit(&p, 1);
     if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
         return false;
-    svg_text(&svg, LEFT, 26, ANCHOR_START, (struct svg_font){ .size = 19, .color = ink,
-                                                              .bold = true }, title);
-    svg_text(&svg, LEFT, 50, ANCHOR_START, (struct svg_font){ .size = 13.5, .color = pale }, what);
-    draw_panel(&svg, &p, f);
-    svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis,
-             "cost: instructions per frame, relative to the sharp frame");
-    svg_text_up(&svg, 20, TOP + p.box.height / 2.0, axis, "error: RMSE in codes of 1/255");
-    svg_text(&svg, LEFT, HEIGHT - 24, ANCHOR_START, small,
-             "Dashed: the frontier, on which marks are filled; in the shaded area something else "
-             "is both cheaper and more accurate.");
-    svg_text(&svg, LEFT, HEIGHT - 8, ANCHOR_START, small,
-             "Error against 1024 exact instants; shutter 180\u00b0; one thread; both scales are "
-             "logarithmic.");
-    return svg_end(&svg, path, f);
+    svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
+    svg_text(&svg, LEFT, 50, ANCHOR_START, (struct svg_font){ .size = 13.5, .color = PANEL_PALE },
+             what);
+    bool ok = panel_draw(&svg, &p, f);
+    svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis_font,
+             cost_axis);
+    svg_text_up(&svg, 20, TOP + p.box.height / 2.0, axis_font, error_axis);
+    draw_notes(&svg, LEFT, HEIGHT - 24);
+    return svg_end(&svg, path, f) && ok;
 }
 
-static void draw_legend(struct svg *svg, double x, double y)
+static bool draw_both(const struct chart *chart, const char *path, struct failure *f)
 {
-    const struct svg_font font = { .size = 12.5, .color = ink };
-    double left = x;
+    enum { WIDTH = 800, HEIGHT = 560, LEFT = 58, TOP = 70, GAP = 46, RIGHT = 10, BOTTOM = 86,
+           PLOT = (WIDTH - LEFT - GAP - RIGHT) / 2 };
+    static const char title[] = "Motion blur on a CPU: accuracy and its price";
+    static const struct {
+        enum chart_set set;
+        const char *what;
+    } half[2] = { { SET_OBJECT, "12 scenes with moving objects" },
+                  { SET_CAMERA, "7 scenes with a moving camera" } };
+    struct panel panel[2];
+    struct svg svg;
+    bool ok = true;
+    for (int i = 0; i < 2; i++) {
+        panel[i] = (struct panel){
+            .box = { LEFT + i * (PLOT + GAP), TOP, PLOT, HEIGHT - TOP - BOTTOM }, .mark = 4.2,
+            .tick_size = 12.5, .name_size = 13.0, .short_names = true };
+        panel[i].points = chart_points_of_set(chart, CHART_MAIN, half[i].set, panel[i].point);
+        if (panel[i].points == 0)
+            return true;
+    }
+    panel_fit(panel, 2);
+    if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
+        return false;
+    svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
+    for (int i = 0; i < 2; i++) {
+        ok = ok && panel_draw(&svg, &panel[i], f);
+        svg_text(&svg, panel[i].box.x, TOP - 10, ANCHOR_START,
+                 (struct svg_font){ .size = 14.5, .color = PANEL_INK, .bold = true },
+                 half[i].what);
+    }
+    svg_text(&svg, LEFT + PLOT + GAP / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis_font,
+             cost_axis);
+    svg_text_up(&svg, 18, TOP + panel[0].box.height / 2.0, axis_font, error_axis);
+    draw_notes(&svg, LEFT, HEIGHT - 24);
+    return svg_end(&svg, path, f) && ok;
+}
+
+/* ------------------------------------------------------------------ scene by scene */
+
+static void draw_legend(struct svg *svg, double left, double right, double y)
+{
+    const struct svg_font font = { .size = 12.5, .color = PANEL_INK };
+    double x = left;
     for (int c = 0; c < chart_curve_count; c++) {
         double width = svg_text_width(font, chart_curves[c].name) + 34.0;
-        if (x + width > 800.0) {
+        if (x + width > right) {
             x = left;
             y += 18.0;
         }
@@ -380,11 +103,11 @@ static void draw_legend(struct svg *svg, double x, double y)
 /* All scenes on planes of one scale. */
 static bool draw_scenes(const struct chart *chart, const char *path, struct failure *f)
 {
-    enum { COLUMNS = 4, WIDTH = 800, LEFT = 52, TOP = 122, CELL_W = 186, CELL_H = 178,
-           PLOT_W = 158, PLOT_H = 134, HEIGHT = TOP + 5 * CELL_H + 40 };
+    enum { COLUMNS = 4, WIDTH = 800, LEFT = 52, TOP = 104, CELL_W = 186, CELL_H = 176,
+           PLOT_W = 158, PLOT_H = 134, FOOT = 28 };
     static struct panel panel[KINDS];
     static int kind[KINDS];
-    const struct svg_font axis = { .size = 14.0, .color = ink };
+    static const char title[] = "Scene by scene: accuracy of motion blur and its price";
     struct svg svg;
     int n = 0;
     for (int k = 0; k < KINDS; k++) {
@@ -397,26 +120,27 @@ static bool draw_scenes(const struct chart *chart, const char *path, struct fail
         kind[n] = k;
         n += p->points > 0;
     }
+    int rows = (n + COLUMNS - 1) / COLUMNS, height = TOP + rows * CELL_H + FOOT;
     if (n == 0)
         return true;
-    fit(panel, n);
-    if (!svg_begin(&svg, WIDTH, HEIGHT, "Error against cost, scene by scene", f))
+    panel_fit(panel, n);
+    if (!svg_begin(&svg, WIDTH, height, title, f))
         return false;
-    svg_text(&svg, 20, 28, ANCHOR_START, (struct svg_font){ .size = 19, .color = ink,
-                                                            .bold = true },
-             "Scene by scene: what blur costs and how right it is");
-    draw_legend(&svg, 20, 54);
+    svg_text(&svg, 20, 28, ANCHOR_START, title_font, title);
+    draw_legend(&svg, 20, WIDTH - 8, 54);
+    bool ok = true;
     for (int i = 0; i < n; i++) {
-        draw_panel(&svg, &panel[i], f);
+        ok = ok && panel_draw(&svg, &panel[i], f);
         svg_text(&svg, panel[i].box.x, panel[i].box.y - 5.0, ANCHOR_START,
-                 (struct svg_font){ .size = 13.0, .color = ink, .bold = true },
+                 (struct svg_font){ .size = 13.0, .color = PANEL_INK, .bold = true },
                  kinds[kind[i]].name);
     }
-    svg_text(&svg, WIDTH / 2.0, HEIGHT - 12, ANCHOR_MIDDLE, axis,
-             "cost: instructions per frame, relative to the sharp frame of the scene");
-    svg_text_up(&svg, 16, TOP + 2.5 * CELL_H, axis, "error: RMSE in codes of 1/255");
-    return svg_end(&svg, path, f);
+    svg_text(&svg, WIDTH / 2.0, height - 12, ANCHOR_MIDDLE, axis_font, cost_axis);
+    svg_text_up(&svg, 16, TOP + (rows * CELL_H - CELL_H + PLOT_H) / 2.0, axis_font, error_axis);
+    return svg_end(&svg, path, f) && ok;
 }
+
+/* ------------------------------------------------------------------ all */
 
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f)
 {
@@ -428,7 +152,7 @@ bool chart_write_pictures(const struct chart *chart, const char *folder, struct 
           "Geometric means of 12 scenes, still camera. Left is cheaper, down is more accurate." },
         { SET_CAMERA, "camera.svg", "Motion blur under a moving camera: accuracy and its price",
           "Geometric means of 7 scenes. Left is cheaper, down is more accurate." },
-        { SET_MOVING, "all.svg", "Motion blur in software: accuracy and its price",
+        { SET_MOVING, "all.svg", "Motion blur on a CPU: accuracy and its price",
           "Geometric means of 19 scenes. Left is cheaper, down is more accurate." },
     };
     char path[512];
@@ -437,6 +161,9 @@ bool chart_write_pictures(const struct chart *chart, const char *folder, struct 
         if (!draw_set(chart, sets[i].set, path, sets[i].title, sets[i].what, f))
             return false;
     }
+    snprintf(path, sizeof path, "%s/both.svg", folder);
+    if (!draw_both(chart, path, f))
+        return false;
     snprintf(path, sizeof path, "%s/scenes.svg", folder);
     return draw_scenes(chart, path, f);
 }

@@ -11,17 +11,24 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
-    [NONE] = { "none: no blur", "#222222", MARK_CROSS, false },
-    [ACCUMULATE] = { "accumulate: N whole frames", "#6b7280", MARK_SQUARE, false },
-    [PUBLISHED] = { "reconstruct: filter as published", "#e69f00", MARK_TRIANGLE, false },
-    [MENDED] = { "reconstruct: filter, mended", "#d55e00", MARK_TRIANGLE, false },
+    [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
+    [ACCUMULATE] = { "accumulate: N whole frames", "accumulate", "#6b7280", MARK_SQUARE, false },
+    [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
+                    MARK_TRIANGLE, false },
+    [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
+    [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
+    [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
+    [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
 };
 const int chart_curve_count = sizeof chart_curves / sizeof *chart_curves;
 
 #define MEND (SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM)
+
+/* Codes, in the unit of smear_frame.target. */
+#define CODES(codes) ((int)((codes) * 64))
 
 const struct chart_setting chart_settings[] = {
     { NONE, "none", "", SMEAR_NONE, .everywhere = true },
@@ -32,17 +39,38 @@ const struct chart_setting chart_settings[] = {
     { ACCUMULATE, "accumulate 16", "16", SMEAR_ACCUMULATE, .samples = 16, .everywhere = true },
     { ACCUMULATE, "accumulate 32", "32", SMEAR_ACCUMULATE, .samples = 32 },
 
+    { PUBLISHED, "reconstruct 2", "2", SMEAR_RECONSTRUCT, .samples = 2 },
     { PUBLISHED, "reconstruct 4", "4", SMEAR_RECONSTRUCT, .samples = 4 },
     { PUBLISHED, "reconstruct 8", "8", SMEAR_RECONSTRUCT, .samples = 8, .everywhere = true },
     { PUBLISHED, "reconstruct 16", "16", SMEAR_RECONSTRUCT, .samples = 16 },
-    { PUBLISHED, "reconstruct 32", "32", SMEAR_RECONSTRUCT, .samples = 32 },
+    { MENDED, "reconstruct 2 mended", "2", SMEAR_RECONSTRUCT, .samples = 2, .reconstruct = MEND },
     { MENDED, "reconstruct 4 mended", "4", SMEAR_RECONSTRUCT, .samples = 4, .reconstruct = MEND },
     { MENDED, "reconstruct 8 mended", "8", SMEAR_RECONSTRUCT, .samples = 8, .reconstruct = MEND,
       .everywhere = true },
     { MENDED, "reconstruct 16 mended", "16", SMEAR_RECONSTRUCT, .samples = 16,
       .reconstruct = MEND },
-    { MENDED, "reconstruct 32 mended", "32", SMEAR_RECONSTRUCT, .samples = 32,
-      .reconstruct = MEND },
+
+    { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
+    { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },
+    { SUBFRAMES, "subframes 16", "16", SMEAR_SUBFRAMES, .samples = 16 },
+    { SUBFRAMES, "subframes 32", "32", SMEAR_SUBFRAMES, .samples = 32, .everywhere = true },
+
+    { TIMEMASK, "timemask 8", "8", SMEAR_TIMEMASK, .samples = 8 },
+    { TIMEMASK, "timemask 16", "16", SMEAR_TIMEMASK, .samples = 16 },
+    { TIMEMASK, "timemask 32", "32", SMEAR_TIMEMASK, .samples = 32, .everywhere = true },
+
+    { AUTO, "auto 8", NULL, SMEAR_AUTO, .target = CODES(8) },
+    { AUTO, "auto 5.6", NULL, SMEAR_AUTO, .target = CODES(5.6) },
+    { AUTO, "auto draft", "draft", SMEAR_AUTO, .target = SMEAR_DRAFT, .everywhere = true },
+    { AUTO, "auto 2.8", NULL, SMEAR_AUTO, .target = CODES(2.8) },
+    { AUTO, "auto 2", NULL, SMEAR_AUTO, .target = CODES(2) },
+    { AUTO, "auto balanced", "balanced", SMEAR_AUTO, .target = SMEAR_BALANCED,
+      .everywhere = true },
+    { AUTO, "auto 1", NULL, SMEAR_AUTO, .target = CODES(1) },
+    { AUTO, "auto 0.7", NULL, SMEAR_AUTO, .target = CODES(0.7) },
+    { AUTO, "auto fine", "fine", SMEAR_AUTO, .target = SMEAR_FINE, .everywhere = true },
+    { AUTO, "auto 0.35", NULL, SMEAR_AUTO, .target = CODES(0.35) },
+    { AUTO, "auto 0.25", NULL, SMEAR_AUTO, .target = CODES(0.25) },
 };
 const int chart_setting_count = sizeof chart_settings / sizeof *chart_settings;
 const int chart_none = 0;
@@ -81,7 +109,8 @@ bool chart_take(int index, struct take *out)
     const struct chart_setting *s = &chart_settings[setting];
     *out = (struct take){
         .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
-        .accumulate = s->method == SMEAR_ACCUMULATE, .format = SMEAR_XRGB8888,
+        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES,
+        .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .linear = chart_conditions[condition].linear,
         .shutter_poses = !chart_conditions[condition].previous

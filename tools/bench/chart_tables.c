@@ -49,6 +49,31 @@ void chart_print_means(FILE *out, const struct chart *chart, int condition)
     }
 }
 
+void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind)
+{
+    struct chart_point point[CHART_MAX_SETTINGS];
+    int count = chart_points_of_kind(chart, condition, kind, point);
+    const struct chart_value *none = &chart->value[condition][kind][chart_none];
+    if (count == 0)
+        return;
+    fprintf(out, "%s, %s (none: %.2f M instructions, %.1f per pixel)\n", kinds[kind].name,
+            chart_conditions[condition].what, none->instructions / 1e6,
+            none->instructions / none->pixels);
+    fprintf(out, "%-24s %8s %6s %7s %7s %7s %6s\n", "setting", "cost", "RMSE", "FLIP", "SSIM",
+            "flicker", "time");
+    for (int i = 0; i < count; i++) {
+        const struct chart_value *v = &chart->value[condition][kind][point[i].setting];
+        fprintf(out, "%-24s %8.2f %6.2f %7.4f %7.4f %7.2f", chart_settings[point[i].setting].name,
+                point[i].cost, v->rmse, v->flip, v->ssim, v->flicker);
+        if (v->ms > 0.0)
+            fprintf(out, " %6.2f", chart_time(chart, condition, kind, point[i].setting));
+        else
+            fprintf(out, " %6s", "-");
+        fprintf(out, "%s\n", point[i].on_frontier ? "  frontier" : "");
+    }
+    fprintf(out, "\n");
+}
+
 /* ------------------------------------------------------------------ Markdown */
 
 static void write_means(FILE *out, const struct chart *chart, int condition, enum chart_set set,
@@ -109,7 +134,7 @@ static void write_tables(FILE *out, const struct chart *chart)
             "centred shutter of 180 degrees. Means are geometric, but for SSIM.\n"
             "FLIP at 67 pixels per degree. \"frontier\": no other setting is as cheap and as "
             "right.\n\n```\n", (int)TRUTH_EXACT_INSTANTS);
-    chart_print_bars(out, chart, &verdict);
+    chart_print_bars(out, chart, true, &verdict);
     fprintf(out, "```\n");
     for (int c = 0; c < CHART_CONDITIONS; c++) {
         fprintf(out, "\n## Means: %s\n", chart_conditions[c].what);

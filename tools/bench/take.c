@@ -106,6 +106,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.dither = SMEAR_DITHER_NONE;
     desc.sharp = !t->windowed;
     desc.accumulate = t->accumulate;
+    desc.timed = t->timed;
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */
@@ -127,7 +128,7 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
-        .samples = t->samples, .reconstruct = t->reconstruct,
+        .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
         .clear = rig->scene.clear

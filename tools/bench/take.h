@@ -23,11 +23,13 @@ struct take {
     int width, height;          /* 0: the scene's */
     bool windowed;              /* a window for filters; else a context that is only sharp */
     bool accumulate;            /* room for SMEAR_ACCUMULATE */
+    bool timed;                 /* room for the methods that look at several times */
     int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
     smear_format format;        /* never dithered */
     smear_method method;
     int samples;                /* 0: the library's default */
     int reconstruct;            /* SMEAR_FENCE | ... */
+    int target;                 /* of SMEAR_AUTO */
     bool shutter_poses;
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
