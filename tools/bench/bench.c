@@ -39,10 +39,9 @@ static const struct report reports[] = {
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 
-static int usage(void)
+static int usage(const char *what)
 {
-    fprintf(stderr, "usage: bench [--strict] [peers] [accuracy] [methods] [threads] "
-                    "[memory] [targets FILE...]\n       bench chart [options]\n");
+    fprintf(stderr, "smear: %s: no report of bench (smear help bench)\n", what);
     return 2;
 }
 
@@ -63,7 +62,7 @@ static bool make_folder(const char *path, struct failure *f)
 static int finish(bool ok, const char *what, const struct failure *f)
 {
     if (!ok)
-        fprintf(stderr, "bench: %s: %s\n", what, f->text);
+        fprintf(stderr, "smear: %s: %s\n", what, f->text);
     return ok ? 0 : 1;
 }
 
@@ -87,11 +86,11 @@ int main(int argc, char **argv)
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "targets") == 0) {
             if (i + 1 == argc)
-                return usage();
+                return usage("targets, and no file");
             break;
         }
         if (strcmp(argv[i], "--strict") != 0 && find_report(argv[i]) == NULL)
-            return usage();
+            return usage(argv[i]);
     }
     if (!make_folder("build", &f) || !make_folder(sheet.folder, &f))
         return finish(false, sheet.folder, &f);

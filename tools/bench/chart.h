@@ -165,8 +165,8 @@ struct chart_verdict {
 
 void chart_print_means(FILE *out, const struct chart *chart, int condition);
 void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
-/* `all`: with those that were not measured. */
-void chart_print_bars(FILE *out, const struct chart *chart, bool all,
+/* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
+void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
                       struct chart_verdict *verdict);
 bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 

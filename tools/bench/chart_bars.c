@@ -12,6 +12,7 @@ struct bars {
     const struct chart *chart;
     struct chart_verdict *verdict;
     bool all;                   /* those that were not measured, too */
+    int exceptions;             /* points of auto beaten on a scene that may still be named */
 };
 
 /* Presets of the method `auto`: one number, the error it aims at. */
@@ -168,8 +169,8 @@ static bool has_auto(const struct bars *b, int kind)
 }
 
 /* The filter's cost against that of auto at no greater error. Where no setting of auto is as right
- * the ratio is 0. Beside it the same for what blur adds to the sharp frame; it counts as a thousandth
- * of that at least. */
+ * the ratio is 0. Beside it the same for what blur adds to the sharp frame; that counts as a
+ * thousandth of it at least. */
 static void bars_of_filter(struct bars *b, enum chart_set set, const char *what, double limit,
                            double *worst, int *worst_kind)
 {
@@ -283,27 +284,38 @@ static bool clearly_beats(const struct chart_point *a, const struct chart_point 
         && (1.01 * a->cost < b->cost || 1.01 * a->error < b->error);
 }
 
-/* Settings of auto that another method beats. Names each when `what` is there. */
-static int beaten(struct bars *b, const struct chart_point *point, int count, const char *what)
+/* The cheapest point of another method that beats one of auto; null when there is none. */
+static const struct chart_point *beaten_by(const struct chart_point *point, int count, int which)
+{
+    const struct chart_point *by = NULL;
+    if (!is_auto(point[which].setting))
+        return NULL;
+    for (int j = 0; j < count; j++)
+        if (!is_auto(point[j].setting) && clearly_beats(&point[j], &point[which])
+            && (by == NULL || point[j].cost < by->cost))
+            by = &point[j];
+    return by;
+}
+
+static int beaten(const struct chart_point *point, int count)
 {
     int found = 0;
-    for (int i = 0; i < count; i++) {
-        const struct chart_point *by = NULL;
-        if (!is_auto(point[i].setting))
-            continue;
-        for (int j = 0; j < count; j++)
-            if (!is_auto(point[j].setting) && clearly_beats(&point[j], &point[i])
-                && (by == NULL || point[j].cost < by->cost))
-                by = &point[j];
-        if (by == NULL)
-            continue;
-        found++;
-        if (what != NULL)
-            fprintf(b->out, "    %s: %s %.2fx %.2f is beaten by %s %.2fx %.2f\n", what,
-                    chart_settings[point[i].setting].name, point[i].cost, point[i].error,
-                    chart_settings[by->setting].name, by->cost, by->error);
-    }
+    for (int i = 0; i < count; i++)
+        found += beaten_by(point, count, i) != NULL;
     return found;
+}
+
+static void name_beaten(struct bars *b, const struct chart_point *point, int count,
+                        const char *what)
+{
+    for (int i = 0; i < count; i++) {
+        const struct chart_point *by = beaten_by(point, count, i);
+        if (by == NULL || b->exceptions-- <= 0)
+            continue;
+        fprintf(b->out, "    %s: %s %.2fx %.2f is beaten by %s %.2fx %.2f\n", what,
+                chart_settings[point[i].setting].name, point[i].cost, point[i].error,
+                chart_settings[by->setting].name, by->cost, by->error);
+    }
 }
 
 static int autos_among(const struct chart_point *point, int count)
@@ -326,32 +338,36 @@ static void bar_frontier(struct bars *b)
     for (int i = 0; i < 2; i++) {
         int count = chart_points_of_set(b->chart, CHART_MAIN, sets[i].set, point);
         int autos = autos_among(point, count);
-        double by_others = beaten(b, point, count, NULL);
+        double by_others = beaten(point, count);
         snprintf(text, sizeof text, "settings of auto above the frontier, %s", sets[i].name);
         snprintf(note, sizeof note, "(of %d)", autos);
         bar(b, text, autos > 0 ? by_others : NAN, AT_MOST, 0.0, "", autos > 0 ? note : "");
-        beaten(b, point, count, sets[i].name);
+        name_beaten(b, point, count, sets[i].name);
     }
     for (int k = 0; k < KINDS; k++) {
         int count = chart_points_of_kind(b->chart, CHART_MAIN, k, point);
         if (kinds[k].group == GROUP_STILL)      /* has a bar of its own */
             continue;
         points += autos_among(point, count);
-        worse += beaten(b, point, count, NULL);
+        worse += beaten(point, count);
     }
     if (points > 0)
         fprintf(b->out, "  Scene by scene %d of %d points of auto lie above it:\n", worse, points);
     for (int k = 0; k < KINDS; k++)
-        if (kinds[k].group != GROUP_STILL)
-            beaten(b, point, chart_points_of_kind(b->chart, CHART_MAIN, k, point), kinds[k].name);
+        if (kinds[k].group != GROUP_STILL) {
+            int count = chart_points_of_kind(b->chart, CHART_MAIN, k, point);
+            name_beaten(b, point, count, kinds[k].name);
+        }
+    if (b->exceptions < 0)
+        fprintf(b->out, "    and %d more (tables.md)\n", -b->exceptions);
 }
 
 /* ------------------------------------------------------------------ all */
 
-void chart_print_bars(FILE *out, const struct chart *chart, bool all,
+void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
                       struct chart_verdict *verdict)
 {
-    struct bars b = { out, chart, verdict, all };
+    struct bars b = { out, chart, verdict, all, exceptions };
     *verdict = (struct chart_verdict){ 0, 0, 0 };
     fprintf(out, "Bars (%s; errors against the truth rounded to 8 bits)\n",
             chart_conditions[CHART_MAIN].what);

@@ -28,9 +28,9 @@ static int bad_usage(const char *what, const char *text)
     return 2;
 }
 
-static int bad_input(const struct failure *f)
+static int bad_input(const char *what, const struct failure *f)
 {
-    fprintf(stderr, "smear: chart: %s\n", f->text);
+    fprintf(stderr, "smear: %s: %s\n", what, f->text);
     return 1;
 }
 
@@ -209,7 +209,7 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
         chart_print_means(stdout, chart, CHART_MAIN);
         printf("\n");
     }
-    chart_print_bars(stdout, chart, !o->is_part, verdict);
+    chart_print_bars(stdout, chart, !o->is_part, 10, verdict);
     printf("\n%d bars met, %d missed, %d not measured. Tables and pictures: %s\n", verdict->met,
            verdict->missed, verdict->unknown, o->out);
     return true;
@@ -225,14 +225,12 @@ int chart_command(const char *program, int count, char **text)
     int status = read_options(&o, count, text);
     if (status != 0)
         return status;
-    bool ok = make_folder("build", &f) && make_folder("build/chart", &f) && make_folder(o.out, &f)
-           && number_of(program, &number, &f);
-    if (ok && o.from != NULL)
-        ok = chart_read_csv(&chart, NULL, o.from, &f);
-    else
-        ok = ok && measure(&chart, &o, program, number, &f);
+    bool ok = o.from == NULL || chart_read_csv(&chart, NULL, o.from, &f);
+    ok = ok && make_folder("build", &f) && make_folder("build/chart", &f)
+      && make_folder(o.out, &f) && number_of(program, &number, &f);
+    ok = ok && (o.from != NULL || measure(&chart, &o, program, number, &f));
     keep_chosen(&chart, &o.choice);
     if (!ok || !report(&chart, &o, number, &verdict, &f))
-        return bad_input(&f);
+        return bad_input(o.from != NULL ? o.from : "chart", &f);
     return o.strict && verdict.missed + verdict.unknown > 0 ? 1 : 0;
 }

@@ -105,7 +105,7 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
         if (end != NULL)
             *end = '\0';
         if (number > 1 && !read_line(chart, line, program))
-            ok = fail(f, "not a line of a chart (%s:%d)", path, number);
+            ok = fail(f, "not a line of a chart (line %d)", number);
         line = next;
     }
     free(bytes);

@@ -6,9 +6,10 @@
 #include <math.h>
 #include <stdbool.h>
 
-enum { DIRECTIONS = 16, RINGS = 7, ROUNDS = 4 };
+enum { DIRECTIONS = 16, RINGS = 10, ROUNDS = 6 };
 
-static const double label_weight = 4.0, outside_weight = 20.0;
+/* Per square pixel; and for labels that touch at all. */
+static const double label_weight = 4.0, outside_weight = 20.0, touch = 400.0;
 
 static double overlap(struct box a, struct box b)
 {
@@ -36,9 +37,10 @@ static double penalty(const struct field *field, int index, struct box box)
     double sum = outside_weight * (area - overlap(box, field->bounds));
     for (int i = 0; i < field->obstacles; i++)
         sum += field->obstacle[i].weight * overlap(box, field->obstacle[i].box);
-    for (int i = 0; i < field->placed; i++)
-        if (i != index)
-            sum += label_weight * overlap(box, box_of(&field->label[i]));
+    for (int i = 0; i < field->placed; i++) {
+        double area_shared = i != index ? overlap(box, box_of(&field->label[i])) : 0.0;
+        sum += label_weight * area_shared + (area_shared > 0.0 ? touch : 0.0);
+    }
     return sum;
 }
 

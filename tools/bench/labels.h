@@ -22,7 +22,7 @@ struct label {
 /* Something that should not be covered. */
 struct obstacle {
     struct box box;
-    double weight;              /* per square pixel covered; labels themselves count 4 */
+    double weight;              /* per square pixel covered; other labels count 4 */
 };
 
 /* Places all labels within `bounds`: where they cover least and stand nearest. */

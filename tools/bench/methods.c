@@ -72,7 +72,7 @@ static bool measure_errors(int scene, const char *folder, struct measured out[SE
                            struct failure *f)
 {
     struct float_image truth;
-    bool ok = truth_of(kinds[scene].scene, folder, &truth, f);
+    bool ok = truth_reference(kinds[scene].scene, folder, &truth, f);
     if (!ok)
         return false;
     for (int i = 0; i < SETTINGS && ok; i++) {

@@ -104,7 +104,8 @@ static bool draw(struct scene *scene, struct float_image *out, struct failure *f
     return ok;
 }
 
-bool truth_of(const char *name, const char *folder, struct float_image *out, struct failure *f)
+bool truth_reference(const char *name, const char *folder, struct float_image *out,
+                     struct failure *f)
 {
     struct scene scene;
     uint32_t crc;

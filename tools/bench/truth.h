@@ -13,7 +13,8 @@ enum { TRUTH_INSTANTS = 256, TRUTH_EXACT_INSTANTS = 1024 };
 /* The frame that stands for a built-in scene at its own size, shutter 180 degrees and centred,
  * encoded light, drawn by the reference in double precision; values are code / 255, not rounded.
  * Kept in `folder` under a name that changes when the scene does. *out is allocated here. */
-bool truth_of(const char *scene, const char *folder, struct float_image *out, struct failure *f);
+bool truth_reference(const char *scene, const char *folder, struct float_image *out,
+                     struct failure *f);
 
 /* What blur alone is measured against: TRUTH_EXACT_INSTANTS sharp frames of the library itself,
  * each posed and lit exactly, as `smear render --method accumulate --exact` draws them; `later`

@@ -55,12 +55,21 @@ static int hand_over(const char *command, const char *report, int count, char **
     return say_bad_input(path, &f);
 }
 
+static bool asks_for_help(int count, char **text)
+{
+    return count > 0 && strcmp(text[0], "--help") == 0;
+}
+
 int command_bench(int count, char **text)
 {
+    if (asks_for_help(count, text))
+        return help_print("bench");
     return hand_over("bench", NULL, count, text);
 }
 
 int command_chart(int count, char **text)
 {
+    if (asks_for_help(count, text))
+        return help_print("chart");
     return hand_over("chart", "chart", count, text);
 }
