@@ -213,8 +213,8 @@ static void add_obstacles(struct lettering *l, const struct panel *p)
 {
     double x[2 * CHART_MAX_SETTINGS + 2], y[2 * CHART_MAX_SETTINGS + 2];
     for (int c = 0; c < chart_curve_count; c++)
-        add_line(l, x, y, curve_points(p, c, x, y), 1.5);
-    add_line(l, x, y, staircase(p, x, y), 0.6);
+        add_line(l, x, y, curve_points(p, c, x, y), 3.0);
+    add_line(l, x, y, staircase(p, x, y), 1.0);
     for (int i = 0; i < p->points; i++)
         add_obstacle(l, at(&p->x, p->point[i].cost), at(&p->y, p->point[i].error),
                      1.2 * mark_size(p, &p->point[i]), 4.0);

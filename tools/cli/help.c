@@ -11,6 +11,7 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear view [SCENE]               in a window or terminal, with live controls\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
     "    smear bench                      what frames cost, beside the bars set for them\n"
@@ -18,7 +19,7 @@ static const char program_help[] =
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: view, convert.\n"
+    "Not built yet: convert.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -148,9 +149,9 @@ static const char *const chart_help[] = {
     "\n"
     "Every method at several settings on the 20 scenes of the suite: error (RMSE, FLIP, SSIM,\n"
     "flicker against 1024 exact instants), instructions (counted by valgrind) and time against\n"
-    "the sharp frame. Writes chart.csv, tables.md, object.svg, camera.svg, all.svg and scenes.svg\n"
-    "into build/chart and prints means and bars. What is measured is kept until the program\n"
-    "changes.\n"
+    "the sharp frame. Writes chart.csv, tables.md and pictures (object, camera, both, all and\n"
+    "scenes.svg) into build/chart and prints means and bars. What is measured is kept until the\n"
+    "program changes.\n"
     "\n"
     "  --scenes A,B          only these scenes; files go to build/chart/part\n"
     "  --methods A,B         only settings whose names begin so, and none; likewise\n"
@@ -163,7 +164,7 @@ static const char *const chart_help[] = {
 };
 
 static const char *const help_help[] = {
-    "smear help [render|compare|info|bench|chart]\n",
+    "smear help [render|view|compare|info|bench|chart]\n",
     NULL
 };
 
@@ -178,6 +179,8 @@ int help_print(const char *command)
         fputs(program_help, stdout);
         return STATUS_OK;
     }
+    if (strcmp(command, "view") == 0)
+        return view_help_print();
     if (found < 0)
         return say_bad_usage(command, command_is_planned(command) ? "not built yet"
                                                                   : "unknown command (smear help)");
