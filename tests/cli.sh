@@ -572,7 +572,7 @@ for option in size fps time frames clip loop camera eye look fov filter clear sh
     claim "help knows --$option" out_has "--$option"
 done
 usage nosuch help nosuch
-usage bench help bench
+usage convert help convert
 claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
 
