@@ -34,6 +34,11 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
         }
+    } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED | TILE_STILL_SEEN)) == 0
+               && load->travel >= 2 * 16) {
+        choice->method = TILE_SMOOTH;
+        choice->tolerance = min_i32(chooser->target * 2, 256);
+        choice->taps = load->travel >> (chooser->target >= SMEAR_BALANCED ? 5 : 4);
     } else if (closed_form) {
         choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
                         min_i32(chooser->target, 128), 512);

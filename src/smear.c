@@ -86,11 +86,17 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     }
     if (!d->sharp || d->timed)
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
-    c->mover = NULL;
     if (d->timed) {
         c->assembler.path_limit = d->max_triangles;
-        c->mover = arena_take(a, d->max_triangles, sizeof *c->mover);
-        c->load = arena_take(a, columns, sizeof *c->load);
+        for (int i = 0; i < (d->sharp ? 1 : 2); i++) {
+            struct smear_row_movers *r = &c->row_movers[i];
+            r->mover = arena_take(a, d->max_triangles, sizeof *r->mover);
+            r->load = arena_take(a, columns, sizeof *r->load);
+            r->field = d->sharp ? NULL : arena_take(a, columns, sizeof *r->field);
+            r->waits = d->sharp ? NULL : arena_take(a, columns, 1);
+        }
+        c->open = d->sharp ? NULL : arena_take(a, 3 * columns, 1);
+        c->still_tile = d->sharp ? NULL : arena_take(a, d->workers, (size_t)d->tile * (size_t)d->tile * 6);
         c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
@@ -99,7 +105,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
-    for (int i = 0; i < d->bands; i++)
+    /* Rows that wait for the one below have a band that is held back. */
+    int bands = d->timed && !d->sharp ? 2 : d->bands;
+    for (int i = 0; i < bands; i++)
         c->band[i] = arena_take(a, c->band_bytes, 1);
 
     c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
