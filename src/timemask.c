@@ -97,39 +97,19 @@ static int32_t shutter_bend(const struct smear_shutter *s, int log2)
     return worst;
 }
 
-/* Edges are taken to sweep evenly: how far one that turns or grows lies off in the middle, |move x change| / (4 length),
- * q8 px, rounded up. */
-static int32_t edge_bend(const struct mover *m, int i, int j)
-{
-    const int32_t *a = m->record[i] + m->segment->motion, *b = m->record[j] + m->segment->motion;
-    int32_t ex = b[PATH_X] - a[PATH_X], ey = b[PATH_Y] - a[PATH_Y];
-    int32_t cx = b[PATH_POSE_WORDS + PATH_X] - a[PATH_POSE_WORDS + PATH_X] - ex;
-    int32_t cy = b[PATH_POSE_WORDS + PATH_Y] - a[PATH_POSE_WORDS + PATH_Y] - ey;
-    int32_t mx = a[PATH_POSE_WORDS + PATH_X] - a[PATH_X], my = a[PATH_POSE_WORDS + PATH_Y] - a[PATH_Y];
-    int64_t turn = (int64_t)mx * cy - (int64_t)my * cx;
-    uint32_t length = (uint32_t)max_i32(abs_i32(ex + (cx >> 1)), abs_i32(ey + (cy >> 1))) + 16u;
-    turn = (turn < 0 ? -turn : turn) >> 2;
-    int zeros = count_leading_zeros(length);
-    uint64_t over = (uint64_t)(turn >> 8) * recip_norm(length << zeros) >> (61 - 8 - zeros);
-    return over >= INT32_MAX ? INT32_MAX : (int32_t)over + 1;
-}
-
 /* The fewest segments that do for all triangles of the tile, of the whole exposure. */
 static void choose_segments(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
     int32_t bend = 0, travel = 0;               /* q8 px */
-    struct mover m;
     for (uint32_t i = 0; i < t->mover_count; i++) {
-        if (!mover_is_in(&t->mover[i], t->column))
-            continue;
-        mover_take(&m, j, i);
-        if (m.bounds->piece == 0) {
-            travel = max_i32(travel, m.bounds->travel << 4);
-            bend = max_i32(bend, m.bounds->bend << 3);
-            bend = max_i32(bend, max_i32(edge_bend(&m, 0, 1), max_i32(edge_bend(&m, 1, 2), edge_bend(&m, 2, 0))));
+        const struct smear_path_bounds *b = geometry_bounds(t->frame->geometry, t->mover[i].triangle);
+        if (mover_is_in(&t->mover[i], t->column) && b->piece == 0) {
+            travel = max_i32(travel, b->travel << 4);
+            bend = max_i32(bend, b->bend << 3);
         }
     }
+    bend >>= 2;                                 /* what edges that follow parabolas leave of it */
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend

@@ -5,7 +5,7 @@
 enum {
     SLOT_Q = 14,                /* fraction bits of slots in planes */
     HALF = TIMEMASK_BLOCK / 2,
-    OFF_LOG2 = 10              /* px of contrast squared, per px of an edge, that planes may cost: 1/1024 */
+    OFF_LOG2 = 8              /* px of contrast squared, per px of an edge, that planes may cost: 1/1024 */
 };
 
 /* ------------------------------------------------------------------ edges */
