@@ -2,19 +2,26 @@
 /* timemask_slots.c - entries of pixels: taken, lost, merged, averaged. */
 #include "timemask_slots.h"
 
-void smear_timemask_slots_place(struct timemask_slots *b, void *memory, uint32_t pixels, int32_t slots_log2, bool linear)
+void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear)
 {
-    b->held = memory;
+    size_t pixels = (size_t)1 << pixels_log2;
+    b->any = memory;
+    b->held = b->any + pixels;
     b->color = b->held + TIMEMASK_ENTRIES * pixels;
     b->depth = (uint16_t *)(void *)(b->color + TIMEMASK_ENTRIES * pixels);
-    b->pixels = pixels;
+    b->farthest = b->depth + TIMEMASK_ENTRIES * pixels;
+    b->count = (uint8_t *)(b->farthest + pixels);
+    b->pixels_log2 = pixels_log2;
     b->slots_log2 = slots_log2;
     b->linear = linear;
 }
 
 void smear_timemask_slots_clear(struct timemask_slots *b)
 {
-    __builtin_memset(b->held, 0, TIMEMASK_ENTRIES * b->pixels * sizeof *b->held);
+    size_t pixels = (size_t)1 << b->pixels_log2;
+    __builtin_memset(b->any, 0, pixels * sizeof *b->any);
+    __builtin_memset(b->farthest, 255, pixels * sizeof *b->farthest);
+    __builtin_memset(b->count, 0, pixels);
 }
 
 static inline uint32_t count_bits(uint32_t m)
@@ -35,56 +42,18 @@ uint32_t smear_timemask_slope(int32_t slope)
     return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
 }
 
-static inline int32_t first_of(uint32_t mask)
+/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of the exposure
+ * less b's, in 1/32, `slope` a's slope less b's. */
+static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
 {
-    return 31 - count_leading_zeros(mask & (0u - mask));
-}
-
-static inline int32_t last_of(uint32_t mask)
-{
-    return 31 - count_leading_zeros(mask);
-}
-
-/* Twice the middle. */
-static inline int32_t middle_of(uint32_t mask)
-{
-    return first_of(mask) + last_of(mask);
-}
-
-/* A depth code, in 1/32, goes by twice its slope per slot. */
-struct course {
-    int32_t depth, slope, middle;
-};
-
-static inline struct course course_of(uint32_t mask, uint32_t color, uint32_t depth)
-{
-    return (struct course){ (int32_t)depth * 32, timemask_slope_of(color), middle_of(mask) };
-}
-
-static inline int32_t course_at(const struct course *c, int32_t twice_slot)
-{
-    return c->depth + c->slope * (twice_slot - c->middle);
-}
-
-/* As it is kept for other slots. */
-static inline uint32_t course_code(const struct course *c, uint32_t mask)
-{
-    return (uint32_t)clamp_i32((course_at(c, middle_of(mask)) + 16) >> 5, 0, 65535);
-}
-
-/* Slots of `both` in which a is nearer than b. */
-static uint32_t nearer(const struct course *a, const struct course *b, uint32_t both)
-{
-    int32_t first = first_of(both), last = last_of(both);
-    int32_t begin = course_at(a, 2 * first) - course_at(b, 2 * first);
-    int32_t end = course_at(a, 2 * last) - course_at(b, 2 * last);
+    int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
+    int32_t begin = depth + slope * (2 * first - last_slot), end = depth + slope * (2 * last - last_slot);
     if (begin > 0 && end > 0)
         return both;
     if (begin <= 0 && end <= 0)
         return 0;
     /* They cross: slots before are those whose difference has the sign of the first. */
-    int32_t step = (end - begin) / (last - first);
-    int32_t count = step == 0 ? 1 : clamp_i32(-begin / step, 0, last - first - 1) + 1;
+    int32_t count = clamp_i32(-begin / (2 * slope), 0, last - first - 1) + 1;
     uint32_t before = both & ((2u << (first + count - 1)) - 1u);
     return begin > 0 ? before : both & ~before;
 }
@@ -122,13 +91,15 @@ struct entry {
     uint32_t held, color, depth;
 };
 
-static inline struct entry entry_at(const struct timemask_slots *b, uint32_t at)
+static inline struct entry entry_at(const struct timemask_slots *b, uint32_t pixel, uint32_t i)
 {
+    uint32_t at = (i << b->pixels_log2) + pixel;
     return (struct entry){ b->held[at], b->color[at], b->depth[at] };
 }
 
-static inline void entry_put(struct timemask_slots *b, uint32_t at, const struct entry *e)
+static inline void entry_put(struct timemask_slots *b, uint32_t pixel, uint32_t i, const struct entry *e)
 {
+    uint32_t at = (i << b->pixels_log2) + pixel;
     b->held[at] = e->held;
     b->color[at] = e->color;
     b->depth[at] = (uint16_t)e->depth;
@@ -139,32 +110,27 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
 {
     uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
     const struct entry *longer = wa < wb ? b : a;
-    struct course course = course_of(longer->held, longer->color, longer->depth);
-    struct entry e;
-    e.held = a->held | b->held;
-    e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
-    e.depth = course_code(&course, e.held);
+    struct entry e = { a->held | b->held, longer->color, longer->depth };
+    if ((a->color ^ b->color) << 8 != 0)
+        e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
     return e;
 }
 
-/* How much it matters that two entries become one: by depths where they meet, and by colours. */
-static uint32_t apart(const struct entry *a, const struct entry *b)
+/* How much it matters that two entries become one: by depth and colour. */
+static inline uint32_t apart(const struct entry *a, const struct entry *b)
 {
-    struct course ca = course_of(a->held, a->color, a->depth), cb = course_of(b->held, b->color, b->depth);
-    int32_t between = (ca.middle + cb.middle) >> 1;
-    uint32_t deeper = (uint32_t)abs_i32(course_at(&ca, between) - course_at(&cb, between)) >> 5;
     uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
                    + distance(pixel_green(a->color), pixel_green(b->color))
                    + distance(pixel_blue(a->color), pixel_blue(b->color));
-    return (deeper + 16u) * (color + 16u);
+    return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
-/* All entries are taken: the two of four that are most alike share one. */
-static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
+/* All entries are taken: the two most alike share one. */
+static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
     struct entry all[TIMEMASK_ENTRIES + 1];
     for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-        all[e] = entry_at(b, e * b->pixels + pixel);
+        all[e] = entry_at(b, pixel, e);
     all[TIMEMASK_ENTRIES] = *fresh;
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
@@ -177,78 +143,85 @@ static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *
             }
         }
     struct entry joined = entry_join(&all[first], &all[second], b->linear);
-    entry_put(b, first * b->pixels + pixel, &joined);
+    entry_put(b, pixel, first, &joined);
     if (second != TIMEMASK_ENTRIES)
-        entry_put(b, second * b->pixels + pixel, fresh);
+        entry_put(b, pixel, second, fresh);
+    /* It goes on in the longer's course for the other's slots, too. */
+    int32_t last_slot = (1 << b->slots_log2) - 1, lowest = (int32_t)joined.depth - (abs_i32(timemask_slope_of(joined.color)) * last_slot >> 5);
+    if (lowest < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)max_i32(lowest, 0);
 }
 
 /* ------------------------------------------------------------------ fragments */
 
-/* Depth codes of one surface, for all that matters here. */
-static inline bool is_level(uint32_t a, uint32_t b)
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
 {
-    return distance(a, b) <= a >> 6;
-}
-
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth)
-{
-    uint32_t free = TIMEMASK_ENTRIES, same = TIMEMASK_ENTRIES;
-    struct entry fresh = { mask, color, depth };
-    struct course course = course_of(mask, color, depth);
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
-        uint32_t at = i * b->pixels + pixel, both = b->held[at] & fresh.held;
+    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    uint32_t mask = f->mask, n = b->count[pixel];
+    for (uint32_t i = 0; i < n;) {
+        uint32_t at = (i << b->pixels_log2) + pixel, both = b->held[at] & mask;
         if (both != 0) {
-            struct course old = course_of(b->held[at], b->color[at], b->depth[at]);
-            uint32_t taken = nearer(&course, &old, both);
-            fresh.held &= ~(both & ~taken);
-            if (taken != 0) {
-                b->held[at] &= ~taken;
-                if (b->held[at] != 0)
-                    b->depth[at] = (uint16_t)course_code(&old, b->held[at]);
+            int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
+            int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
+            uint32_t taken = deeper > most ? both : deeper <= -most ? 0 : nearer_slots(deeper, turn, both, last_slot);
+            mask &= ~both | taken;
+            b->held[at] &= ~taken;
+            if (b->held[at] == 0) {     /* the last one takes its place */
+                struct entry last = entry_at(b, pixel, --n);
+                entry_put(b, pixel, i, &last);
+                continue;
             }
         }
-        if (b->held[at] == 0)
-            free = i;
-        else if (((b->color[at] ^ color) & 0xffffffu) == 0 && is_level(b->depth[at], depth))
-            same = i;
+        i++;
     }
-    if (fresh.held == 0)
+    b->count[pixel] = (uint8_t)n;
+    if (mask == 0)
         return;
-    if (fresh.held != mask)
-        fresh.depth = course_code(&course, fresh.held);
-    if (same < TIMEMASK_ENTRIES) {
-        struct entry e = entry_at(b, same * b->pixels + pixel);
-        struct course old = course_of(e.held, e.color, e.depth);
-        e.held |= fresh.held;
-        e.depth = course_code(&old, e.held);
-        entry_put(b, same * b->pixels + pixel, &e);
-    } else if (free < TIMEMASK_ENTRIES) {
-        entry_put(b, free * b->pixels + pixel, &fresh);
-    } else {
+    b->any[pixel] |= mask;
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
+    struct entry fresh = { mask, f->color, (uint32_t)f->depth };
+    if (n == TIMEMASK_ENTRIES) {
         merge(b, pixel, &fresh);
+        return;
     }
+    entry_put(b, pixel, n, &fresh);
+    b->count[pixel] = (uint8_t)(n + 1);
+}
+
+/* ------------------------------------------------------------------ means */
+
+/* Linear light. */
+static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
+{
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red = half, green = half, blue = half;
+    for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
+        bool own = i < b->count[pixel];
+        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : still;
+        rest -= n;
+        red += n * smear_srgb_decode[pixel_red(color)];
+        green += n * smear_srgb_decode[pixel_green(color)];
+        blue += n * smear_srgb_decode[pixel_blue(color)];
+    }
+    const int down = b->slots_log2 + 4;
+    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down], smear_srgb_encode[blue >> down]);
 }
 
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
 {
-    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, out[3];
-    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
-        uint32_t at = e * b->pixels + pixel, color = still, n = rest;
-        if (e < TIMEMASK_ENTRIES) {
-            n = count_bits(b->held[at]);
-            color = b->color[at];
-            rest -= n;
-        }
-        if (n == 0)
-            continue;
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = color >> (16 - 8 * c) & 255u;
-            sum[c] += n * (b->linear ? smear_srgb_decode[code] : code);
-        }
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2)), count = b->count[pixel];
+    if (count == 1 && b->held[pixel] == all)
+        return b->color[pixel] & 0xffffffu;
+    if (b->linear)
+        return mean_linear(b, pixel, still);
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
+    for (uint32_t i = 0, at = pixel; i < count; i++, at += 1u << b->pixels_log2) {
+        uint32_t n = count_bits(b->held[at]), color = b->color[at];
+        rest -= n;
+        red_blue += (color & 0xff00ffu) * n;
+        green += (color >> 8 & 0xffu) * n;
     }
-    for (int c = 0; c < 3; c++) {
-        uint32_t mean = (sum[c] + ((1u << b->slots_log2) >> 1)) >> b->slots_log2;
-        out[c] = b->linear ? smear_srgb_encode[mean >> 4] : mean;
-    }
-    return pixel_make(0, out[0], out[1], out[2]);
+    red_blue += (still & 0xff00ffu) * rest;
+    green += (still >> 8 & 0xffu) * rest;
+    return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
 }
