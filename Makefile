@@ -84,6 +84,16 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
+# For a Linux without libraries, and what boots it.
+$(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -static -o $@ $^ -lm -lpthread
+
+$(BUILD)/view_linux_init: tests/view_linux_init.c
+	$(CC) -std=c11 -D_DEFAULT_SOURCE -Os -static -Wall -Wextra -o $@ $<
+
+$(BUILD)/mkcpio: tests/mkcpio.c
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
+
 $(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
@@ -120,7 +130,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform,$(ALL_SUITES))
+SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -129,6 +139,9 @@ endif
 
 TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
+# What suites test of `smear view`.
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)
+TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/test_*.c)

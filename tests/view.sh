@@ -309,7 +309,7 @@ claim "input that goes back" fails 1 bad view $race $small --out null --frames 1
 
 for board in oled rp2040 round gba memlcd fb320; do
     options=$("$smear" help view | sed -n "/^  $board /{n;p;}" |
-        sed 's/--bus [0-9]*//;s/--panel-hz [0-9]*//;s/--cpu [^ ]*//;s/--tint [^ ]*//;s/--round//')
+        sed 's/--bus [0-9]*//;s/--panel-hz [0-9.]*//;s/--cpu [^ ]*//;s/--tint [^ ]*//;s/--round//')
     [ -n "$options" ] || failed=$((failed + 1))
     # shellcheck disable=SC2086
     board_as_render() {

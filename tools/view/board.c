@@ -2,7 +2,8 @@
 /* board.c - see board.h.
  *
  * Arenas leave room for a program's own data, stack and, on the Game Boy Advance, sound. Bus clocks
- * are what the panels' controllers take in practice, not their cautious data sheets. */
+ * are what the panels' controllers take in practice, not their cautious data sheets; their refresh is
+ * by an oscillator of their own, never quite the 60 Hz it is meant to be. */
 #include "board.h"
 
 #include <string.h>
@@ -14,10 +15,10 @@ const struct board board_list[] = {
         "--light", "linear", NULL } },
     { "rp2040", "240x240 IPS, ST7789 on 62.5 MHz SPI, Cortex-M0+ at 133 MHz, 264 kB of RAM",
       { "--size", "240x240", "--format", "rgb565be", "--arena", "196608", "--bus", "62500000",
-        "--panel-hz", "60", "--cpu", "cortex-m0plus:133000000", "--light", "linear", NULL } },
+        "--panel-hz", "58.6", "--cpu", "cortex-m0plus:133000000", "--light", "linear", NULL } },
     { "round", "240x240 round IPS, GC9A01 on 62.5 MHz SPI, otherwise as rp2040",
       { "--size", "240x240", "--format", "rgb565be", "--arena", "196608", "--bus", "62500000",
-        "--panel-hz", "60", "--cpu", "cortex-m0plus:133000000", "--round", NULL } },
+        "--panel-hz", "58.6", "--cpu", "cortex-m0plus:133000000", "--round", NULL } },
     { "gba", "Game Boy Advance: 240x160 in mode 3, ARM7TDMI at 16.78 MHz, 256 kB of work RAM",
       { "--size", "240x160", "--format", "rgb555", "--arena", "229376", "--cpu",
         "arm7tdmi:16777216", NULL } },
