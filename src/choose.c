@@ -35,10 +35,10 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
             choice->instants = instants_for(load, chooser->samples);
         }
     } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED | TILE_STILL_SEEN)) == 0
-               && load->travel >= 2 * 16) {
+               && load->travel >= 8 * 16) {
         choice->method = TILE_SMOOTH;
         choice->tolerance = min_i32(chooser->target * 2, 256);
-        choice->taps = load->travel >> (chooser->target >= SMEAR_BALANCED ? 5 : 4);
+        choice->taps = max_i32(load->travel >> (chooser->target >= SMEAR_BALANCED ? 5 : 4), 12);
     } else if (closed_form) {
         choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
                         min_i32(chooser->target, 128), 512);

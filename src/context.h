@@ -76,7 +76,7 @@ struct smear_context {
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
-    uint8_t *open;                  /* per tile of three rows, row r at r % 3: the background shows, or something still */
+    uint8_t *still_seen;            /* per tile of three rows, row r at r % 3 */
     uint8_t *held;                  /* band of a row that waits for the one below */
     uint8_t *still_tile;            /* per worker: colour and depth of a tile without movers */
 

@@ -95,7 +95,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             r->field = d->sharp ? NULL : arena_take(a, columns, sizeof *r->field);
             r->waits = d->sharp ? NULL : arena_take(a, columns, 1);
         }
-        c->open = d->sharp ? NULL : arena_take(a, 3 * columns, 1);
+        c->still_seen = d->sharp ? NULL : arena_take(a, 3 * columns, 1);
         c->still_tile = d->sharp ? NULL : arena_take(a, d->workers, (size_t)d->tile * (size_t)d->tile * 6);
         c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;

@@ -119,6 +119,34 @@ static struct sample corner_sample(const struct way *w, const struct corner *c)
     return (struct sample){ c->x, c->y, close[0] - open[0], close[1] - open[1], open[0] + close[0], open[1] + close[1] };
 }
 
+/* Depths change alike at all vertices: displacements are linear on the screen, too. */
+static bool is_affine(const struct way *w)
+{
+    if (w->segment->flat_depth)
+        return true;
+    for (int pose = 0; pose < 2; pose++) {
+        int32_t low = min_i32(w->ratio[pose][0], min_i32(w->ratio[pose][1], w->ratio[pose][2]));
+        int32_t high = max_i32(w->ratio[pose][0], max_i32(w->ratio[pose][1], w->ratio[pose][2]));
+        if (high - low > 512)           /* off by 1/512 of a triangle's size at most */
+            return false;
+    }
+    return true;
+}
+
+static struct sample mixed_sample(const struct sample vertex[3], const struct corner *c)
+{
+    struct sample s = { c->x, c->y, 0, 0, 0, 0 };
+    int32_t weight[3];
+    for (int i = 0; i < 3; i++) {
+        weight[i] = c->weight[i] >> 6;      /* q10: displacements have 21 bits */
+        s.dx += (int32_t)((int64_t)vertex[i].dx * weight[i] >> 10);
+        s.dy += (int32_t)((int64_t)vertex[i].dy * weight[i] >> 10);
+        s.bx += (int32_t)((int64_t)vertex[i].bx * weight[i] >> 10);
+        s.by += (int32_t)((int64_t)vertex[i].by * weight[i] >> 10);
+    }
+    return s;
+}
+
 /* Samples of a triangle within `half` of the tile's middle: its corners there. */
 static int find_samples(struct sample out[CORNERS_MAX], struct way *w, int32_t half)
 {
@@ -140,6 +168,12 @@ static int find_samples(struct sample out[CORNERS_MAX], struct way *w, int32_t h
             w->ratio[pose][i] = w->segment->flat_depth ? 65536
                 : depth_ratio(w->record[i][VERTEX_DEPTH],
                               w->record[i][w->segment->motion + pose * PATH_POSE_WORDS + PATH_DEPTH]);
+    if (count != 0 && is_affine(w)) {
+        struct sample vertex[3] = { out[0], out[1], out[2] };
+        for (int i = 0; i < count; i++)
+            out[i] = mixed_sample(vertex, &c[i]);
+        return count;
+    }
     for (int i = 0; i < count; i++)
         out[i] = corner_sample(w, &c[i]);
     return count;
@@ -248,34 +282,29 @@ static void way_of(struct way *w, const struct smear_geometry *g, const struct s
 
 bool smear_smooth_fit(struct smear_smooth_field *field, const struct smear_geometry *geometry,
                       const struct smear_mover *mover, uint32_t count, int32_t column, int32_t x0, int32_t y0,
-                      int32_t tile, int32_t travel, int32_t tolerance)
+                      int32_t tile, int32_t travel, int32_t tolerance, void *work, uint32_t work_bytes)
 {
     struct way w = { .ox = x0 * 256 + tile * 128, .oy = y0 * 256 + tile * 128 };
     struct sums sums = { 0 };
-    struct sample sample[CORNERS_MAX];
+    struct sample *sample = work;
+    const uint32_t limit = work_bytes / sizeof *sample;
     const int32_t half = tile * 128 + (travel >> 1) + 256;      /* what is farther in the middle does not come here */
+    uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (!mover_is_in(&mover[i], column))
             continue;
-        if (geometry_bounds(geometry, mover[i].triangle)->piece != 0)
+        if (n + CORNERS_MAX > limit || geometry_bounds(geometry, mover[i].triangle)->piece != 0)
             return false;
         way_of(&w, geometry, &mover[i]);
-        int n = find_samples(sample, &w, half);
-        for (int k = 0; k < n; k++)
-            sums_add(&sums, &sample[k]);
+        for (int found = find_samples(sample + n, &w, half); found > 0; found--)
+            sums_add(&sums, &sample[n++]);
     }
-    if (sums.n == 0)
+    if (n == 0)
         return false;
     solve(field, &sums);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!mover_is_in(&mover[i], column))
-            continue;
-        way_of(&w, geometry, &mover[i]);
-        int n = find_samples(sample, &w, half);
-        for (int k = 0; k < n; k++)
-            if (departure(field, &sample[k]) > tolerance)
-                return false;
-    }
+    for (uint32_t i = 0; i < n; i++)
+        if (departure(field, &sample[i]) > tolerance)
+            return false;
     find_reach(field, tile);
     return true;
 }

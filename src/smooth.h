@@ -19,10 +19,11 @@ struct smear_smooth_field {
 };
 
 /* Finds the field of the movers of a tile, whose ways are at most `travel` (q8 px) long. False when one of them departs
- * from it by more than `tolerance` (q8 px) where it may be seen. */
+ * from it by more than `tolerance` (q8 px) where it may be seen, or when there are too many for the
+ * work memory. */
 bool smear_smooth_fit(struct smear_smooth_field *field, const struct smear_geometry *geometry,
                       const struct smear_mover *mover, uint32_t count, int32_t column, int32_t x0, int32_t y0,
-                      int32_t tile, int32_t travel, int32_t tolerance);
+                      int32_t tile, int32_t travel, int32_t tolerance, void *work, uint32_t work_bytes);
 
 /* Where pixels are taken from: the sharp picture, row `first` + i of the frame at offset[i]. */
 struct smear_smooth_source {

@@ -9,8 +9,8 @@
  *     draw        movers over the still scene, as they are in the middle of the exposure
  *     blur        waiting tiles of the row above, which now has neighbours on both sides
  *
- * A waiting tile whose pixels come from where the background or something still is seen gets a time mask after all; no
- * still triangle is in it, so its still scene is the background. */
+ * A waiting tile whose pixels come from where something still is seen, or from beyond the frame, gets a time mask after
+ * all; no still triangle is in it, so its still scene is the background. */
 #include "timed.h"
 
 /* ------------------------------------------------------------------ lists */
@@ -74,6 +74,12 @@ static void load_list(const struct smear_context *c, struct smear_row_movers *r,
     }
 }
 
+/* Per tile of a row: something still is seen there, or may be. */
+static uint8_t *still_of(const struct smear_context *c, int row)
+{
+    return c->still_seen + (uint32_t)row % 3u * (uint32_t)c->window.columns;
+}
+
 static void list_movers(struct smear_context *c, int row)
 {
     const struct smear_geometry *g = &c->geometry;
@@ -90,8 +96,11 @@ static void list_movers(struct smear_context *c, int row)
         load_tiles(c, r, b->x0, b->x1, b, 0);
     }
     load_list(c, r, c->blend, TILE_BLENDED);
-    if (c->chooser.has_window && r->count != 0)
-        load_list(c, r, c->opaque, TILE_STILL_SEEN);
+    if (!c->chooser.has_window)
+        return;
+    load_list(c, r, c->opaque, TILE_STILL_SEEN);
+    for (int32_t i = 0; i < c->window.columns; i++)
+        still_of(c, row)[i] = (r->load[i].flags & TILE_STILL_SEEN) != 0;
 }
 
 /* ------------------------------------------------------------------ tiles over the still scene */
@@ -152,7 +161,8 @@ static void still_scene_job(void *argument, int column, int worker)
     smear_choose(&choice, &c->chooser, &m->load[column]);
     if (choice.method == TILE_SMOOTH) {
         if (smear_smooth_fit(&m->field[column], &c->geometry, m->mover, m->count, column, tile_left(c, column),
-                             row_top(c, r->row), c->window.tile, m->load[column].travel * 16, choice.tolerance)) {
+                             row_top(c, r->row), c->window.tile, m->load[column].travel * 16, choice.tolerance,
+                             c->work + (uint32_t)worker * c->work_bytes, c->work_bytes)) {
             m->waits[column] = 1;
             return;
         }
@@ -182,40 +192,22 @@ static void draw_job(void *argument, int job, int worker)
         smear_raster_list(&c->raster, &t, c->moving);
 }
 
-static uint8_t *open_of(const struct smear_context *c, int row)
-{
-    return c->open + (uint32_t)row % 3u * (uint32_t)c->window.columns;
-}
-
-/* Finds the tiles in which the background shows, or something still may. */
-static void open_job(void *argument, int column, int worker)
-{
-    const struct row_job *r = argument;
-    const struct smear_window *w = &r->c->window;
-    uint16_t lowest = UINT16_MAX;
-    int32_t n = tile_right(r->c, column) - tile_left(r->c, column);
-    (void)worker;
-    for (int32_t y = row_top(r->c, r->row); y < row_bottom(r->c, r->row); y++) {
-        const uint16_t *depth = w->depth + window_slot(w, y) * w->width + tile_left(r->c, column);
-        for (int32_t x = 0; x < n; x++)
-            lowest = depth[x] < lowest ? depth[x] : lowest;
-    }
-    open_of(r->c, r->row)[column] = lowest == 0 || (movers_of(r->c, r->row)->load[column].flags & TILE_STILL_SEEN) != 0;
-}
-
-/* All that the taps of a tile may touch moves with it, and lies in the window. `last`: there is no row below. */
+/* All that the taps of a tile may touch moves with it, and lies in the window; the background, which is of one colour, may
+ * be said to. The frame's outermost row may stand for the one beyond it. `last`: there is no row below. */
 static bool can_be_smooth(struct smear_context *c, int row, int column, bool last)
 {
     const struct smear_window *w = &c->window;
     const struct smear_smooth_field *f = &movers_of(c, row)->field[column];
     int32_t x0 = tile_left(c, column) - f->reach_x, x1 = tile_right(c, column) + f->reach_x;
     int32_t y0 = row_top(c, row) - f->reach_y, y1 = row_bottom(c, row) + f->reach_y;
-    if (x0 < 0 || y0 < 0 || x1 > w->width || y1 > w->height || f->reach_y > w->reach
-        || (last && y1 > row_bottom(c, row)))
+    if (x0 < 0 || y0 < -1 || x1 > w->width || y1 > w->height + 1 || f->reach_y > w->reach
+        || (last && y1 > row_bottom(c, row) && row_bottom(c, row) < w->height))
         return false;
+    y0 = max_i32(y0, 0);
+    y1 = min_i32(y1, w->height);
     for (int r = y0 >> w->tile_shift; r <= (y1 - 1) >> w->tile_shift; r++)
         for (int32_t k = x0 >> w->tile_shift; k <= (x1 - 1) >> w->tile_shift; k++)
-            if (open_of(c, r)[k])
+            if (still_of(c, r)[k])
                 return false;
     return true;
 }
@@ -326,7 +318,6 @@ int smear_timed_row(struct smear_context *c, int row, bool last)
     smear_jobs_run(&c->jobs, still_scene_job, &job, c->window.columns);
     if (c->chooser.has_window) {
         smear_jobs_run(&c->jobs, draw_job, &job, c->jobs.workers);
-        smear_jobs_run(&c->jobs, open_job, &job, c->window.columns);
         if (c->held != NULL)
             result = finish_row(c, row - 1, false);
     }
