@@ -7,6 +7,7 @@
 #include "timemask_cover.h"
 #include "timemask_shade.h"
 #include "timemask_slots.h"
+#include "transform.h"
 
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
@@ -114,7 +115,7 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
         path_at(place, m->record[i], m->segment, time);
         p->x[i] = place[0] - x;
         p->y[i] = place[1] - y;
-        p->depth[i] = max_i32(place[2], 1);
+        p->depth[i] = clamp_i32(place[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);      /* a parabola overshoots */
     }
 }
 
@@ -125,6 +126,21 @@ static inline uint32_t still_at(const struct smear_plane_rows *r, const struct s
     if (slot >= r->ring)
         slot -= r->ring;
     return (uint32_t)(slot * r->stride + x - r->x0);
+}
+
+/* The slots of a run of slots in which it is nearer than the still scene; `code` goes on to their middle. */
+static uint32_t in_front(uint32_t mask, uint32_t *code, int32_t slope, uint32_t still)
+{
+    int32_t first = 31 - count_leading_zeros(mask & (0u - mask)), count = 32 - count_leading_zeros(mask) - first;
+    int32_t begin = ((int32_t)*code - (int32_t)still) * 32 - slope * (count - 1), end = begin + 2 * slope * (count - 1);
+    if (begin > 0 && end > 0)
+        return mask;
+    if (begin <= 0 && end <= 0)
+        return 0;
+    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
+    int32_t from = begin > 0 ? 0 : before, to = begin > 0 ? before : count;
+    *code = (uint32_t)clamp_i32((int32_t)*code + (slope * (from + to - count) >> 5), 0, 65535);
+    return (UINT32_MAX >> (32 - (to - from))) << (first + from);
 }
 
 /* A triangle in a segment of 2^slots_log2 slots, from pose a to pose b; `first` is the segment's first slot. */
@@ -138,16 +154,18 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     if (!smear_timemask_cover(&c, a, b, j->width, j->height, slots_log2))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, a, b, slots_log2, j->settings->tap);
+    const uint32_t slope[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
+            uint32_t mask = (UINT32_MAX >> (32 - (run[i].to - run[i].from))) << (first + run[i].from);
             uint32_t code = timemask_depth(&s, y, &run[i]);
-            if (code <= depth[run[i].x])
+            mask = in_front(mask, &code, s.slope[code >> 15], depth[run[i].x]);
+            if (mask == 0)
                 continue;
             uint32_t color = s.gouraud || s.sampler != NULL ? smear_timemask_color(&s, y, &run[i]) : s.color;
-            uint32_t mask = (UINT32_MAX >> (32 - (run[i].to - run[i].from))) << (first + run[i].from);
-            smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + run[i].x), mask, color, code);
+            smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + run[i].x), mask, color | slope[code >> 15], code);
             j->fragments++;
         }
     }

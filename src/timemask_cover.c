@@ -90,7 +90,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *a, co
     if (size + h <= length >> 7) {      /* moves by less than 1/128 px */
         struct timemask_plane p = { (start.at + end.at) >> 1, mx >> 1, my >> 1 };
         c->still[c->stills++] = reversed ? other_side(&p) : p;
-    } else if (h <= length >> 2 && h <= size >> 2 && size >= length >> 7) {
+    } else if ((int64_t)h * h <= (int64_t)length * size >> 14 && size >= length >> 7) {
         /* The crossing lies at n (1/2 + mean / difference), and the difference is taken as constant: off by at most
          * h / (2 length), about 1/8 px. */
         int zeros = count_leading_zeros((uint32_t)size);
