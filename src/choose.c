@@ -38,7 +38,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
                && load->travel >= 8 * 16) {
         choice->method = TILE_SMOOTH;
         choice->tolerance = min_i32(chooser->target * 2, 256);
-        choice->taps = max_i32(load->travel >> (chooser->target >= SMEAR_BALANCED ? 5 : 4), 12);
+        choice->taps = max_i32(load->travel >> 4, 8);
     } else if (closed_form) {
         choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
                         min_i32(chooser->target, 128), 512);

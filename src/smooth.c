@@ -268,8 +268,10 @@ static void find_reach(struct smear_smooth_field *f, int32_t tile)
     int32_t half = tile << 7;           /* q8 px */
     int32_t x = abs_i32(f->x) + (int32_t)(((int64_t)(abs_i32(f->xx) + abs_i32(f->xy)) * half) >> 16);
     int32_t y = abs_i32(f->y) + (int32_t)(((int64_t)(abs_i32(f->yx) + abs_i32(f->yy)) * half) >> 16);
-    f->reach_x = ((x >> 1) + (abs_i32(f->bend_x) >> 2) + 255) >> 8;
-    f->reach_y = ((y >> 1) + (abs_i32(f->bend_y) >> 2) + 255) >> 8;
+    /* A line of pixels strays by up to one from the way it stands for, and takes a share of the pixel beyond its end. */
+    int32_t more_x = f->y != 0 || f->x != 0, more_y = f->y != 0;
+    f->reach_x = (((x >> 1) + (abs_i32(f->bend_x) >> 2) + 255) >> 8) + more_x;
+    f->reach_y = (((y >> 1) + (abs_i32(f->bend_y) >> 2) + 255) >> 8) + more_y;
 }
 
 static void way_of(struct way *w, const struct smear_geometry *g, const struct smear_mover *m)
@@ -356,6 +358,11 @@ SMEAR_INLINE uint32_t mean_of(const struct color_sums *s, uint32_t over, bool li
                       ((s->red_blue & 0xffffu) * q16 + 0x8000u) >> 16);
 }
 
+/* Pixels of the tile. */
+struct area {
+    int32_t x0, y0, x1, y1;
+};
+
 SMEAR_INLINE uint32_t mean_along(const struct smear_smooth_source *source, const struct tap *tap, int32_t taps,
                                  int32_t x, int32_t y, int32_t vx, int32_t vy, uint32_t over, bool linear)
 {
@@ -372,22 +379,149 @@ SMEAR_INLINE uint32_t mean_along(const struct smear_smooth_source *source, const
     return mean_of(&sums, over, linear);
 }
 
-uint32_t smear_smooth_tile(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
-                           const struct smear_smooth_field *field, int32_t x0, int32_t y0, int32_t x1, int32_t y1,
-                           int32_t tile, int32_t taps, bool linear)
+static uint32_t mean_by_taps(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
+                             const struct smear_smooth_field *field, const struct area *a, int32_t tile, int32_t taps,
+                             bool linear)
 {
     struct tap tap[TAPS_MAX / 2];
     taps = clamp_i32(taps + 1, 2, TAPS_MAX) & ~1;
     taps_place(tap, field, taps);
     uint32_t over = ((1u << 24) + (uint32_t)taps - 1u) / (uint32_t)taps;
-    for (int32_t y = y0; y < y1; y++, out += stride) {
+    for (int32_t y = a->y0; y < a->y1; y++, out += stride) {
         /* Displacement at the row's first pixel, q16 px: places from the tile's middle are odd halves of pixels. */
-        int32_t rx = 1 - tile, ry = 2 * (y - y0) + 1 - tile;
+        int32_t rx = 1 - tile, ry = 2 * (y - a->y0) + 1 - tile;
         int32_t vx = field->x * 256 + ((field->xx * rx + field->xy * ry) >> 1);
         int32_t vy = field->y * 256 + ((field->yx * rx + field->yy * ry) >> 1);
-        for (int32_t x = x0; x < x1; x++, vx += field->xx, vy += field->yx)
-            out[x - x0] = linear ? mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, true)
-                                 : mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, false);
+        for (int32_t x = a->x0; x < a->x1; x++, vx += field->xx, vy += field->yx)
+            out[x - a->x0] = linear ? mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, true)
+                                    : mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, false);
     }
-    return (uint32_t)(taps * (x1 - x0) * (y1 - y0));
+    return (uint32_t)(taps * (a->x1 - a->x0) * (a->y1 - a->y0));
+}
+
+/* ------------------------------------------------------------------ the box */
+
+/* All pixels of the tile have one way: a line with a pixel per step along its longer axis. Lines are the same for all
+ * pixels on them, so a sum that slides along a line gives the mean of each. */
+struct line {
+    bool upright;               /* steps go down, not right */
+    int32_t slope;              /* of the other axis, q16, within -1 .. 1 */
+    int32_t half;               /* whole pixels on both sides of the middle one */
+    uint32_t rest;              /* share of the ones beyond, q8 */
+    uint32_t over;              /* 2^24 / (256 x length), rounded up */
+};
+
+static struct line line_make(const struct smear_smooth_field *f)
+{
+    struct line l = { .upright = abs_i32(f->y) > abs_i32(f->x) };
+    int32_t major = l.upright ? f->y : f->x, minor = l.upright ? f->x : f->y;
+    int32_t length = max_i32(abs_i32(major), 256);          /* q8 px */
+    l.slope = ratio_q(major < 0 ? -(int64_t)minor : minor, length, 16);
+    l.half = (length - 256) >> 9;
+    l.rest = (uint32_t)(length - 256 - (l.half << 9)) >> 1;
+    l.over = ((1u << 24) + (uint32_t)length - 1u) / (uint32_t)length;
+    return l;
+}
+
+/* How far the line has strayed at step i from the tile's first pixel. */
+static inline int32_t stray(const struct line *l, int32_t i)
+{
+    return (l->slope * i + 0x8000) >> 16;
+}
+
+static inline uint32_t line_pixel(const struct smear_smooth_source *s, const struct area *a, const struct line *l,
+                                  int32_t along, int32_t across)
+{
+    across += stray(l, along);
+    int32_t x = a->x0 + (l->upright ? across : along), y = a->y0 + (l->upright ? along : across);
+    return s->color[s->offset[y - s->first] + (uint32_t)x];
+}
+
+struct channel_sums {
+    uint32_t r, g, b;
+};
+
+SMEAR_INLINE void sums_step(struct channel_sums *s, uint32_t add, uint32_t drop, bool linear)
+{
+    s->r += linear ? smear_srgb_decode[pixel_red(add)] : pixel_red(add);
+    s->g += linear ? smear_srgb_decode[pixel_green(add)] : pixel_green(add);
+    s->b += linear ? smear_srgb_decode[pixel_blue(add)] : pixel_blue(add);
+    s->r -= linear ? smear_srgb_decode[pixel_red(drop)] : pixel_red(drop);
+    s->g -= linear ? smear_srgb_decode[pixel_green(drop)] : pixel_green(drop);
+    s->b -= linear ? smear_srgb_decode[pixel_blue(drop)] : pixel_blue(drop);
+}
+
+/* (256 sum + rest (both ends)) / length, to nearest. Linear: 16-bit values, the sum of 129 of which has 24 bits. */
+SMEAR_INLINE uint32_t box_mean(uint32_t sum, uint32_t ends, const struct line *l, bool linear)
+{
+    if (linear)
+        return smear_srgb_encode[min_u32(mulh_u32((sum + (ends * l->rest >> 8)) << 7, l->over << 1) >> 4, 4095u)];
+    return min_u32((uint32_t)(((uint64_t)(sum * 256u + ends * l->rest) * l->over + (1u << 23)) >> 24), 255u);
+}
+
+SMEAR_INLINE uint32_t box_pixel(const struct channel_sums *s, uint32_t before, uint32_t after, const struct line *l,
+                                bool linear)
+{
+    struct channel_sums ends = { 0, 0, 0 };
+    sums_step(&ends, before, 0, linear);
+    sums_step(&ends, after, 0, linear);
+    return pixel_make(0, box_mean(s->r, ends.r, l, linear), box_mean(s->g, ends.g, l, linear),
+                      box_mean(s->b, ends.b, l, linear));
+}
+
+SMEAR_INLINE void box_line(uint32_t *out, int32_t stride, const struct smear_smooth_source *source, const struct area *a,
+                           const struct line *l, int32_t across, bool linear)
+{
+    int32_t length = l->upright ? a->y1 - a->y0 : a->x1 - a->x0, width = l->upright ? a->x1 - a->x0 : a->y1 - a->y0;
+    int32_t first = 0, end = length;
+    while (first < end && (uint32_t)(across + stray(l, first)) >= (uint32_t)width)
+        first++;
+    while (end > first && (uint32_t)(across + stray(l, end - 1)) >= (uint32_t)width)
+        end--;
+    if (first == end)
+        return;
+    struct channel_sums sums = { 0, 0, 0 };
+    for (int32_t i = first - l->half; i <= first + l->half; i++)
+        sums_step(&sums, line_pixel(source, a, l, i, across), 0, linear);
+    uint32_t before = line_pixel(source, a, l, first - l->half - 1, across);
+    for (int32_t i = first; i < end; i++) {
+        uint32_t after = line_pixel(source, a, l, i + l->half + 1, across);
+        int32_t side = across + stray(l, i);
+        out[l->upright ? i * stride + side : side * stride + i] = box_pixel(&sums, before, after, l, linear);
+        before = line_pixel(source, a, l, i - l->half, across);
+        sums_step(&sums, after, before, linear);
+    }
+}
+
+static void mean_by_box(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
+                        const struct smear_smooth_field *field, const struct area *a, bool linear)
+{
+    struct line l = line_make(field);
+    int32_t length = l.upright ? a->y1 - a->y0 : a->x1 - a->x0, width = l.upright ? a->x1 - a->x0 : a->y1 - a->y0;
+    int32_t shift = stray(&l, length - 1);
+    for (int32_t across = -max_i32(shift, 0); across < width - min_i32(shift, 0); across++) {
+        if (linear)
+            box_line(out, stride, source, a, &l, across, true);
+        else
+            box_line(out, stride, source, a, &l, across, false);
+    }
+}
+
+/* Ways of the tile's pixels differ by no more than 3/8 px at their ends. */
+static bool is_box(const struct smear_smooth_field *f, int32_t tile)
+{
+    int32_t x = (abs_i32(f->xx) + abs_i32(f->xy)) * tile >> 2, y = (abs_i32(f->yx) + abs_i32(f->yy)) * tile >> 2;
+    return max_i32(x, y) <= 3 << 13 && max_i32(abs_i32(f->bend_x), abs_i32(f->bend_y)) <= 384
+        && max_i32(abs_i32(f->x), abs_i32(f->y)) <= 127 * 256;
+}
+
+uint32_t smear_smooth_tile(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
+                           const struct smear_smooth_field *field, int32_t x0, int32_t y0, int32_t x1, int32_t y1,
+                           int32_t tile, int32_t taps, bool linear)
+{
+    const struct area a = { x0, y0, x1, y1 };
+    if (!is_box(field, tile))
+        return mean_by_taps(out, stride, source, field, &a, tile, taps, linear);
+    mean_by_box(out, stride, source, field, &a, linear);
+    return (uint32_t)((x1 - x0) * (y1 - y0));
 }

@@ -32,8 +32,9 @@ struct smear_smooth_source {
     int32_t first;
 };
 
-/* Writes the tile's pixels [x0, x1) x [y0, y1) to `out`, rows `stride` apart: the mean of `taps` (even) places along each
- * pixel's way. All must lie in the source. Returns the samples taken. */
+/* Writes the tile's pixels [x0, x1) x [y0, y1) to `out`, rows `stride` apart. Where all have one way: the mean along it by
+ * sums that slide, whatever its length. Else the mean of `taps` places (2 .. 64) along each pixel's own. All must lie in the
+ * source, within the field's reach of the tile. Returns the samples taken. */
 uint32_t smear_smooth_tile(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
                            const struct smear_smooth_field *field, int32_t x0, int32_t y0, int32_t x1, int32_t y1,
                            int32_t tile, int32_t taps, bool linear);
