@@ -39,6 +39,7 @@ IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
+VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
@@ -62,7 +63,7 @@ $(LIB): $(call objects,$(LIB_SRC))
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-$(BIN)/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures of real models, in build/demo
@@ -82,6 +83,9 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+$(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## pictures of the README again
 readme-pictures: $(BIN)/smear-demo
@@ -123,7 +127,7 @@ SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
 endif
 
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'

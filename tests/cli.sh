@@ -572,7 +572,7 @@ for option in size fps time frames clip loop camera eye look fov filter clear sh
     claim "help knows --$option" out_has "--$option"
 done
 usage nosuch help nosuch
-usage view help view
+usage bench help bench
 claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
 
@@ -580,7 +580,7 @@ usage compare help render compare
 
 usage "no command"
 usage frobnicate frobnicate
-for command in view convert bench chart; do
+for command in convert bench chart; do
     usage $command $command
     claim "says that it is not built" err_has "not built yet"
 done

@@ -11,12 +11,13 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear view [SCENE]               in a window or terminal, with live controls\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: view, convert, bench, chart.\n"
+    "Not built yet: convert, bench, chart.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -131,7 +132,7 @@ static const char *const info_help[] = {
 };
 
 static const char *const help_help[] = {
-    "smear help [render|compare|info]\n",
+    "smear help [render|view|compare|info]\n",
     NULL
 };
 
@@ -144,6 +145,8 @@ int help_print(const char *command)
         fputs(program_help, stdout);
         return STATUS_OK;
     }
+    if (strcmp(command, "view") == 0)
+        return view_help_print();
     if (found < 0)
         return say_bad_usage(command, command_is_planned(command) ? "not built yet"
                                                                   : "unknown command (smear help)");
