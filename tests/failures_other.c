@@ -235,12 +235,12 @@ static void ground(const struct fail_method *method, double number[])
 
 /* ------------------------------------------------------------------ what an exposure can show */
 
-/* How far a picture goes beyond the colours, channel by channel, that its scene has at any of 17
+/* How far a picture goes beyond the colours, channel by channel, that its scene has at any of 9
  * instants of the exposure. */
 static double beyond_colors(struct subject *s, const struct present_options *present,
                             const uint8_t *rgb)
 {
-    enum { INSTANTS = 17 };
+    enum { INSTANTS = 9 };
     int low[3] = {255, 255, 255}, high[3] = {0, 0, 0}, worst = 0;
     double open, close, time = s->time;
     present_exposure(time, present, &open, &close);

@@ -340,7 +340,7 @@ static void sprites_move(const struct stage *stage, double time, struct scene_in
 static void enter_build(struct stage *stage)
 {
     noise_back(stage, 10);
-    fail_rectangle(stage, 12, 60, 0xe0402a);
+    fail_rectangle(stage, 12, 36, 0xe0402a);
 }
 
 static void enter_seen_from(double x, const struct stage *stage, double time,
@@ -348,7 +348,7 @@ static void enter_seen_from(double x, const struct stage *stage, double time,
 {
     double u = still_camera(stage, time, out);
     ortho_camera(stage, x, 0, out);
-    stage_place(out, 1, xform_move(-124 + FAIL_ENTER_STREAK * u, 0, 0));
+    stage_place(out, 1, xform_move(-92 + FAIL_ENTER_STREAK * u, 0, 0));
 }
 
 static void enter_move(const struct stage *stage, double time, struct scene_instant *out)
@@ -732,8 +732,8 @@ const struct stage_kind failure_flat_kinds[] = {
     {"fail/fence", 192, 96, FAIL_TIME, 0, fence_build, fence_move},
     {"fail/edge", 128, 96, FAIL_TIME, 0, edge_build, edge_move},
     {"fail/sprites", 128, 96, FAIL_TIME, 0, sprites_build, sprites_move},
-    {"fail/enter", 256, 144, FAIL_TIME, 0, enter_build, enter_move},
-    {"fail/enter_inside", 256, 144, FAIL_TIME, 0, enter_build, enter_inside_move},
+    {"fail/enter", 192, 96, FAIL_TIME, 0, enter_build, enter_move},
+    {"fail/enter_inside", 192, 96, FAIL_TIME, 0, enter_build, enter_inside_move},
     {"fail/jump", 192, 80, FAIL_TIME, 0, jump_build, jump_move},
     {"fail/teleport", 192, 80, FAIL_TIME, 0, jump_build, teleport_move},
     {"fail/cut", 192, 80, FAIL_TIME, 0, jump_build, cut_move},
