@@ -51,9 +51,9 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo readme-pictures test bench layers tables clean
-## the program build/smear and the library (build/host/libsmear.a)
-all: $(BIN)/smear
+.PHONY: all help demo readme-pictures test bench chart chart-picture layers tables clean
+## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
+all: $(BIN)/smear $(BIN)/smear-bench
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -77,6 +77,16 @@ test:
 ## instructions per frame against other rasterizers (needs valgrind)
 bench: $(BIN)/smear-bench
 	MAKE="$(MAKE)" sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
+
+## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
+chart: $(BIN)/smear-bench
+	$(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
+
+## the picture of the README again, from the last whole chart
+chart-picture: $(BIN)/smear-bench
+	@mkdir -p tools/bench/pictures
+	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
+	cp build/chart/both.svg tools/bench/pictures/chart.svg
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
@@ -137,7 +147,10 @@ SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
 endif
 
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+# The chart without what measures.
+CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
+                 chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)

@@ -62,13 +62,6 @@ static bool same_camera(const smear_camera *a, const smear_camera *b)
         && a->half_height == b->half_height;
 }
 
-/* The camera is not where it was: large parts of the picture may move as one. */
-static bool camera_turns(const struct smear_context *c)
-{
-    return c->camera_moves && !c->frame.cut
-        && (!same_camera(&c->camera_open, &c->camera) || !same_camera(&c->camera_close, &c->camera));
-}
-
 static bool is_mirrored(const smear_transform *t)
 {
     /* Sign of the determinant, in 20-bit entries. */
@@ -357,7 +350,7 @@ static int finish_sharp(struct smear_context *c, int row)
 {
     blend_row(c, row);
     uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c, 0) };
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
     stage_end(c, &c->stats.time_convert, start);
     return smear_band_flush(c, row, job.band);
@@ -462,7 +455,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
     uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c, 0) };
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
     stage_end(c, &c->stats.time_blur, start);
     return smear_band_flush(c, row, job.band);
@@ -519,15 +512,11 @@ static int render_reconstruct(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    smear_timed_begin(c);
-    for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &middle);
-        for (; row < end; row++) {
-            draw_row(c, row);
-            int result = smear_timed_row(c, row, row == end - 1);
-            if (result != SMEAR_OK)
-                return result;
-        }
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        end = assemble_part(c, row, 0, &middle);
+        int result = smear_timed_rows(c, row, end);
+        if (result != SMEAR_OK)
+            return result;
     }
     return SMEAR_OK;
 }
@@ -619,7 +608,7 @@ static void prepare(struct smear_context *c)
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
-                                         c->frame.method == SMEAR_AUTO && !c->desc.sharp && camera_turns(c) };
+                                         c->frame.method == SMEAR_AUTO && !c->desc.sharp };
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){

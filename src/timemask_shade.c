@@ -6,6 +6,7 @@
 
 enum {
     MOST_CHANGE = 1 << 25,      /* of a value in a segment: times 64 it fits */
+    MOST_SLOPE = 1 << 21,
     AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -176,6 +177,10 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     }
     timed_make(&s->depth, &poses, depth[0], depth[1], MOST_CHANGE);
     range_of(&s->depth_low, &s->depth_high, depth[0], depth[1]);
+    int32_t change = s->depth.change + (s->depth.change_dx + s->depth.change_dy) * (TIMEMASK_BLOCK / 2);
+    change = clamp_i32(change >> slots_log2, -MOST_SLOPE, MOST_SLOPE);
+    s->slope[0] = change >> 1;
+    s->slope[1] = change >> 5;
 
     int32_t channel[3][3];
     if (s->gouraud) {

@@ -10,6 +10,8 @@ int command_render(int count, char **text);
 int command_compare(int count, char **text);
 int command_info(int count, char **text);
 int command_view(int count, char **text);
+int command_bench(int count, char **text);
+int command_chart(int count, char **text);
 int command_help(int count, char **text);
 
 /* One that the program will have, but has not yet. */

@@ -13,13 +13,13 @@ static const struct {
     int (*run)(int count, char **text);
 } commands[] = {
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
-    { "view", command_view },
+    { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
 };
 
 bool command_is_planned(const char *name)
 {
-    static const char *const planned[] = { "convert", "bench", "chart", NULL };
+    static const char *const planned[] = { "convert", NULL };
     return read_name(name, planned) >= 0;
 }
 
