@@ -51,7 +51,7 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo readme-pictures test bench chart chart-picture layers tables clean
+.PHONY: all cost-model help demo readme-pictures test bench chart chart-picture layers tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -205,5 +205,23 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+
+## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
+cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
+	$(RUN_BENCH) $< > $(BUILD)/cost.txt
+	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
+
+build/tapes/view_cost: tests/view_cost.c tools/view/cost.c $(TAPES_SRC)
+	@mkdir -p $(@D)
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Itests -o $@ \
+	    $(filter-out tests/target_tapes.c,$^) -lm
+
+build/tapes/cost.c: build/tapes/view_cost
+	build/tapes/view_cost tapes $@ build/tapes/cost.counts
+
+$(BUILD)/build/tapes/cost.o: CFLAGS += -Itests
+
+$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) tests/target_print.c tests/target_bench.c tests/play.c build/tapes/cost.c) $(LIB)
+	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -2,15 +2,12 @@
 /* cost.c - see cost.h. */
 #include "cost.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 const struct cost_core cost_cores[] = {
-    { "cortex-m0plus", 50000, 450, 500, 110, 110, 60, 1.5 },
-    { "cortex-m3", 40000, 250, 300, 70, 70, 35, 1.4 },
-    { "cortex-m7", 40000, 250, 300, 70, 70, 35, 0.9 },
-    { "arm7tdmi", 40000, 300, 350, 80, 80, 45, 3.0 },
-    { "arm926", 40000, 250, 300, 70, 70, 35, 1.6 },
-    { NULL, 0, 0, 0, 0, 0, 0, 0 },
+    { "cortex-m0plus", { 50000, 450, 500, 110, 60, 60, 60 }, 1.5 },
+    { NULL, { 0 }, 0 },
 };
 
 const struct cost_core *cost_find(const char *name)
@@ -21,14 +18,24 @@ const struct cost_core *cost_find(const char *name)
     return NULL;
 }
 
-double cost_instructions(const struct cost_core *core, const smear_stats *s)
+void cost_count(const smear_stats *s, double work[COST_WORKS])
 {
-    return core->frame + core->triangle_in * s->triangles_in +
-           core->triangle_drawn * s->triangles_drawn + core->pixel * s->pixels +
-           core->sample * s->samples;
+    bool accumulates = s->tiles_accumulate > 0, is_timed = s->tiles_subframes + s->tiles_timemask > 0;
+    double instants = accumulates && s->pixels > 0 ? (double)s->samples / s->pixels : 1.0;
+    work[COST_FRAME] = 1.0;
+    work[COST_TRIANGLE_IN] = s->triangles_in * instants;
+    work[COST_TRIANGLE_DRAWN] = s->triangles_drawn;
+    work[COST_PIXEL] = s->pixels;
+    work[COST_TAP] = accumulates || is_timed ? 0.0 : s->samples;
+    work[COST_TIMED] = is_timed ? s->samples : 0.0;
+    work[COST_ACCUMULATED] = accumulates ? s->samples : 0.0;
 }
 
 double cost_us(const struct cost_core *core, double hz, const smear_stats *stats)
 {
-    return cost_instructions(core, stats) * core->cycles_per_instruction * 1e6 / hz;
+    double work[COST_WORKS], instructions = 0.0;
+    cost_count(stats, work);
+    for (int i = 0; i < COST_WORKS; i++)
+        instructions += work[i] * core->instructions[i];
+    return instructions * core->cycles_per_instruction * 1e6 / hz;
 }
