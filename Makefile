@@ -31,14 +31,15 @@ include platform/$(TARGET)/target.mk
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
 LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip geometry path shutter record tiny assemble \
           assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
-          timemask_slots timemask choose window tilemax blur \
-          blur_uniform blur_reconstruct convert jobs context frame smear
+          timemask_slots timemask smooth choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
+          band timed frame smear
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
+VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
@@ -50,9 +51,9 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo readme-pictures test bench layers tables clean
-## the program build/smear and the library (build/host/libsmear.a)
-all: $(BIN)/smear
+.PHONY: all help demo readme-pictures test bench chart chart-picture layers tables clean
+## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
+all: $(BIN)/smear $(BIN)/smear-bench
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -62,7 +63,7 @@ $(LIB): $(call objects,$(LIB_SRC))
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-$(BIN)/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures of real models, in build/demo
@@ -77,11 +78,24 @@ test:
 bench: $(BIN)/smear-bench
 	MAKE="$(MAKE)" sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
 
+## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
+chart: $(BIN)/smear-bench
+	$(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
+
+## the picture of the README again, from the last whole chart
+chart-picture: $(BIN)/smear-bench
+	@mkdir -p tools/bench/pictures
+	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
+	cp build/chart/both.svg tools/bench/pictures/chart.svg
+
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+$(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## pictures of the README again
 readme-pictures: $(BIN)/smear-demo
@@ -123,7 +137,10 @@ SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
 endif
 
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+# The chart without what measures.
+CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
+                 chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'

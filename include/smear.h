@@ -267,7 +267,7 @@ typedef struct smear_stats {
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
     uint32_t tiles_still, tiles_uniform, tiles_complex;
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
-    uint32_t tiles_subframes, tiles_timemask;
+    uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */

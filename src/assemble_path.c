@@ -332,13 +332,13 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
     /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
     int scale = min_i32(cut->projection[MIDDLE].scale,
                         min_i32(cut->projection[OPEN].scale, cut->projection[CLOSE].scale)) - 2;
-    struct smear_homogeneous key[3][KEYS];
+    struct smear_homogeneous at[3][KEYS];
     for (int i = 0; i < 3; i++) {
-        key[i][MIDDLE] = corner[i].now;
-        key[i][OPEN] = corner[i].pose[OPEN];
-        key[i][CLOSE] = corner[i].pose[CLOSE];
+        at[i][MIDDLE] = corner[i].now;
+        at[i][OPEN] = corner[i].pose[OPEN];
+        at[i][CLOSE] = corner[i].pose[CLOSE];
         for (int k = 0; k < KEYS; k++)
-            scale_homogeneous(&key[i][k], cut->projection[k].scale - scale);
+            scale_homogeneous(&at[i][k], cut->projection[k].scale - scale);
     }
     lower_scale(&cut->projection[MIDDLE], scale);
     cut->projection[OPEN] = cut->projection[CLOSE] = cut->projection[MIDDLE];
@@ -352,9 +352,9 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
         int32_t begin = piece * step - 65536;
         for (int i = 0; i < 3; i++) {
             part[i] = corner[i];
-            place_on_way(&part[i].pose[OPEN], key[i], begin);
-            place_on_way(&part[i].now, key[i], begin + step / 2);
-            place_on_way(&part[i].pose[CLOSE], key[i], begin + step);
+            place_on_way(&part[i].pose[OPEN], at[i], begin);
+            place_on_way(&part[i].now, at[i], begin + step / 2);
+            place_on_way(&part[i].pose[CLOSE], at[i], begin + step);
         }
         cut->piece = (uint8_t)(piece + 1);
         if (!add_cut(b, part, cut, face))

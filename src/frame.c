@@ -9,24 +9,11 @@
  *             finish      the row above, which now has neighbours on both sides:
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
-#include "context.h"
+#include "timed.h"
 
-#include "convert.h"
 #include "fixmath.h"
 #include "pixel.h"
 #include "tilemax.h"
-
-/* ------------------------------------------------------------------ time */
-
-static uint32_t now(const struct smear_context *c)
-{
-    return c->desc.clock != NULL ? c->desc.clock(c->desc.user) : 0;
-}
-
-static void charge(const struct smear_context *c, uint32_t *stage, uint32_t start)
-{
-    *stage += now(c) - start;
-}
 
 /* ------------------------------------------------------------------ poses */
 
@@ -236,7 +223,7 @@ static int assemble_part(struct smear_context *c, int first, int before, const s
 {
     int end = c->window.rows;
     int top = max_i32(first - before, 0);
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
         bool last = end - first <= 1;
@@ -250,7 +237,7 @@ static int assemble_part(struct smear_context *c, int first, int before, const s
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
     for (int row = top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
-    charge(c, &c->stats.time_submit, start);
+    stage_end(c, &c->stats.time_submit, start);
     return end;
 }
 
@@ -283,43 +270,6 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
     }
 }
 
-/* Pixel rows of a tile row. */
-static int32_t row_top(const struct smear_context *c, int row)
-{
-    return row * c->geometry.row_px;
-}
-
-static int32_t row_bottom(const struct smear_context *c, int row)
-{
-    return min_i32(row_top(c, row) + c->geometry.row_px, c->window.height);
-}
-
-/* Columns of a raster job: the frame's width in as many equal cuts as there are workers. */
-static void job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1)
-{
-    int32_t unit = max_i32(c->window.tile, 16), n = c->jobs.workers;
-    int32_t units = (c->window.width + unit - 1) / unit;
-    *x0 = min_i32(units * job / n * unit, c->window.width);
-    *x1 = min_i32(units * (job + 1) / n * unit, c->window.width);
-}
-
-static void window_target(const struct smear_context *c, int row, struct smear_raster_target *t)
-{
-    const struct smear_window *w = &c->window;
-    struct smear_plane_rows rows = { w->width, window_slot(w, row_top(c, row)), w->ring, 0 };
-    *t = (struct smear_raster_target){
-        .x0 = 0, .x1 = w->width, .y0 = row_top(c, row), .y1 = row_bottom(c, row),
-        .color = w->color, .color_rows = rows, .depth = w->depth, .window_rows = rows,
-        .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
-    };
-}
-
-struct row_job {
-    struct smear_context *c;
-    int row;
-    uint8_t *band;              /* finished rows */
-};
-
 static void raster_job(void *argument, int job, int worker)
 {
     const struct row_job *r = argument;
@@ -327,8 +277,8 @@ static void raster_job(void *argument, int job, int worker)
     struct smear_window *w = &c->window;
     struct smear_raster_target t;
     (void)worker;
-    window_target(c, r->row, &t);
-    job_columns(c, job, &t.x0, &t.x1);
+    smear_row_target(c, r->row, &t);
+    smear_job_columns(c, job, &t.x0, &t.x1);
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
@@ -346,8 +296,8 @@ static void blend_job(void *argument, int job, int worker)
     const struct row_job *r = argument;
     struct smear_raster_target t;
     (void)worker;
-    window_target(r->c, r->row, &t);
-    job_columns(r->c, job, &t.x0, &t.x1);
+    smear_row_target(r->c, r->row, &t);
+    smear_job_columns(r->c, job, &t.x0, &t.x1);
     if (t.x0 < t.x1)
         smear_raster_list(&r->c->raster, &t, r->c->blend);
 }
@@ -366,14 +316,14 @@ static void inspect_rows(struct smear_context *c, int row)
 static void draw_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
     smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
     if (c->inspect != NULL)
         inspect_rows(c, row);
-    charge(c, &c->stats.time_raster, start);
+    stage_end(c, &c->stats.time_raster, start);
 }
 
 static void blend_row(struct smear_context *c, int row)
@@ -385,79 +335,25 @@ static void blend_row(struct smear_context *c, int row)
     smear_jobs_run(&c->jobs, blend_job, &job, c->jobs.workers);
 }
 
-/* ------------------------------------------------------------------ bands */
-
-static uint8_t *band_buffer(struct smear_context *c)
-{
-    /* With two buffers, the one from two bands ago must have been sent. */
-    while (c->desc.bands == 2
-           && c->bands_handed - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
-        if (c->desc.idle != NULL)
-            c->desc.idle(c->desc.user);
-    uint8_t *band = c->band[c->desc.bands == 2 ? c->bands_handed & 1u : 0];
-    if (c->desc.format == SMEAR_L1_PAGES)
-        __builtin_memset(band, 0, c->band_bytes);
-    return band;
-}
-
-/* The CRC is over what goes to the display; of 32-bit pixels, over their bytes R, G, B. */
-static void add_crc(struct smear_context *c, const uint8_t *band, uint32_t size)
-{
-    if (c->desc.format != SMEAR_XRGB8888) {
-        c->stats.crc32 = smear_crc32(c->stats.crc32, band, size);
-        return;
-    }
-    const uint32_t *pixel = (const uint32_t *)(const void *)band;
-    for (uint32_t i = 0; i < size / 4; i++) {
-        const uint8_t rgb[3] = { (uint8_t)(pixel[i] >> 16), (uint8_t)(pixel[i] >> 8), (uint8_t)pixel[i] };
-        c->stats.crc32 = smear_crc32(c->stats.crc32, rgb, 3);
-    }
-}
-
-static int flush_band(struct smear_context *c, int row, uint8_t *band)
-{
-    smear_format format = (smear_format)c->desc.format;
-    int32_t y = row_top(c, row), height = row_bottom(c, row) - y;
-    smear_band b = {
-        .pixels = band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
-        .stride = smear_convert_stride(c->window.width, format),
-        .size = smear_convert_size(c->window.width, height, format)
-    };
-    if (c->desc.crc)
-        add_crc(c, band, b.size);
-    c->bands_handed++;
-    int result = c->desc.flush(c->desc.user, &b);
-    if (result >= 0)
-        return SMEAR_OK;
-    c->bands_handed--;          /* refused: nobody will report it as sent */
-    return result;
-}
-
 /* ------------------------------------------------------------------ finishing without a filter */
 
 static void convert_job(void *argument, int job, int worker)
 {
     const struct row_job *r = argument;
-    struct smear_context *c = r->c;
-    const struct smear_window *w = &c->window;
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
     int32_t x0, x1;
     (void)worker;
-    job_columns(c, job, &x0, &x1);
-    for (int32_t y = row_top(c, r->row); x0 < x1 && y < row_bottom(c, r->row); y++)
-        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
-                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
+    smear_job_columns(r->c, job, &x0, &x1);
+    smear_band_convert_window(r, x0, x1);
 }
 
 static int finish_sharp(struct smear_context *c, int row)
 {
     blend_row(c, row);
-    uint32_t start = now(c);
-    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    uint32_t start = stage_start(c);
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
-    charge(c, &c->stats.time_convert, start);
-    return flush_band(c, row, job.band);
+    stage_end(c, &c->stats.time_convert, start);
+    return smear_band_flush(c, row, job.band);
 }
 
 /* ------------------------------------------------------------------ finishing with a filter */
@@ -476,22 +372,9 @@ static void reduce_job(void *argument, int column, int worker)
 static void reduce_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
-    charge(c, &c->stats.time_reduce, start);
-}
-
-/* Blended draws over one finished tile. */
-static void blend_tile(struct smear_context *c, int row, int column, uint32_t *tile)
-{
-    const struct smear_window *w = &c->window;
-    struct smear_raster_target t;
-    window_target(c, row, &t);
-    t.x0 = column << w->tile_shift;
-    t.x1 = min_i32(t.x0 + w->tile, w->width);
-    t.color = tile;
-    t.color_rows = (struct smear_plane_rows){ w->tile, 0, w->tile, t.x0 };
-    smear_raster_list(&c->raster, &t, c->blend);
+    stage_end(c, &c->stats.time_reduce, start);
 }
 
 static struct smear_row_table row_table(const struct smear_context *c, int row)
@@ -499,38 +382,21 @@ static struct smear_row_table row_table(const struct smear_context *c, int row)
     return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
 }
 
-static bool is_still(const struct smear_context *c, int row, int column)
+static bool is_still(const struct smear_window *w, int row, int column)
 {
-    return c->assembler.keep_paths ? c->load[column].count == 0 && c->load[column].flags == 0
-                                   : window_around(&c->window, row)[column].kind == TILE_STILL;
+    return window_around(w, row)[column].kind == TILE_STILL;
 }
 
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
-static void convert_still(struct smear_context *c, const struct row_job *r, int column)
+static void convert_still(const struct row_job *r, int column)
 {
-    const struct smear_window *w = &c->window;
-    if (column > 0 && is_still(c, r->row, column - 1))
+    const struct smear_window *w = &r->c->window;
+    if (column > 0 && is_still(w, r->row, column - 1))
         return;
     int end = column + 1;
-    while (end < w->columns && is_still(c, r->row, end))
+    while (end < w->columns && is_still(w, r->row, end))
         end++;
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(end << w->tile_shift, w->width);
-    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++)
-        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
-                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
-}
-
-static void convert_tile(struct smear_context *c, const struct row_job *r, int column, const uint32_t *tile)
-{
-    const struct smear_window *w = &c->window;
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++, tile += w->tile)
-        smear_convert_row(r->band, stride, tile, x1 - x0, x0, y, row_top(c, r->row), format,
-                          (smear_dither)c->desc.dither);
+    smear_band_convert_window(r, tile_left(r->c, column), tile_right(r->c, end - 1));
 }
 
 static void tile_job(void *argument, int column, int worker)
@@ -538,8 +404,8 @@ static void tile_job(void *argument, int column, int worker)
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
-    if (is_still(c, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
-        convert_still(c, r, column);
+    if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
+        convert_still(r, column);
         return;
     }
     struct smear_row_table rows = row_table(c, r->row);
@@ -552,8 +418,8 @@ static void tile_job(void *argument, int column, int worker)
     else
         c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
     if (c->blend != SMEAR_NO_TRIANGLE)
-        blend_tile(c, r->row, column, tile);
-    convert_tile(c, r, column, tile);
+        smear_band_blend_tile(r, column, tile);
+    smear_band_convert_tile(r, column, tile);
 }
 
 static void count_tiles(struct smear_context *c, int row)
@@ -588,128 +454,11 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
-    uint32_t start = now(c);
-    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    uint32_t start = stage_start(c);
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
-    charge(c, &c->stats.time_blur, start);
-    return flush_band(c, row, job.band);
-}
-
-/* ------------------------------------------------------------------ finishing by time */
-
-/* What the row's movers mean for its tiles. */
-static void load_tiles(struct smear_context *c, int32_t x0, int32_t x1, const struct smear_path_bounds *b, uint16_t flags)
-{
-    const struct smear_window *w = &c->window;
-    int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
-    for (int32_t column = first; column <= last; column++) {
-        struct smear_tile_load *load = &c->load[column];
-        load->flags |= flags;
-        if (b == NULL)
-            continue;
-        load->flags |= b->flags;
-        load->travel = (uint16_t)max_i32(load->travel, b->travel);
-        load->bend = (uint16_t)max_i32(load->bend, b->bend);
-        load->count++;
-    }
-}
-
-/* Columns of pixels that a still triangle may cover. */
-static void still_columns(const struct smear_geometry *g, const struct smear_triangle *t, int32_t *x0, int32_t *x1)
-{
-    *x0 = INT32_MAX;
-    *x1 = INT32_MIN;
-    for (int i = 0; i < 3; i++) {
-        int32_t x = geometry_vertex(g, &g->segment[t->segment], t->vertex[i])[VERTEX_X];
-        *x0 = min_i32(*x0, x >> 8);
-        *x1 = max_i32(*x1, (x >> 8) + 1);
-    }
-}
-
-static void list_movers(struct smear_context *c, int row)
-{
-    const struct smear_geometry *g = &c->geometry;
-    int shift = c->window.tile_shift;
-    for (int32_t i = 0; i < c->window.columns; i++)
-        c->load[i] = (struct smear_tile_load){ 0, 0, 0, 0 };
-    c->mover_count = 0;
-    c->moving = smear_geometry_advance(g, g->mover_last, c->moving, row);
-    for (uint32_t i = c->moving; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
-        const struct smear_path_bounds *b = geometry_bounds(g, i);
-        c->mover[c->mover_count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
-                                                           b->nearest };
-        load_tiles(c, b->x0, b->x1, b, 0);
-    }
-    for (uint32_t i = c->blend; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
-        const struct smear_triangle *t = geometry_triangle(g, i);
-        int32_t x0, x1;
-        if (g->segment[t->segment].path) {
-            const struct smear_path_bounds *b = geometry_bounds(g, i);
-            load_tiles(c, b->x0, b->x1, b, TILE_BLENDED);
-        } else {
-            still_columns(g, t, &x0, &x1);
-            load_tiles(c, x0, x1, NULL, TILE_BLENDED);
-        }
-    }
-}
-
-static void timed_job(void *argument, int column, int worker)
-{
-    const struct row_job *r = argument;
-    struct smear_context *c = r->c;
-    const struct smear_window *w = &c->window;
-    uint32_t *out = c->scratch + worker * w->tile * w->tile;
-    struct smear_tile_choice choice;
-    if (is_still(c, r->row, column)) {
-        convert_still(c, r, column);
-        return;
-    }
-    smear_choose(&choice, &c->chooser, &c->load[column]);
-    struct smear_moving_tile tile = {
-        .frame = &c->raster, .shutter = &c->shutter, .mover = c->mover, .mover_count = c->mover_count,
-        .column = column, .blend = c->blend, .out = out, .tile = w->tile,
-        .work = c->work + (uint32_t)worker * c->work_bytes
-    };
-    window_target(c, r->row, &tile.still);
-    tile.still.x0 = column << w->tile_shift;
-    tile.still.x1 = min_i32(tile.still.x0 + w->tile, w->width);
-    if (choice.method == TILE_SUBFRAMES) {
-        c->worker_samples[worker] += smear_subframes_tile(&tile, choice.instants);
-    } else if (choice.method == TILE_TIMEMASK) {
-        c->worker_samples[worker] += smear_timemask_tile(&tile, &choice.timemask);
-    } else {
-        smear_blur_copy(out, w, r->row, column);
-        if (c->load[column].flags & TILE_BLENDED)
-            blend_tile(c, r->row, column, out);
-    }
-    convert_tile(c, r, column, out);
-}
-
-static void count_timed(struct smear_context *c)
-{
-    for (int32_t i = 0; i < c->window.columns; i++) {
-        struct smear_tile_choice choice;
-        smear_choose(&choice, &c->chooser, &c->load[i]);
-        c->stats.tiles_still += choice.method == TILE_COPY;
-        c->stats.tiles_complex += choice.method != TILE_COPY;
-        c->stats.tiles_none += choice.method == TILE_COPY;
-        c->stats.tiles_subframes += choice.method == TILE_SUBFRAMES;
-        c->stats.tiles_timemask += choice.method == TILE_TIMEMASK;
-    }
-}
-
-/* The row's still scene lies in the window. */
-static int finish_timed(struct smear_context *c, int row)
-{
-    if (c->blends)
-        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
-    list_movers(c, row);
-    count_timed(c);
-    uint32_t start = now(c);
-    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
-    smear_jobs_run(&c->jobs, timed_job, &job, c->window.columns);
-    charge(c, &c->stats.time_blur, start);
-    return flush_band(c, row, job.band);
+    stage_end(c, &c->stats.time_blur, start);
+    return smear_band_flush(c, row, job.band);
 }
 
 /* ------------------------------------------------------------------ methods */
@@ -763,14 +512,11 @@ static int render_reconstruct(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &middle);
-        for (; row < end; row++) {
-            draw_row(c, row);
-            int result = finish_timed(c, row);
-            if (result != SMEAR_OK)
-                return result;
-        }
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        end = assemble_part(c, row, 0, &middle);
+        int result = smear_timed_rows(c, row, end);
+        if (result != SMEAR_OK)
+            return result;
     }
     return SMEAR_OK;
 }
@@ -861,7 +607,8 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
-    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
+                                         c->frame.method == SMEAR_AUTO && !c->desc.sharp };
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -908,14 +655,14 @@ static void sum_up(struct smear_context *c)
 
 int smear_frame_render(struct smear_context *c)
 {
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
                : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
                : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
-    charge(c, &c->stats.time_total, start);
+    stage_end(c, &c->stats.time_total, start);
     return result;
 }
 

@@ -556,7 +556,7 @@ usage b info a b
 input missing.glb info missing.glb
 input builtin:nosuch info builtin:nosuch
 
-for command in render compare info help; do
+for command in render compare info bench chart help; do
     claim "help $command" works help $command
     claim "names it" out_has "smear $command"
     claim "$command --help" works $command --help
@@ -572,7 +572,7 @@ for option in size fps time frames clip loop camera eye look fov filter clear sh
     claim "help knows --$option" out_has "--$option"
 done
 usage nosuch help nosuch
-usage view help view
+usage convert help convert
 claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
 
@@ -580,10 +580,17 @@ usage compare help render compare
 
 usage "no command"
 usage frobnicate frobnicate
-for command in view convert bench chart; do
+for command in convert; do
     usage $command $command
     claim "says that it is not built" err_has "not built yet"
 done
+usage --frob chart --frob
+usage nosuch chart --scenes nosuch
+usage nosuch chart --methods nosuch
+usage --jobs chart --jobs
+usage 0 chart --jobs 0
+input nosuch.csv chart --from nosuch.csv
+usage nosuch bench nosuch
 usage render render
 usage two render one two
 usage --frob render "$plate" --frob

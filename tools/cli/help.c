@@ -11,12 +11,15 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear view [SCENE]               in a window or terminal, with live controls\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
+    "    smear bench                      what frames cost, beside the bars set for them\n"
+    "    smear chart                      error against cost of every method\n"
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: view, convert, bench, chart.\n"
+    "Not built yet: convert.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -130,20 +133,54 @@ static const char *const info_help[] = {
     NULL
 };
 
+static const char *const bench_help[] = {
+    "smear bench [REPORT...]\n"
+    "\n"
+    "Instructions per frame (counted by valgrind), picture quality and memory, beside the bars\n"
+    "set for them. Reports: peers, accuracy, methods, threads, memory; all without a name.\n"
+    "`make bench` adds what frames cost on Cortex-M.\n"
+    "\n"
+    "  --strict              exit status 1 when a bar is missed\n",
+    NULL
+};
+
+static const char *const chart_help[] = {
+    "smear chart [options]\n"
+    "\n"
+    "Every method at several settings on the 20 scenes of the suite: error (RMSE, FLIP, SSIM,\n"
+    "flicker against 1024 exact instants), instructions (counted by valgrind) and time against\n"
+    "the sharp frame. Writes chart.csv, tables.md and pictures (object, camera, both, all and\n"
+    "scenes.svg) into build/chart and prints means and bars. What is measured is kept until the\n"
+    "program changes.\n"
+    "\n"
+    "  --scenes A,B          only these scenes; files go to build/chart/part\n"
+    "  --methods A,B         only settings whose names begin so, and none; likewise\n"
+    "  --quick               encoded light, poses at the shutter, no times; likewise\n"
+    "  --from FILE           measures nothing and reports what a chart.csv says\n"
+    "  --out FOLDER          where files go\n"
+    "  --jobs N              processes at a time, 1 to 8 [2]\n"
+    "  --strict              exit status 1 when a bar is missed or not measured\n",
+    NULL
+};
+
 static const char *const help_help[] = {
-    "smear help [render|compare|info]\n",
+    "smear help [render|view|compare|info|bench|chart]\n",
     NULL
 };
 
 int help_print(const char *command)
 {
-    static const char *const names[] = { "render", "compare", "info", "help", NULL };
-    static const char *const *const texts[] = { render_help, compare_help, info_help, help_help };
+    static const char *const names[] = { "render", "compare", "info", "bench", "chart", "help",
+                                         NULL };
+    static const char *const *const texts[] = { render_help, compare_help, info_help, bench_help,
+                                               chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {
         fputs(program_help, stdout);
         return STATUS_OK;
     }
+    if (strcmp(command, "view") == 0)
+        return view_help_print();
     if (found < 0)
         return say_bad_usage(command, command_is_planned(command) ? "not built yet"
                                                                   : "unknown command (smear help)");

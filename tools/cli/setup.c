@@ -8,7 +8,8 @@
 
 static bool is_sharp_method(const struct render_options *o)
 {
-    return o->shutter_degrees == 0 || o->method != SMEAR_RECONSTRUCT;
+    return o->shutter_degrees == 0
+        || (o->method != SMEAR_RECONSTRUCT && o->method != SMEAR_AUTO);
 }
 
 static bool is_timed_method(const struct render_options *o)
