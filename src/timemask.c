@@ -189,8 +189,7 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_run run[TIMEMASK_RUNS];
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose[0], pose[2], slots_log2,
-                         j->settings->tap);
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
     const uint32_t slope[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);

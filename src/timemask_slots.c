@@ -147,7 +147,19 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
     return e;
 }
 
-/* All entries are taken: the two of four that lie closest in depth share one. */
+/* How much it matters that two entries become one: by depths where they meet, and by colours. */
+static uint32_t apart(const struct entry *a, const struct entry *b)
+{
+    struct course ca = course_of(a->held, a->color, a->depth), cb = course_of(b->held, b->color, b->depth);
+    int32_t between = (ca.middle + cb.middle) >> 1;
+    uint32_t deeper = (uint32_t)abs_i32(course_at(&ca, between) - course_at(&cb, between)) >> 5;
+    uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
+                   + distance(pixel_green(a->color), pixel_green(b->color))
+                   + distance(pixel_blue(a->color), pixel_blue(b->color));
+    return (deeper + 16u) * (color + 16u);
+}
+
+/* All entries are taken: the two of four that are most alike share one. */
 static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
     struct entry all[TIMEMASK_ENTRIES + 1];
@@ -157,7 +169,7 @@ static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
         for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
-            uint32_t d = distance(all[i].depth, all[j].depth);
+            uint32_t d = apart(&all[i], &all[j]);
             if (d < least) {
                 least = d;
                 first = i;
