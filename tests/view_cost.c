@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 160, HEIGHT = 120, TRIANGLES = 12000, MAX_FRAMES = 64, ROUNDS = 20000 };
+enum { TRIANGLES = 12000, MAX_FRAMES = 128, ROUNDS = 20000 };
 
 static const char *const scenes[] = { "demo/race", "demo/drone", "suite/arena", "suite/dolly",
                                       "suite/propeller", "suite/swarm", "peer/E", "peer/B64" };
@@ -29,6 +29,9 @@ static const struct {
     { "timemask", SMEAR_TIMEMASK, 0 },   { "auto", SMEAR_AUTO, 0 },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes, METHODS = sizeof methods / sizeof *methods };
+
+/* Of different sizes, or nobody could tell what a frame costs and what its pixels. */
+static const int sizes[][2] = { { 96, 64 }, { 176, 128 } };
 
 /* ------------------------------------------------------------------ tapes */
 
@@ -56,8 +59,8 @@ static bool count(const smear_desc *desc, const struct presented *frame, smear_s
     return result == SMEAR_OK || fail(f, "the library refused a frame (error %d)", result);
 }
 
-static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, FILE *counts,
-                     struct failure *f)
+static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, const int size[2],
+                     FILE *counts, struct failure *f)
 {
     struct scene scene = { 0 };
     char name[64];
@@ -71,7 +74,7 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
     const struct presented *frame = presenter_frame(presenter, scene.time, &o, f);
     bool ok = frame != NULL;
     if (ok) {
-        smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
+        smear_desc desc = presented_desc(frame, size[0], size[1]);
         desc.format = SMEAR_RGB565;
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
@@ -79,14 +82,15 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.timed = methods[m].method >= SMEAR_SUBFRAMES;
         desc.accumulate = methods[m].method == SMEAR_ACCUMULATE;
         desc.flush = throw_away;
-        snprintf(name, sizeof name, "%.7s-%s", strchr(scene_name, '/') + 1, methods[m].name);
+        snprintf(name, sizeof name, "%.5s-%d-%s", strchr(scene_name, '/') + 1, size[0],
+                 methods[m].name);
         name[13] = '\0';                /* the column of target_bench */
         ok = count(&desc, frame, &stats, f) && tape_begin(writer, name, &desc, f) &&
              tape_add(writer, frame, NULL, f);
         cost_count(&stats, work);
         for (int i = 0; i < COST_WORKS && ok; i++)
             fprintf(counts, "%.0f ", work[i]);
-        fprintf(counts, "%s/%s\n", scene_name, methods[m].name);
+        fprintf(counts, "%s/%dx%d/%s\n", scene_name, size[0], size[1], methods[m].name);
     }
     presenter_free(presenter);
     scene_free(&scene);
@@ -99,8 +103,8 @@ static bool write_tapes(const char *path, const char *counts_path, struct failur
     FILE *counts = fopen(counts_path, "w");
     bool ok = writer != NULL && counts != NULL;
     for (int s = 0; s < SCENES && ok; s++)
-        for (int m = 0; m < METHODS && ok; m++)
-            ok = add_tape(writer, scenes[s], m, counts, f);
+        for (int m = 0; m < METHODS * 2 && ok; m++)
+            ok = add_tape(writer, scenes[s], m / 2, sizes[m % 2], counts, f);
     ok = ok && tape_write(writer, path, "view_cost tapes", f);
     tape_writer_free(writer);
     return counts != NULL && fclose(counts) == 0 && ok;
@@ -177,7 +181,7 @@ static bool print_fit(const char *counts_path, const char *bench_path)
     fit(sample, count, cost);
     for (int i = 0; i < count; i++) {
         double error = predicted(&sample[i], cost) / sample[i].instructions - 1.0;
-        printf("%-30s %12.0f instructions, estimated %+5.0f %%\n", sample[i].name,
+        printf("%-40s %12.0f instructions, estimated %+5.0f %%\n", sample[i].name,
                sample[i].instructions, 100.0 * error);
         sum += error * error;
         worst = fmax(worst, fabs(error));

@@ -13,7 +13,9 @@ enum cost_work {
     COST_TRIANGLE_DRAWN,
     COST_PIXEL,                 /* of the frame */
     COST_TAP,                   /* of filters */
-    COST_TIMED,                 /* samples of the time-resolved methods */
+    COST_TIMED_TRIANGLE,        /* drawn by a time-resolved method */
+    COST_SUBFRAMES,             /* samples, shared between these two by tiles */
+    COST_TIMEMASK,
     COST_ACCUMULATED,           /* pixels of instants that are averaged */
     COST_WORKS
 };
