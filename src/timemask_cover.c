@@ -257,22 +257,62 @@ static int32_t row_turning(const struct timemask_cover *c, int32_t y, struct tim
     return count;
 }
 
+/* A plane on its way along a row. */
+struct walk {
+    int32_t at, step;
+};
+
+static inline struct walk walk_start(const struct timemask_plane *p, const struct timemask_cover *c, int32_t y)
+{
+    return (struct walk){ timemask_plane_at(p, c->x0, y), p->dx };
+}
+
+/* Edges that do not turn: runs are those of a convex shape, so the first gap after one ends the row. */
+SMEAR_INLINE int32_t row_plain(const struct timemask_cover *c, int32_t y, struct timemask_run *out, int enters, int leaves,
+                               int stills)
+{
+    const int32_t slots = 1 << c->slots_log2;
+    struct walk enter[3], leave[3], still[3];
+    int32_t count = 0;
+    for (int i = 0; i < enters; i++)
+        enter[i] = walk_start(&c->enter[i], c, y);
+    for (int i = 0; i < leaves; i++)
+        leave[i] = walk_start(&c->leave[i], c, y);
+    for (int i = 0; i < stills; i++)
+        still[i] = walk_start(&c->still[i], c, y);
+    for (int32_t x = c->x0; x < c->x1; x++) {
+        int32_t from = 0, to = slots, outside = 0;
+        for (int i = 0; i < stills; i++) {
+            outside |= still[i].at;
+            still[i].at = add_wrap(still[i].at, still[i].step);
+        }
+        for (int i = 0; i < leaves; i++) {
+            to = min_i32(to, leave[i].at >> SLOT_Q);
+            leave[i].at = add_wrap(leave[i].at, leave[i].step);
+        }
+        for (int i = 0; i < enters; i++) {
+            from = max_i32(from, enter[i].at >> SLOT_Q);
+            enter[i].at = add_wrap(enter[i].at, enter[i].step);
+        }
+        if (from < to && outside >= 0)
+            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)from, (uint8_t)to };
+        else if (count != 0)
+            break;
+    }
+    return count;
+}
+
 int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, struct timemask_run *out)
 {
     if (c->turns != 0)
         return row_turning(c, y, out);
-    int32_t slots = 1 << c->slots_log2, count = 0;
-    for (int32_t x = c->x0; x < c->x1; x++) {
-        int32_t from = 0, to = slots;
-        for (int i = 0; i < c->stills; i++)
-            if (timemask_plane_at(&c->still[i], x, y) < 0)
-                to = 0;
-        for (int i = 0; i < c->leaves; i++)
-            to = min_i32(to, timemask_plane_at(&c->leave[i], x, y) >> SLOT_Q);
-        for (int i = 0; i < c->enters; i++)
-            from = max_i32(from, timemask_plane_at(&c->enter[i], x, y) >> SLOT_Q);
-        if (from < to)
-            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)from, (uint8_t)to };
+    switch (c->enters << 4 | c->leaves << 2 | c->stills) {
+    case 0x00: return row_plain(c, y, out, 0, 0, 0);
+    case 0x04: return row_plain(c, y, out, 0, 1, 0);
+    case 0x10: return row_plain(c, y, out, 1, 0, 0);
+    case 0x14: return row_plain(c, y, out, 1, 1, 0);
+    case 0x18: return row_plain(c, y, out, 1, 2, 0);
+    case 0x24: return row_plain(c, y, out, 2, 1, 0);
+    default:   return row_plain(c, y, out, c->enters, c->leaves, c->stills);
     }
-    return count;
 }
