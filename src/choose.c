@@ -12,10 +12,10 @@ static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
     return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
 }
 
-static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t tap)
+static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap)
 {
     choice->method = TILE_TIMEMASK;
-    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, tap };
+    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap };
 }
 
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
@@ -29,7 +29,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->instants = instants_for(load, chooser->samples);
     } else if (chooser->method == SMEAR_TIMEMASK) {
         if (closed_form) {
-            choose_timemask(choice, chooser->samples, 64, 256);
+            choose_timemask(choice, chooser->samples, 16, 6, 256);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
@@ -41,7 +41,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->taps = max_i32(load->travel >> 4, 8);
     } else if (closed_form) {
         choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
-                        min_i32(chooser->target, 128), 512);
+                        min_i32(chooser->target, 128), chooser->target >= SMEAR_BALANCED ? 2 : 5, 512);
     } else {
         choice->method = TILE_SUBFRAMES;
         choice->instants = instants_for(load, chooser->target >= SMEAR_BALANCED ? 16 : 32);

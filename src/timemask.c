@@ -185,7 +185,7 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_cover c;
     struct timemask_shade s;
     struct timemask_run run[TIMEMASK_RUNS];
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2))
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose[0], pose[2], slots_log2,
                          j->settings->tap);

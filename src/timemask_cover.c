@@ -5,7 +5,6 @@
 enum {
     SLOT_Q = 14,                /* fraction bits of slots in planes */
     HALF = TIMEMASK_BLOCK / 2,
-    OFF_LOG2 = 10              /* px of contrast squared, per px of an edge, that planes may cost: 1/1024 */
 };
 
 /* ------------------------------------------------------------------ edges */
@@ -112,7 +111,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     if (size + h + bows <= length >> 7) {       /* moves by less than 1/128 px */
         struct timemask_plane p = { (start.at + end.at) >> 1, mx >> 1, my >> 1 };
         c->still[c->stills++] = reversed ? other_side(&p) : p;
-    } else if (((int64_t)off * off << OFF_LOG2) <= (int64_t)length * size && size >= length >> 7) {
+    } else if (((int64_t)off * off << c->edge) <= (int64_t)length * size && size >= length >> 7) {
         /* The crossing lies at n (1/2 + mean / difference), where the difference is taken as constant. That is off by
          * off / length: a part off / size of the contrast over size / length pixels. */
         int zeros = count_leading_zeros((uint32_t)size);
@@ -143,7 +142,7 @@ static int64_t area_of(const struct timemask_pose *p)
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2)
+                          int32_t height, int32_t slots_log2, int32_t edge)
 {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int k = 0; k < 3; k++)
@@ -161,6 +160,7 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
         || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
         return false;
     c->slots_log2 = slots_log2;
+    c->edge = edge;
     c->enters = c->leaves = c->stills = c->turns = 0;
     return edge_add(c, pose, 0, 1) && edge_add(c, pose, 1, 2) && edge_add(c, pose, 2, 0);
 }

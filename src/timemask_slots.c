@@ -114,7 +114,7 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
 {
     struct entry all[TIMEMASK_ENTRIES + 1];
     for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-        all[e] = entry_at(b, e * b->pixels + pixel);
+        all[e] = entry_at(b, pixel * TIMEMASK_ENTRIES + e);
     all[TIMEMASK_ENTRIES] = *fresh;
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
@@ -127,9 +127,9 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
             }
         }
     struct entry joined = entry_join(&all[first], &all[second], b->linear);
-    entry_put(b, first * b->pixels + pixel, &joined);
+    entry_put(b, pixel * TIMEMASK_ENTRIES + first, &joined);
     if (second != TIMEMASK_ENTRIES)
-        entry_put(b, second * b->pixels + pixel, fresh);
+        entry_put(b, pixel * TIMEMASK_ENTRIES + second, fresh);
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -144,36 +144,37 @@ void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t
                               int32_t slope)
 {
     const int32_t last_slot = (1 << b->slots_log2) - 1;
-    uint32_t *held = b->held + pixel, occupied = 0;
+    uint32_t *const held = b->held + pixel * TIMEMASK_ENTRIES, *const colors = b->color + pixel * TIMEMASK_ENTRIES;
+    uint16_t *const depths = b->depth + pixel * TIMEMASK_ENTRIES;
+    uint32_t occupied = 0;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
-        occupied |= held[i * b->pixels];
+        occupied |= held[i];
     if ((occupied & mask) != 0) {
         for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
-            uint32_t at = i * b->pixels, both = held[at] & mask;
+            uint32_t both = held[i] & mask;
             if (both == 0)
                 continue;
-            int32_t apart = ((int32_t)depth - (int32_t)b->depth[at + pixel]) * 32;
-            int32_t turn = slope - timemask_slope_of(b->color[at + pixel]), most = abs_i32(turn) * last_slot;
+            int32_t apart = ((int32_t)depth - (int32_t)depths[i]) * 32;
+            int32_t turn = slope - timemask_slope_of(colors[i]), most = abs_i32(turn) * last_slot;
             uint32_t taken = apart > most ? both : apart <= -most ? 0 : nearer_slots(apart, turn, both, last_slot);
             mask &= ~both | taken;
-            held[at] &= ~taken;
+            held[i] &= ~taken;
         }
         if (mask == 0)
             return;
     }
     uint32_t free = TIMEMASK_ENTRIES;
     for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0;) {
-        uint32_t at = i * b->pixels;
-        if (held[at] == 0) {
+        if (held[i] == 0) {
             free = i;
-        } else if (b->color[at + pixel] << 8 == color << 8 && is_level(b->depth[at + pixel], depth)) {
-            held[at] |= mask;
+        } else if (colors[i] << 8 == color << 8 && is_level(depths[i], depth)) {
+            held[i] |= mask;
             return;
         }
     }
     struct entry fresh = { mask, color, depth };
     if (free < TIMEMASK_ENTRIES)
-        entry_put(b, free * b->pixels + pixel, &fresh);
+        entry_put(b, pixel * TIMEMASK_ENTRIES + free, &fresh);
     else
         merge(b, pixel, &fresh);
 }
@@ -183,7 +184,7 @@ static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint
 {
     uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, half = rest >> 1;
     for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
-        uint32_t at = e * b->pixels + pixel;
+        uint32_t at = pixel * TIMEMASK_ENTRIES + e;
         uint32_t n = e < TIMEMASK_ENTRIES ? count_bits(b->held[at]) : rest, color = e < TIMEMASK_ENTRIES ? b->color[at] : still;
         rest -= n;
         if (n == 0)
@@ -201,7 +202,7 @@ uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixe
 {
     const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
     uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
-    for (uint32_t at = pixel, e = 0; e < TIMEMASK_ENTRIES; e++, at += b->pixels) {
+    for (uint32_t at = pixel * TIMEMASK_ENTRIES, end = at + TIMEMASK_ENTRIES; at < end; at++) {
         uint32_t held = b->held[at];
         if (held == 0)
             continue;

@@ -13,7 +13,7 @@
 
 enum { TIMEMASK_ENTRIES = 3 };
 
-/* Entries of a block: e of pixel p at e * pixels + p, rows TIMEMASK_BLOCK apart. */
+/* Entries of a block: e of pixel p at p * TIMEMASK_ENTRIES + e, rows TIMEMASK_BLOCK apart. */
 struct timemask_slots {
     uint32_t *held;             /* a bit per slot, 0: free */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
