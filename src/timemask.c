@@ -187,8 +187,7 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_run run[TIMEMASK_RUNS];
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose[0], pose[2], slots_log2,
-                         j->settings->tap);
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
     /* Slopes as they are kept, below and from code 32768; and how far the middle of the exposure is off. */
     const uint32_t kept[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
     const int32_t slope[2] = { timemask_slope_of(kept[0]), timemask_slope_of(kept[1]) };

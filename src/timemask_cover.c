@@ -111,7 +111,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     if (size + h + bows <= length >> 7) {       /* moves by less than 1/128 px */
         struct timemask_plane p = { (start.at + end.at) >> 1, mx >> 1, my >> 1 };
         c->still[c->stills++] = reversed ? other_side(&p) : p;
-    } else if (((int64_t)off * off << c->edge) <= (int64_t)length * size && size >= length >> 7) {
+    } else if ((int64_t)off * off <= (int64_t)length * size >> c->edge && size >= length >> 7) {
         /* The crossing lies at n (1/2 + mean / difference), where the difference is taken as constant. That is off by
          * off / length: a part off / size of the contrast over size / length pixels. */
         int zeros = count_leading_zeros((uint32_t)size);

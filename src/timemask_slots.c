@@ -109,7 +109,16 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
     return e;
 }
 
-/* All entries are taken: the two of four that lie closest in depth share one. */
+/* How much it matters that two entries become one: by depths, and by colours. */
+static uint32_t unlikeness(const struct entry *a, const struct entry *b)
+{
+    uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
+                   + distance(pixel_green(a->color), pixel_green(b->color))
+                   + distance(pixel_blue(a->color), pixel_blue(b->color));
+    return (distance(a->depth, b->depth) + 16u) * (color + 16u);
+}
+
+/* All entries are taken: the two of four that are most alike share one. */
 static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
     struct entry all[TIMEMASK_ENTRIES + 1];
@@ -119,7 +128,7 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
         for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
-            uint32_t d = distance(all[i].depth, all[j].depth);
+            uint32_t d = unlikeness(&all[i], &all[j]);
             if (d < least) {
                 least = d;
                 first = i;

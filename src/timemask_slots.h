@@ -3,7 +3,7 @@
  *
  * A pixel has three entries, each with the slots it holds, a colour, and a depth code that goes evenly with time. A slot is
  * in at most one entry: the nearer of two takes it. What no entry holds shows the still scene. When a fourth is needed,
- * the two nearest to each other in depth become one, coloured by their shares. */
+ * the two most alike become one, coloured by their shares. */
 #ifndef SMEAR_TIMEMASK_SLOTS_H
 #define SMEAR_TIMEMASK_SLOTS_H
 
