@@ -267,7 +267,8 @@ static inline struct walk walk_start(const struct timemask_plane *p, const struc
     return (struct walk){ timemask_plane_at(p, c->x0, y), p->dx };
 }
 
-/* Edges that do not turn: runs are those of a convex shape, so the first gap after one ends the row. */
+/* Edges that do not turn: what is covered at some time is convex, so the first gap after it ends the row. Runs shorter than
+ * a slot may hold the middle of none. */
 SMEAR_INLINE int32_t row_plain(const struct timemask_cover *c, int32_t y, struct timemask_run *out, int enters, int leaves,
                                int stills)
 {
@@ -281,22 +282,22 @@ SMEAR_INLINE int32_t row_plain(const struct timemask_cover *c, int32_t y, struct
     for (int i = 0; i < stills; i++)
         still[i] = walk_start(&c->still[i], c, y);
     for (int32_t x = c->x0; x < c->x1; x++) {
-        int32_t from = 0, to = slots, outside = 0;
+        int32_t from = 0, to = slots << SLOT_Q, outside = 0;
         for (int i = 0; i < stills; i++) {
             outside |= still[i].at;
             still[i].at = add_wrap(still[i].at, still[i].step);
         }
         for (int i = 0; i < leaves; i++) {
-            to = min_i32(to, leave[i].at >> SLOT_Q);
+            to = min_i32(to, leave[i].at);
             leave[i].at = add_wrap(leave[i].at, leave[i].step);
         }
         for (int i = 0; i < enters; i++) {
-            from = max_i32(from, enter[i].at >> SLOT_Q);
+            from = max_i32(from, enter[i].at);
             enter[i].at = add_wrap(enter[i].at, enter[i].step);
         }
-        if (from < to && outside >= 0)
-            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)from, (uint8_t)to };
-        else if (count != 0)
+        if (from >> SLOT_Q < to >> SLOT_Q && outside >= 0)
+            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)(from >> SLOT_Q), (uint8_t)(to >> SLOT_Q) };
+        else if (count != 0 && (from >= to || outside < 0))
             break;
     }
     return count;
