@@ -22,7 +22,11 @@ trap '' PIPE
 cd "$base" || exit 1
 race=builtin:demo/race
 
-package=$(apt-cache depends linux-image-amd64 | awk '/Depends: linux-image/ { print $2; exit }')
+find_package() {
+    package=$(apt-cache depends linux-image-amd64 2>/dev/null | awk '/Depends: linux-image/ { print $2; exit }')
+    [ -n "$package" ]
+}
+find_package || { apt-get update -qq && find_package; } || { echo "no kernel package"; exit 1; }
 if [ ! -d "$work/$package" ]; then
     (cd "$work" && apt-get download "$package" >download.log 2>&1 && dpkg -x "$package"_*.deb "$package.new" &&
         rm "$package"_*.deb && mv "$package.new" "$package") || { cat "$work/download.log"; exit 1; }
