@@ -521,10 +521,13 @@ static int render_timed(struct smear_context *c)
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     smear_timed_begin(c);
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &middle);
+        bool waits = c->chooser.has_window && row > 0;      /* the row above */
+        int end = assemble_part(c, row, waits ? 1 : 0, &middle);
+        if (waits)
+            smear_timed_resume(c, row - 1);
         for (; row < end; row++) {
             draw_row(c, row);
-            int result = smear_timed_row(c, row, row == end - 1);
+            int result = smear_timed_row(c, row);
             if (result != SMEAR_OK)
                 return result;
         }

@@ -312,13 +312,25 @@ void smear_timed_begin(struct smear_context *c)
     c->held = NULL;
 }
 
-int smear_timed_row(struct smear_context *c, int row, bool last)
+/* The lists of the row. */
+static void list(struct smear_context *c, int row)
 {
-    uint32_t start = stage_start(c);
-    int result = SMEAR_OK;
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
     list_movers(c, row);
+}
+
+void smear_timed_resume(struct smear_context *c, int row)
+{
+    list(c, row);
+}
+
+int smear_timed_row(struct smear_context *c, int row)
+{
+    uint32_t start = stage_start(c);
+    int result = SMEAR_OK;
+    bool last = row == c->window.rows - 1;
+    list(c, row);
     struct row_job job = { c, row, smear_band_begin(c, c->held != NULL) };
     if (c->chooser.has_window)
         for (int32_t i = 0; i < c->window.columns; i++)

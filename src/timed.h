@@ -8,9 +8,12 @@
 /* Before the rows of a frame. */
 void smear_timed_begin(struct smear_context *c);
 
+/* Another part of the frame begins below `row`, which still waits: its triangles have been assembled again. */
+void smear_timed_resume(struct smear_context *c, int row);
+
 /* The row's still scene has been drawn into the window: what moves in it is listed, and what can be finished is. Without
  * a window that is the whole row, which is handed out; with one, movers are then drawn into it, and the row above is handed
- * out. `last`: the row below belongs to another part of the frame, or there is none. Returns as smear_band_flush. */
-int smear_timed_row(struct smear_context *c, int row, bool last);
+ * out, too after the frame's last row. Returns as smear_band_flush. */
+int smear_timed_row(struct smear_context *c, int row);
 
 #endif
