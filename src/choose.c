@@ -34,11 +34,11 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
         }
-    } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED | TILE_STILL_SEEN)) == 0
-               && load->travel >= 2 * 16) {
+    } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0
+               && load->travel >= 8 * 16) {
         choice->method = TILE_SMOOTH;
-        choice->tolerance = min_i32(chooser->target * 2, 256);
-        choice->taps = load->travel >> (chooser->target >= SMEAR_BALANCED ? 5 : 4);
+        choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);
+        choice->taps = max_i32(load->travel >> 4, 8);
     } else if (closed_form) {
         choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
                         min_i32(chooser->target, 128), 512);

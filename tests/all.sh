@@ -94,6 +94,10 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
+        suite target-gba $make -s TARGET=gba target-test
+        suite demo-gba $make -s TARGET=gba demo-test
+    fi
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
