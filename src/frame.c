@@ -614,7 +614,8 @@ static void prepare(struct smear_context *c)
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
-                                         c->frame.method == SMEAR_AUTO && !c->desc.sharp };
+                                         false };
+    bool textured = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -640,8 +641,11 @@ static void prepare(struct smear_context *c)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }
+    c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
+                         && (textured || c->frame.target >= SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)

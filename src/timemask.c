@@ -164,19 +164,17 @@ static inline uint32_t still_at(const struct smear_plane_rows *r, const struct s
     return (uint32_t)(slot * r->stride + x - r->x0);
 }
 
-/* The slots of a run of slots in which it is nearer than the still scene; `code` goes on to their middle. */
-static uint32_t in_front(uint32_t mask, uint32_t *code, int32_t slope, uint32_t still)
+/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much nearer it is
+ * in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
+static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, int32_t from, int32_t count)
 {
-    int32_t first = 31 - count_leading_zeros(mask & (0u - mask)), count = 32 - count_leading_zeros(mask) - first;
-    int32_t begin = ((int32_t)*code - (int32_t)still) * 32 - slope * (count - 1), end = begin + 2 * slope * (count - 1);
+    int32_t end = begin + 2 * slope * (count - 1);
     if (begin > 0 && end > 0)
-        return mask;
+        return UINT32_MAX >> (32 - count) << from;
     if (begin <= 0 && end <= 0)
         return 0;
     int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
-    int32_t from = begin > 0 ? 0 : before, to = begin > 0 ? before : count;
-    *code = (uint32_t)clamp_i32((int32_t)*code + (slope * (from + to - count) >> 5), 0, 65535);
-    return (UINT32_MAX >> (32 - (to - from))) << (first + from);
+    return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
 
 /* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
@@ -187,21 +185,37 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_cover c;
     struct timemask_shade s;
     struct timemask_run run[TIMEMASK_RUNS];
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2))
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
-    const uint32_t slope[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
+    /* Slopes as they are kept, below and from code 32768; and how far the middle of the exposure is off. */
+    const uint32_t kept[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
+    const int32_t slope[2] = { timemask_slope_of(kept[0]), timemask_slope_of(kept[1]) };
+    const int32_t last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first;
+    const bool plain = !s.gouraud && s.sampler == NULL;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
-            uint32_t mask = (UINT32_MAX >> (32 - (run[i].to - run[i].from))) << (first + run[i].from);
-            uint32_t code = timemask_depth(&s, y, &run[i]);
-            mask = in_front(mask, &code, s.slope[code >> 15], depth[run[i].x]);
+            const struct timemask_run *r = &run[i];
+            int32_t count = r->to - r->from;
+            uint32_t code = timemask_depth(&s, y, r), high = code >> 15;
+            int32_t apart = ((int32_t)code - (int32_t)depth[r->x]) * 32, most = abs_i32(slope[high]) * (count - 1);
+            if (apart <= -most)
+                continue;
+            uint32_t mask = UINT32_MAX >> (32 - count) << (first + r->from);
+            if (apart <= most)
+                mask = slots_before_still(apart - slope[high] * (count - 1), slope[high], first + r->from, count);
             if (mask == 0)
                 continue;
-            uint32_t color = s.gouraud || s.sampler != NULL ? smear_timemask_color(&s, y, &run[i]) : s.color;
-            smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + run[i].x), mask, color | slope[code >> 15], code);
+            /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
+            int32_t middle = (int32_t)code + (slope[high] * (last_slot - (r->from + r->to - 1)) >> 5);
+            uint32_t color = plain ? s.color : smear_timemask_color(&s, y, r);
+            if ((uint32_t)middle < 65536u)
+                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color | kept[high],
+                                         (uint32_t)middle, slope[high]);
+            else
+                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color, code, 0);
             j->fragments++;
         }
     }
@@ -257,10 +271,8 @@ static void finish_block(const struct job *j)
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
         uint32_t *out = t->out + (j->y + y - still->y0) * t->tile + (j->x - still->x0);
         for (int32_t x = 0; x < j->width; x++) {
-            uint32_t at = (uint32_t)(y * TIMEMASK_BLOCK + x), held = 0;
-            for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-                held |= j->slots.held[e * j->slots.pixels + at];
-            out[x] = held == 0 ? color[x] : smear_timemask_slots_mean(&j->slots, at, color[x]);
+            uint32_t at = (uint32_t)(y * TIMEMASK_BLOCK + x);
+            out[x] = smear_timemask_slots_mean(&j->slots, at, color[x]);
         }
     }
 }

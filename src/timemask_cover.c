@@ -5,7 +5,6 @@
 enum {
     SLOT_Q = 14,                /* fraction bits of slots in planes */
     HALF = TIMEMASK_BLOCK / 2,
-    OFF_LOG2 = 10              /* px of contrast squared, per px of an edge, that planes may cost: 1/1024 */
 };
 
 /* ------------------------------------------------------------------ edges */
@@ -112,7 +111,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     if (size + h + bows <= length >> 7) {       /* moves by less than 1/128 px */
         struct timemask_plane p = { (start.at + end.at) >> 1, mx >> 1, my >> 1 };
         c->still[c->stills++] = reversed ? other_side(&p) : p;
-    } else if ((int64_t)off * off <= (int64_t)length * size >> OFF_LOG2 && size >= length >> 7) {
+    } else if ((int64_t)off * off <= (int64_t)length * size >> c->edge && size >= length >> 7) {
         /* The crossing lies at n (1/2 + mean / difference), where the difference is taken as constant. That is off by
          * off / length: a part off / size of the contrast over size / length pixels. */
         int zeros = count_leading_zeros((uint32_t)size);
@@ -143,7 +142,7 @@ static int64_t area_of(const struct timemask_pose *p)
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2)
+                          int32_t height, int32_t slots_log2, int32_t edge)
 {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int k = 0; k < 3; k++)
@@ -161,6 +160,7 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
         || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
         return false;
     c->slots_log2 = slots_log2;
+    c->edge = edge;
     c->enters = c->leaves = c->stills = c->turns = 0;
     return edge_add(c, pose, 0, 1) && edge_add(c, pose, 1, 2) && edge_add(c, pose, 2, 0);
 }
@@ -257,22 +257,63 @@ static int32_t row_turning(const struct timemask_cover *c, int32_t y, struct tim
     return count;
 }
 
+/* A plane on its way along a row. */
+struct walk {
+    int32_t at, step;
+};
+
+static inline struct walk walk_start(const struct timemask_plane *p, const struct timemask_cover *c, int32_t y)
+{
+    return (struct walk){ timemask_plane_at(p, c->x0, y), p->dx };
+}
+
+/* Edges that do not turn: what is covered at some time is convex, so the first gap after it ends the row. Runs shorter than
+ * a slot may hold the middle of none. */
+SMEAR_INLINE int32_t row_plain(const struct timemask_cover *c, int32_t y, struct timemask_run *out, int enters, int leaves,
+                               int stills)
+{
+    const int32_t slots = 1 << c->slots_log2;
+    struct walk enter[3], leave[3], still[3];
+    int32_t count = 0;
+    for (int i = 0; i < enters; i++)
+        enter[i] = walk_start(&c->enter[i], c, y);
+    for (int i = 0; i < leaves; i++)
+        leave[i] = walk_start(&c->leave[i], c, y);
+    for (int i = 0; i < stills; i++)
+        still[i] = walk_start(&c->still[i], c, y);
+    for (int32_t x = c->x0; x < c->x1; x++) {
+        int32_t from = 0, to = slots << SLOT_Q, outside = 0;
+        for (int i = 0; i < stills; i++) {
+            outside |= still[i].at;
+            still[i].at = add_wrap(still[i].at, still[i].step);
+        }
+        for (int i = 0; i < leaves; i++) {
+            to = min_i32(to, leave[i].at);
+            leave[i].at = add_wrap(leave[i].at, leave[i].step);
+        }
+        for (int i = 0; i < enters; i++) {
+            from = max_i32(from, enter[i].at);
+            enter[i].at = add_wrap(enter[i].at, enter[i].step);
+        }
+        if (from >> SLOT_Q < to >> SLOT_Q && outside >= 0)
+            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)(from >> SLOT_Q), (uint8_t)(to >> SLOT_Q) };
+        else if (count != 0 && (from >= to || outside < 0))
+            break;
+    }
+    return count;
+}
+
 int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, struct timemask_run *out)
 {
     if (c->turns != 0)
         return row_turning(c, y, out);
-    int32_t slots = 1 << c->slots_log2, count = 0;
-    for (int32_t x = c->x0; x < c->x1; x++) {
-        int32_t from = 0, to = slots;
-        for (int i = 0; i < c->stills; i++)
-            if (timemask_plane_at(&c->still[i], x, y) < 0)
-                to = 0;
-        for (int i = 0; i < c->leaves; i++)
-            to = min_i32(to, timemask_plane_at(&c->leave[i], x, y) >> SLOT_Q);
-        for (int i = 0; i < c->enters; i++)
-            from = max_i32(from, timemask_plane_at(&c->enter[i], x, y) >> SLOT_Q);
-        if (from < to)
-            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)from, (uint8_t)to };
+    switch (c->enters << 4 | c->leaves << 2 | c->stills) {
+    case 0x00: return row_plain(c, y, out, 0, 0, 0);
+    case 0x04: return row_plain(c, y, out, 0, 1, 0);
+    case 0x10: return row_plain(c, y, out, 1, 0, 0);
+    case 0x14: return row_plain(c, y, out, 1, 1, 0);
+    case 0x18: return row_plain(c, y, out, 1, 2, 0);
+    case 0x24: return row_plain(c, y, out, 2, 1, 0);
+    default:   return row_plain(c, y, out, c->enters, c->leaves, c->stills);
     }
-    return count;
 }

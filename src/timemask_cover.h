@@ -35,6 +35,7 @@ static inline int32_t timemask_plane_at(const struct timemask_plane *p, int32_t 
 struct timemask_cover {
     int32_t x0, y0, x1, y1;     /* pixels of the block that may be covered */
     int32_t slots_log2;         /* of the segment */
+    int32_t edge;               /* see struct smear_timemask_settings */
     uint8_t enters, leaves, stills, turns;      /* edges of each kind; those inside everywhere are in none */
     struct timemask_plane enter[3], leave[3];   /* slots q14, 1/2 added: the run starts, ends at its integer part */
     struct timemask_plane still[3];             /* inside is >= 0 */
@@ -51,9 +52,9 @@ struct timemask_run {
 };
 
 /* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that begins, is halfway
- * and ends at the poses. */
+ * and ends at the poses. `edge` as in struct smear_timemask_settings. */
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2);
+                          int32_t height, int32_t slots_log2, int32_t edge);
 
 enum { TIMEMASK_RUNS = 4 * TIMEMASK_BLOCK };        /* three edges that bow in and out again */
 

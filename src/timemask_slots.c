@@ -35,49 +35,12 @@ uint32_t smear_timemask_slope(int32_t slope)
     return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
 }
 
-static inline int32_t first_of(uint32_t mask)
+/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of the exposure
+ * less b's, in 1/32, `slope` a's slope less b's. */
+static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
 {
-    return 31 - count_leading_zeros(mask & (0u - mask));
-}
-
-static inline int32_t last_of(uint32_t mask)
-{
-    return 31 - count_leading_zeros(mask);
-}
-
-/* Twice the middle. */
-static inline int32_t middle_of(uint32_t mask)
-{
-    return first_of(mask) + last_of(mask);
-}
-
-/* A depth code, in 1/32, goes by twice its slope per slot. */
-struct course {
-    int32_t depth, slope, middle;
-};
-
-static inline struct course course_of(uint32_t mask, uint32_t color, uint32_t depth)
-{
-    return (struct course){ (int32_t)depth * 32, timemask_slope_of(color), middle_of(mask) };
-}
-
-static inline int32_t course_at(const struct course *c, int32_t twice_slot)
-{
-    return c->depth + c->slope * (twice_slot - c->middle);
-}
-
-/* As it is kept for other slots. */
-static inline uint32_t course_code(const struct course *c, uint32_t mask)
-{
-    return (uint32_t)clamp_i32((course_at(c, middle_of(mask)) + 16) >> 5, 0, 65535);
-}
-
-/* Slots of `both` in which a is nearer than b. */
-static uint32_t nearer(const struct course *a, const struct course *b, uint32_t both)
-{
-    int32_t first = first_of(both), last = last_of(both);
-    int32_t begin = course_at(a, 2 * first) - course_at(b, 2 * first);
-    int32_t end = course_at(a, 2 * last) - course_at(b, 2 * last);
+    int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
+    int32_t begin = depth + slope * (2 * first - last_slot), end = depth + slope * (2 * last - last_slot);
     if (begin > 0 && end > 0)
         return both;
     if (begin <= 0 && end <= 0)
@@ -139,37 +102,33 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
 {
     uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
     const struct entry *longer = wa < wb ? b : a;
-    struct course course = course_of(longer->held, longer->color, longer->depth);
     struct entry e;
     e.held = a->held | b->held;
     e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
-    e.depth = course_code(&course, e.held);
+    e.depth = longer->depth;
     return e;
 }
 
-/* How much it matters that two entries become one: by depths where they meet, and by colours. */
-static uint32_t apart(const struct entry *a, const struct entry *b)
+/* How much it matters that two entries become one: by depths, and by colours. */
+static uint32_t unlikeness(const struct entry *a, const struct entry *b)
 {
-    struct course ca = course_of(a->held, a->color, a->depth), cb = course_of(b->held, b->color, b->depth);
-    int32_t between = (ca.middle + cb.middle) >> 1;
-    uint32_t deeper = (uint32_t)abs_i32(course_at(&ca, between) - course_at(&cb, between)) >> 5;
     uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
                    + distance(pixel_green(a->color), pixel_green(b->color))
                    + distance(pixel_blue(a->color), pixel_blue(b->color));
-    return (deeper + 16u) * (color + 16u);
+    return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
 /* All entries are taken: the two of four that are most alike share one. */
-static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
+static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
     struct entry all[TIMEMASK_ENTRIES + 1];
     for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-        all[e] = entry_at(b, e * b->pixels + pixel);
+        all[e] = entry_at(b, pixel * TIMEMASK_ENTRIES + e);
     all[TIMEMASK_ENTRIES] = *fresh;
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
         for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
-            uint32_t d = apart(&all[i], &all[j]);
+            uint32_t d = unlikeness(&all[i], &all[j]);
             if (d < least) {
                 least = d;
                 first = i;
@@ -177,9 +136,9 @@ static void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *
             }
         }
     struct entry joined = entry_join(&all[first], &all[second], b->linear);
-    entry_put(b, first * b->pixels + pixel, &joined);
+    entry_put(b, pixel * TIMEMASK_ENTRIES + first, &joined);
     if (second != TIMEMASK_ENTRIES)
-        entry_put(b, second * b->pixels + pixel, fresh);
+        entry_put(b, pixel * TIMEMASK_ENTRIES + second, fresh);
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -190,65 +149,82 @@ static inline bool is_level(uint32_t a, uint32_t b)
     return distance(a, b) <= a >> 6;
 }
 
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth)
+void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth,
+                              int32_t slope)
 {
-    uint32_t free = TIMEMASK_ENTRIES, same = TIMEMASK_ENTRIES;
-    struct entry fresh = { mask, color, depth };
-    struct course course = course_of(mask, color, depth);
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
-        uint32_t at = i * b->pixels + pixel, both = b->held[at] & fresh.held;
-        if (both != 0) {
-            struct course old = course_of(b->held[at], b->color[at], b->depth[at]);
-            uint32_t taken = nearer(&course, &old, both);
-            fresh.held &= ~(both & ~taken);
-            if (taken != 0) {
-                b->held[at] &= ~taken;
-                if (b->held[at] != 0)
-                    b->depth[at] = (uint16_t)course_code(&old, b->held[at]);
-            }
+    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    uint32_t *const held = b->held + pixel * TIMEMASK_ENTRIES, *const colors = b->color + pixel * TIMEMASK_ENTRIES;
+    uint16_t *const depths = b->depth + pixel * TIMEMASK_ENTRIES;
+    uint32_t occupied = 0;
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
+        occupied |= held[i];
+    if ((occupied & mask) != 0) {
+        for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
+            uint32_t both = held[i] & mask;
+            if (both == 0)
+                continue;
+            int32_t apart = ((int32_t)depth - (int32_t)depths[i]) * 32;
+            int32_t turn = slope - timemask_slope_of(colors[i]), most = abs_i32(turn) * last_slot;
+            uint32_t taken = apart > most ? both : apart <= -most ? 0 : nearer_slots(apart, turn, both, last_slot);
+            mask &= ~both | taken;
+            held[i] &= ~taken;
         }
-        if (b->held[at] == 0)
+        if (mask == 0)
+            return;
+    }
+    uint32_t free = TIMEMASK_ENTRIES;
+    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0;) {
+        if (held[i] == 0) {
             free = i;
-        else if (((b->color[at] ^ color) & 0xffffffu) == 0 && is_level(b->depth[at], depth))
-            same = i;
+        } else if (colors[i] << 8 == color << 8 && is_level(depths[i], depth)) {
+            held[i] |= mask;
+            return;
+        }
     }
-    if (fresh.held == 0)
-        return;
-    if (fresh.held != mask)
-        fresh.depth = course_code(&course, fresh.held);
-    if (same < TIMEMASK_ENTRIES) {
-        struct entry e = entry_at(b, same * b->pixels + pixel);
-        struct course old = course_of(e.held, e.color, e.depth);
-        e.held |= fresh.held;
-        e.depth = course_code(&old, e.held);
-        entry_put(b, same * b->pixels + pixel, &e);
-    } else if (free < TIMEMASK_ENTRIES) {
-        entry_put(b, free * b->pixels + pixel, &fresh);
-    } else {
+    struct entry fresh = { mask, color, depth };
+    if (free < TIMEMASK_ENTRIES)
+        entry_put(b, pixel * TIMEMASK_ENTRIES + free, &fresh);
+    else
         merge(b, pixel, &fresh);
+}
+
+/* Linear light, entry by entry; `rest` slots of the still colour. */
+static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
+{
+    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, half = rest >> 1;
+    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
+        uint32_t at = pixel * TIMEMASK_ENTRIES + e;
+        uint32_t n = e < TIMEMASK_ENTRIES ? count_bits(b->held[at]) : rest, color = e < TIMEMASK_ENTRIES ? b->color[at] : still;
+        rest -= n;
+        if (n == 0)
+            continue;
+        sum[0] += n * smear_srgb_decode[pixel_red(color)];
+        sum[1] += n * smear_srgb_decode[pixel_green(color)];
+        sum[2] += n * smear_srgb_decode[pixel_blue(color)];
     }
+    for (int c = 0; c < 3; c++)
+        sum[c] = smear_srgb_encode[(sum[c] + half) >> b->slots_log2 >> 4];
+    return pixel_make(0, sum[0], sum[1], sum[2]);
 }
 
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
 {
-    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, out[3];
-    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
-        uint32_t at = e * b->pixels + pixel, color = still, n = rest;
-        if (e < TIMEMASK_ENTRIES) {
-            n = count_bits(b->held[at]);
-            color = b->color[at];
-            rest -= n;
-        }
-        if (n == 0)
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
+    for (uint32_t at = pixel * TIMEMASK_ENTRIES, end = at + TIMEMASK_ENTRIES; at < end; at++) {
+        uint32_t held = b->held[at];
+        if (held == 0)
             continue;
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = color >> (16 - 8 * c) & 255u;
-            sum[c] += n * (b->linear ? smear_srgb_decode[code] : code);
-        }
+        if (held == all)
+            return b->color[at] & 0xffffffu;
+        if (b->linear)
+            return mean_linear(b, pixel, still);
+        uint32_t n = count_bits(held), color = b->color[at];
+        rest -= n;
+        red_blue += (color & 0xff00ffu) * n;
+        green += (color >> 8 & 0xffu) * n;
     }
-    for (int c = 0; c < 3; c++) {
-        uint32_t mean = (sum[c] + ((1u << b->slots_log2) >> 1)) >> b->slots_log2;
-        out[c] = b->linear ? smear_srgb_encode[mean >> 4] : mean;
-    }
-    return pixel_make(0, out[0], out[1], out[2]);
+    red_blue += (still & 0xff00ffu) * rest;
+    green += (still >> 8 & 0xffu) * rest;
+    return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
 }

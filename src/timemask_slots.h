@@ -13,11 +13,11 @@
 
 enum { TIMEMASK_ENTRIES = 3 };
 
-/* Entries of a block: e of pixel p at e * pixels + p, rows TIMEMASK_BLOCK apart. */
+/* Entries of a block: e of pixel p at p * TIMEMASK_ENTRIES + e, rows TIMEMASK_BLOCK apart. */
 struct timemask_slots {
     uint32_t *held;             /* a bit per slot, 0: free */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
-    uint16_t *depth;            /* code in the middle between the first and the last slot it holds */
+    uint16_t *depth;            /* code in the middle of the exposure */
     uint32_t pixels;
     int32_t slots_log2;         /* of the whole exposure */
     bool linear;
@@ -44,8 +44,10 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* A fragment that holds the slots of `mask` (at least one) before others are asked; colour and depth as they are kept. */
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth);
+/* A fragment that holds the slots of `mask` (at least one) before others are asked. Colour with the slope's 8 bits on top;
+ * depth code in the middle of the exposure; slope as timemask_slope_of has it. */
+void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth,
+                              int32_t slope);
 
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still);
