@@ -12,7 +12,7 @@
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
-enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3, TOLERANCE = 8 };
+enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3 };
 
 enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
 
@@ -218,7 +218,7 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_cover c;
     struct timemask_shade s;
     uint32_t run[TIMEMASK_RUNS];
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, TOLERANCE))
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
     struct painter p = { .j = j, .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,

@@ -122,15 +122,15 @@ struct sweep {
 };
 
 /* What an edge that crosses may be off: where it moves by p px and is off by e px, a part e / p of its contrast is wrong over
- * p pixels. The squares of that add up to e^2 / p, which is held below 2^-tolerance px. `off` is e x length in q8. */
-static inline bool is_near(const struct sweep *w, int32_t off, int tolerance)
+ * p pixels. The squares of that add up to e^2 / p, which is held below 2^-edge px. `off` is e x length in q8. */
+static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
 {
-    return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> tolerance;
+    return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> edge;
 }
 
 /* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the block's middle it is off by up to
  * h / 2 and the bow; multiplied with 1 - (what the difference is more) / difference, by h^2 / (2 d). */
-static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int tolerance)
+static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_t edge)
 {
     int32_t size = abs_i32(w->d);
     if (size < w->length >> 7 || w->h > size >> 1)
@@ -139,11 +139,11 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int to
     uint32_t r = recip_norm_precise((uint32_t)size << zeros);
     enum timemask_form form = COVER_EVEN;
     int32_t part = 0;
-    if (!is_near(w, (w->h >> 1) + (w->bows >> 1), tolerance)) {
+    if (!is_near(w, (w->h >> 1) + (w->bows >> 1), edge)) {
         part = (int32_t)(mulh_u32((uint32_t)w->h << zeros, r) >> 14);           /* h / d, q15 */
         int32_t off = (int32_t)((int64_t)w->h * part >> 16);
-        form = is_near(w, off + (w->bows >> 1), tolerance) ? COVER_BENT : COVER_BOWED;
-        if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, tolerance)))
+        form = is_near(w, off + (w->bows >> 1), edge) ? COVER_BENT : COVER_BOWED;
+        if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, edge)))
             return false;
     }
     bool leaves = (w->d > 0) != w->reversed;
@@ -176,7 +176,7 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int to
 }
 
 /* Adds edge i -> j to its kind. False: it is outside everywhere. */
-static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j, int tolerance)
+static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j, int32_t edge)
 {
     const struct timemask_pose *a = pose[0], *m = pose[1], *b = pose[2];
     struct sweep w;
@@ -209,7 +209,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
             p = other_side(&p);
         c->still[c->stills++] = p;
         bound_add(c, &p);
-    } else if (!crossing_add(c, &w, tolerance)) {
+    } else if (!crossing_add(c, &w, edge)) {
         c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
     }
     return true;
@@ -232,7 +232,7 @@ static int64_t area_of(const struct timemask_pose *p)
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2, int tolerance)
+                          int32_t height, int32_t slots_log2, int32_t edge)
 {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int k = 0; k < 3; k++)
@@ -252,7 +252,7 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
     c->slots_log2 = slots_log2;
     c->enters = c->leaves = c->stills = c->turns = c->lefts = c->rights = 0;
     c->form = COVER_EVEN;
-    if (!edge_add(c, pose, 0, 1, tolerance) || !edge_add(c, pose, 1, 2, tolerance) || !edge_add(c, pose, 2, 0, tolerance))
+    if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))
         return false;
     bound_pairs(c);
     return c->y0 < c->y1;

@@ -73,9 +73,9 @@ static inline int32_t timemask_run_from(uint32_t run) { return (int32_t)(run >> 
 static inline int32_t timemask_run_to(uint32_t run) { return (int32_t)(run >> 16); }
 
 /* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that begins, is halfway
- * and ends at the poses. `tolerance`: how much an edge may be off, see timemask_cover.c. */
+ * and ends at the poses. `edge` as in struct smear_timemask_settings. */
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2, int tolerance);
+                          int32_t height, int32_t slots_log2, int32_t edge);
 
 enum { TIMEMASK_RUNS = 4 * TIMEMASK_WIDTH };        /* three edges that bow in and out again */
 

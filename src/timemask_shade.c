@@ -5,7 +5,6 @@
 #include "pixel.h"
 
 enum {
-    MOST_CHANGE = 1 << 25,      /* of a value in a segment: times 64 it fits */
     MOST_SLOPE = 1 << 20,
     AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
     TAPS_MAX = 8
@@ -75,8 +74,8 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
  *
  *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
  *
- * A plane that changes by `most` or more is so steep that it has no exact pixels: it becomes one value. */
-static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3], int64_t most)
+ * A plane that changes by more than there are bits for is so steep that it has no exact pixels: it becomes one value. */
+static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3])
 {
     struct plane p, start, end;
     slopes_of(&p, s->shape[1], value[1]);
@@ -95,7 +94,7 @@ static void timed_make(struct timemask_timed *t, const struct segment_setup *s, 
     }
     t->dx = p.dx;
     t->dy = p.dy;
-    if (change_size(change, t->change_dx, t->change_dy, curve) >= most) {
+    if (change_size(change, t->change_dx, t->change_dy, curve) >= INT32_MAX) {
         at = v;
         change = curve = 0;
         t->dx = t->dy = t->change_dx = t->change_dy = 0;
@@ -161,7 +160,7 @@ static uint32_t channels_pixel(const int32_t c[3], bool linear)
 
 /* Values of the vertices that go into planes, times 1/w where that is wanted. */
 static void values_make(struct timemask_timed *t, const struct segment_setup *poses, const int32_t (*q)[3],
-                        const int32_t a[3], int64_t most)
+                        const int32_t a[3])
 {
     int32_t over[3][3];
     const int32_t *value[3] = { a, a, a };
@@ -170,7 +169,7 @@ static void values_make(struct timemask_timed *t, const struct segment_setup *po
             over[k][i] = times_q15(a[i], q[k][i]);
         value[k] = over[k];
     }
-    timed_make(t, poses, value, most);
+    timed_make(t, poses, value);
 }
 
 /* Whether interpolation on the screen is off by too much: range of the values, in 1/64 of what counts. */
@@ -189,7 +188,7 @@ static void shade_depth(struct timemask_shade *s, const struct segment_setup *po
         for (int i = 0; i < 3; i++)
             depth[k][i] = pose[k]->depth[i] >> 7;
     const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-    timed_make(&s->depth, poses, value, MOST_CHANGE);
+    timed_make(&s->depth, poses, value);
     range_of(&s->depth_low, &s->depth_high, value);
     int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
     change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
@@ -270,20 +269,20 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++)
                 high = max_i32(high, pose[k]->depth[i]);
-        int up = max_i32(count_leading_zeros((uint32_t)high) - 3, 0);
+        int up = count_leading_zeros((uint32_t)high) - 6;          /* room for changes */
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++)
-                over[k][i] = pose[k]->depth[i] << up;
+                over[k][i] = up >= 0 ? pose[k]->depth[i] << up : pose[k]->depth[i] >> -up;
         const int32_t *value[3] = { over[0], over[1], over[2] };
         q = (const int32_t (*)[3])over;
-        timed_make(&s->q, &poses, value, INT32_MAX);
+        timed_make(&s->q, &poses, value);
     }
     for (int c = 0; c < 3 && s->gouraud; c++) {
         const int32_t *value[3] = { channel[c], channel[c], channel[c] };
         range_of(&s->channel_low[c], &s->channel_high[c], value);
         for (int i = 0; i < 3 && s->over_w; i++)
             channel[c][i] >>= 8;
-        values_make(&s->channel[c], &poses, q, channel[c], s->over_w ? INT32_MAX : MOST_CHANGE);
+        values_make(&s->channel[c], &poses, q, channel[c]);
     }
     if (m == NULL)
         return;
@@ -292,8 +291,8 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
         v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
     }
-    values_make(&s->u, &poses, q, u, INT32_MAX);
-    values_make(&s->v, &poses, q, v, INT32_MAX);
+    values_make(&s->u, &poses, q, u);
+    values_make(&s->v, &poses, q, v);
     s->travel = 0;
     for (int i = 0; i < 3; i++) {
         int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
@@ -303,18 +302,10 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 
 /* ------------------------------------------------------------------ colours */
 
-/* floor(a time / 64) for any a. */
-static inline int32_t times_time(int32_t a, int32_t time)
-{
-    const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
-    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
-}
-
-/* As timemask_value, for any change. */
-static int32_t wide_value(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
+static inline int32_t value_at(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
 {
     struct timemask_here here = timemask_here(p, x, y);
-    return add_wrap(here.at, times_time(add_wrap(here.change, times_time(p->curve, time)), time));
+    return timemask_value(p, &here, time);
 }
 
 /* w at a time: 1/q = recip 2^(zeros - 61). */
@@ -325,7 +316,7 @@ struct quotient {
 
 static struct quotient quotient_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
-    uint32_t q = (uint32_t)max_i32(wide_value(&s->q, x, y, time), 1 << 11);
+    uint32_t q = (uint32_t)max_i32(value_at(&s->q, x, y, time), 1 << 11);
     int zeros = count_leading_zeros(q);
     return (struct quotient){ zeros, (int32_t)recip_norm(q << zeros) };
 }
@@ -342,10 +333,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
     if (s->over_w)
         w = quotient_at(s, x, y, time);
     for (int c = 0; c < 3; c++) {
-        struct timemask_here here = timemask_here(&s->channel[c], x, y);
-        int32_t value = s->over_w ? quotient_of(&w, wide_value(&s->channel[c], x, y, time)) >> 4
-                                  : timemask_value(&s->channel[c], &here, time);
-        out[c] = clamp_i32(value, s->channel_low[c], s->channel_high[c]);
+        int32_t value = value_at(&s->channel[c], x, y, time);
+        out[c] = clamp_i32(s->over_w ? quotient_of(&w, value) >> 4 : value, s->channel_low[c], s->channel_high[c]);
     }
 }
 
@@ -353,8 +342,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    *u = wide_value(&s->u, x, y, time);
-    *v = wide_value(&s->v, x, y, time);
+    *u = value_at(&s->u, x, y, time);
+    *v = value_at(&s->v, x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         *u = quotient_of(&w, *u);

@@ -57,11 +57,21 @@ static inline struct timemask_here timemask_here(const struct timemask_timed *p,
                                    add_wrap(p->change, add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y))) };
 }
 
-/* Value at a time, where |change| + |curve| is below 2^25. */
+/* floor(a time / 64) for any a. */
+static inline int32_t timemask_part(int32_t a, int32_t time)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * time >> TIMEMASK_TIME_LOG2);
+#else
+    const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
+    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
+#endif
+}
+
+/* Value at a time. */
 static inline int32_t timemask_value(const struct timemask_timed *p, const struct timemask_here *here, int32_t time)
 {
-    int32_t change = here->change + (p->curve * time >> TIMEMASK_TIME_LOG2);
-    return add_wrap(here->at, change * time >> TIMEMASK_TIME_LOG2);
+    return add_wrap(here->at, timemask_part(add_wrap(here->change, timemask_part(p->curve, time)), time));
 }
 
 static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t run)
