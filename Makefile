@@ -30,17 +30,18 @@ include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
 LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip geometry path tiny assemble texture target \
-          mover setup span velocity raster subframes window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
+          mover setup span velocity raster subframes window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear blob model skin anim
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
+CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
-TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
+TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.

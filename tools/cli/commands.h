@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 int command_render(int count, char **text);
+int command_convert(int count, char **text);
 int command_compare(int count, char **text);
 int command_info(int count, char **text);
 int command_help(int count, char **text);

@@ -12,13 +12,14 @@ static const struct {
     const char *name;
     int (*run)(int count, char **text);
 } commands[] = {
+    { "convert", command_convert },
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
 };
 
 bool command_is_planned(const char *name)
 {
-    static const char *const planned[] = { "view", "convert", "bench", "chart", NULL };
+    static const char *const planned[] = { "view", "bench", "chart", NULL };
     return read_name(name, planned) >= 0;
 }
 
@@ -34,7 +35,7 @@ static int run_command(const char *name, int count, char **text)
 int main(int argc, char **argv)
 {
     if (argc < 2)
-        return say_bad_usage("no command", "render, compare, info or help (smear help)");
+        return say_bad_usage("no command", "render, convert, compare, info or help (smear help)");
     int status = run_command(argv[1], argc - 2, argv + 2);
     if (fflush(stdout) != 0 && status == STATUS_OK) {
         struct failure f = { "" };
