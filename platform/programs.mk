@@ -9,6 +9,11 @@
 #
 #   make TARGET=cortex-m0plus target-test     unit tests and golden frames
 #   make TARGET=cortex-m0plus target-bench    instructions per frame
+#   make TARGET=lm3s6965evb demo-firmware     the demo; demo-run starts it, demo-test tries it
+#
+# A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
+# DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
+# tests/target_demo.sh and platform/lm3s6965evb/target.mk.
 
 HOST_CC ?= cc
 
@@ -52,6 +57,57 @@ $(BUILD)/target_golden-%$(EXE): $(GOLDEN_OBJ) $(LIB) platform/cortexm/%.ld
 
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
+
+# ---------------------------------------------------------------------- demo
+
+DISPLAY_SRC ?= platform/host/display.c
+DEMO_SCREEN ?= pico
+DEMO_LOOPS  ?= oled:6 gba:6
+
+PROPS     := build/demo
+PROPS_SRC := platform/demo_props.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
+             $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
+
+FIRMWARE_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/demo.o \
+                $(BUILD)/platform/demo_player.o $(BUILD)/platform/demo_scene.o \
+                $(BUILD)/$(PROPS)/props.o
+
+$(BUILD)/$(PROPS)/props.o: CFLAGS += -Itests
+$(BUILD)/platform/demo.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"'
+
+$(PROPS)/demo_props: $(PROPS_SRC) platform/demo_scene.h
+	@mkdir -p $(@D)
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -o $@ $(PROPS_SRC) -lm
+
+$(PROPS)/props.c: $(PROPS)/demo_props
+	$(PROPS)/demo_props $@
+
+$(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+
+# Draws a frame on this machine, to look at and to compare screenshots with.
+SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
+              $(LIB_SRC) $(wildcard tools/image/*.c)
+
+$(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(SCREEN_SRC) -lm
+
+.PHONY: demo-firmware demo-run demo-cost demo-test
+## the demo as firmware for TARGET
+demo-firmware: $(BUILD)/demo$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it
+demo-run: $(BUILD)/demo$(EXE)
+	$(RUN) $< show
+
+## its frames and, where there is a display, screenshots against the host's
+demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen
+	RUN="$(RUN)" sh tests/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
+
+## what its frames cost on TARGET
+demo-cost: $(BUILD)/demo$(EXE)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

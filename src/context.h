@@ -7,10 +7,14 @@
 #include "smear.h"
 
 #include "assemble.h"
+#include "assemble_path.h"
 #include "blur.h"
+#include "choose.h"
 #include "geometry.h"
 #include "jobs.h"
 #include "raster.h"
+#include "shutter.h"
+#include "subframes.h"
 #include "window.h"
 
 /* The pose a draw had, kept under its id. */
@@ -27,6 +31,16 @@ struct smear_submitted {
 };
 
 enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
+
+/* What moves in a tile row, and what is done about it. */
+struct smear_row_movers {
+    struct smear_mover *mover;
+    uint32_t count;
+    struct smear_tile_load *load;               /* per tile */
+    /* With a window: tiles that wait for the row below. */
+    struct smear_smooth_field *field;           /* per tile */
+    uint8_t *waits;
+};
 
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
@@ -55,6 +69,17 @@ struct smear_context {
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
+    /* methods that look at several instants */
+    struct smear_shutter shutter;
+    struct smear_chooser chooser;
+    struct smear_row_movers row_movers[2];      /* of the row being drawn and the one above, by the row's last bit */
+    uint8_t *work;                  /* work_bytes per worker */
+    uint32_t work_bytes;
+    uint32_t moving;                /* list of the row being drawn */
+    uint8_t *open;                  /* per tile of three rows, row r at r % 3: the background shows, or something still */
+    uint8_t *held;                  /* band of a row that waits for the one below */
+    uint8_t *still_tile;            /* per worker: colour and depth of a tile without movers */
+
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
 

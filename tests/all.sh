@@ -74,18 +74,22 @@ else
 fi
 suite command-line sh tests/cli.sh build/smear
 suite golden-host $make -s TARGET=host target-test
+suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
     for target in cortex-m0plus cortex-m3 cortex-m4; do
         suite "target-$target" $make -s TARGET=$target target-test
+        suite "demo-$target" $make -s TARGET=$target demo-test
     done
+    suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then
     suite target-s390x $make -s TARGET=s390x target-test
+    suite demo-s390x $make -s TARGET=s390x demo-test
 fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s fuzz-corpus

@@ -435,7 +435,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
                             .cut = o->cut || o->instant_only,
                             .reconstruct = (uint8_t)o->reconstruct,
-                            .samples = (uint16_t)o->samples, .shutter_degrees = (uint16_t)degrees,
+                            .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
+                            .shutter_degrees = (uint16_t)degrees,
                             .clear = o->clear };
     return true;
 }
