@@ -117,9 +117,9 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform,$(ALL_SUITES))
+SAN_SUITES := $(filter anim api clip convert convert_tool fixed fixmath geometry jobs light matrix present raster texture tilemax transform,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -167,7 +167,7 @@ FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
 
 build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(IMAGE_SRC) $(MODEL_SRC) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(TOOL_SRC) -lm
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)

@@ -423,14 +423,14 @@ int smear_actor_advance(smear_actor *a, const smear_play *play)
         struct actor_pose before = a->pose[SMEAR_POSE_OPEN];
         a->pose[SMEAR_POSE_OPEN] = a->pose[SMEAR_POSE_NOW];
         a->pose[SMEAR_POSE_NOW] = before;
-        a->known = (uint8_t)(a->known << SMEAR_POSE_OPEN & 1u << SMEAR_POSE_OPEN);
+        a->known = (a->known & 1u << SMEAR_POSE_NOW) != 0 ? 1u << SMEAR_POSE_OPEN : 0u;
     }
     return smear_actor_set(a, SMEAR_POSE_NOW, play);
 }
 
 void smear_actor_cut(smear_actor *a)
 {
-    a->known &= 1u << SMEAR_POSE_NOW;
+    a->known = (uint8_t)(a->known & 1u << SMEAR_POSE_NOW);
 }
 
 int smear_actor_draw(smear_actor *a, int index, smear_draw *draw)

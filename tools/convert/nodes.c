@@ -15,6 +15,9 @@
 /* Places of a model lie within this many of its units; the device has room for eight times as many, for what a joint takes there. */
 #define MODEL_UNITS 256.0
 
+/* Q16.16 ends at 32768. */
+#define WORLD_UNITS 30000.0
+
 /* ------------------------------------------------------------------ what is drawn */
 
 static bool is_skinned(const struct model_node *node, const struct model_primitive *p)
@@ -402,11 +405,11 @@ bool find_bounds(struct converter *c)
     for (int i = 0; i < c->shape_count; i++)
         if (c->shape[i].skin < 0 && c->shape[i].node == NO_NODE)
             farthest = fmax(farthest, largest_coordinate(&c->shape[i].bounds));
-    if (!(farthest < 1e30))
-        return fail(c->f, "is too large");
+    if (!(farthest <= WORLD_UNITS))
+        return fail(c->f, "reaches %g units, more than %g: use --scale or --fit", farthest, WORLD_UNITS);
     c->unit_exponent = farthest > 0 ? exact_exponent(farthest / MODEL_UNITS) : 0;
     if (c->unit_exponent < -31 || c->unit_exponent > 31)
-        return fail(c->f, "is too large or too small (%g units): use --scale or --fit", farthest);
+        return fail(c->f, "is too small (%g units): use --scale or --fit", farthest);
     return true;
 }
 

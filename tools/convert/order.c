@@ -240,7 +240,7 @@ bool order_triangles(struct raw_mesh *m, bool keep_order, struct convert_pile *p
                            pile_alloc(pile, triangles, 3 * sizeof(uint32_t), f) };
     if (order[0] == NULL || order[1] == NULL || index[0] == NULL || index[1] == NULL || !list_triangles(&w, pile, f))
         return false;
-    for (int i = -1; i < tries; i++) {
+    for (int i = -1; i < tries; i++) {          /* -1: the file's order of triangles */
         if (i >= 0)
             w.taste = tastes[i];
         int count = walk_all(&w, i < 0, order[1], index[1]);
@@ -250,5 +250,11 @@ bool order_triangles(struct raw_mesh *m, bool keep_order, struct convert_pile *p
         memcpy(order[0], order[1], triangles * sizeof(int));
         memcpy(index[0], index[1], 3 * triangles * sizeof(uint32_t));
     }
-    return reorder(m, order[0], index[0], pile, f);
+    /* the file's numbers may suit the cache even better */
+    bool uses_all = true;
+    for (int v = 0; v < m->vertex_count; v++)
+        uses_all = uses_all && w.first[v + 1] > w.first[v];
+    for (size_t i = 0; i < 3 * triangles; i++)
+        index[1][i] = m->index[i];
+    return (uses_all && count_transforms(index[1], m->triangle_count) <= best) || reorder(m, order[0], index[0], pile, f);
 }
