@@ -145,12 +145,12 @@ static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
     return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
-/* path_value of screen coordinates within the guard band: their products fit 32 x 32 bits. `u` is q30, -1 at shutter
- * open and 1 at close. */
+/* As path_value, to nearest: a floor would move all edges up and left by half a step. Coordinates lie within the guard
+ * band, so products fit 32 x 32 bits. `u` is q30, -1 at shutter open and 1 at close. */
 static inline int32_t coordinate_at(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t slope = close - open, bend = open + close - 2 * middle;
-    return middle + mulh_i32((slope + mulh_i32(bend * 4, u)) * 2, u);
+    return middle + ((mulh_i32((slope + mulh_i32(bend * 4, u)) * 4, u) + 1) >> 1);
 }
 
 /* Coordinate VERTEX_X or VERTEX_Y of all three. Between places within the guard band a parabola may leave it. */

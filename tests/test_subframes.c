@@ -219,7 +219,8 @@ static void pose_triangle(uint32_t i, int32_t time)
         for (int j = 0; j < 3; j++) {
             if (s->path) {
                 int64_t u = 2 * (int64_t)time - SHUTTER_CLOSE, o = v[s->motion + j], c = v[s->motion + 3 + j];
-                place[k][j] = v[j] + (int32_t)((c - o + ((o + c - 2 * (int64_t)v[j]) * u >> 16)) * u >> 17);
+                int64_t way = (c - o + ((o + c - 2 * (int64_t)v[j]) * u >> 16)) * u;
+                place[k][j] = v[j] + (int32_t)((j < 2 ? way + 65536 : way) >> 17);      /* pixels to nearest */
             } else {
                 place[k][j] = v[j];
             }

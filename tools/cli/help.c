@@ -11,14 +11,16 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear view [SCENE]               in a window or terminal, with live controls\n"
     "    smear convert MODEL -o OUT.h|OUT.smr\n"
     "                                     a model as constant data for firmware\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
+    "    smear bench                      what frames cost, beside the bars set for them\n"
+    "    smear chart                      error against cost of every method\n"
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: view, bench, chart.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -56,7 +58,8 @@ static const char *const render_help[] = {
     "                        accumulate   the mean of sharp instants\n"
     "                        reconstruct  tile-maximum reconstruction filter\n"
     "                        subframes    tiles in which something moves: mean of instants\n"
-    "                        timemask     the time each triangle covers each pixel\n"
+    "                        timemask     the time each triangle covers each pixel; cutouts and\n"
+    "                                     blended draws as in subframes\n"
     "                        auto         per tile the cheapest that is good enough [auto]\n"
     "                        not built yet: object, camera, pingpong, half, layered\n"
     "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
@@ -70,7 +73,8 @@ static const char *const render_help[] = {
     "                        direction  second direction along the pixel's own motion\n"
     "                        uniform    a plain mean where all motion is alike\n"
     "  --quality draft|balanced|fine, --target CODES\n"
-    "                        error that auto aims at [balanced]; no effect on other methods\n"
+    "                        error that auto aims at: 4, 1.5 and 0.5 codes [balanced]; no effect\n"
+    "                        on other methods\n"
     "  --reach PX|PERCENT%   longest blur radius of reconstruct, in pixels or of the height; not\n"
     "                        above the tile [5%, at most a tile]\n"
     "  --tile 8|16|32|64     [the smallest not below the reach]\n"
@@ -162,31 +166,63 @@ static const char *const info_help[] = {
     "\n"
     "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
     "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
-    "start (t = 0; of built-in scenes, at the time that stands for them): with the smallest list\n"
-    "of triangles that draws it in one part.\n"
+    "start (t = 0; of built-in scenes, at the time that stands for them), by method: with the\n"
+    "smallest list of triangles that draws it in one part.\n"
     "\n"
     "smear info builtin: lists the built-in scenes.\n",
     NULL
 };
 
+static const char *const bench_help[] = {
+    "smear bench [REPORT...]\n"
+    "\n"
+    "Instructions per frame (counted by valgrind), picture quality and memory, beside the bars\n"
+    "set for them. Reports: peers, accuracy, methods, threads, memory; all without a name.\n"
+    "`make bench` adds what frames cost on Cortex-M.\n"
+    "\n"
+    "  --strict              exit status 1 when a bar is missed\n",
+    NULL
+};
+
+static const char *const chart_help[] = {
+    "smear chart [options]\n"
+    "\n"
+    "Every method at several settings on the 20 scenes of the suite: error (RMSE, FLIP, SSIM,\n"
+    "flicker against 1024 exact instants), instructions (counted by valgrind) and time against\n"
+    "the sharp frame. Writes chart.csv, tables.md and pictures (object, camera, both, all and\n"
+    "scenes.svg) into build/chart and prints means and bars. What is measured is kept until the\n"
+    "program changes.\n"
+    "\n"
+    "  --scenes A,B          only these scenes; files go to build/chart/part\n"
+    "  --methods A,B         only settings whose names begin so, and none; likewise\n"
+    "  --quick               encoded light, poses at the shutter, no times; likewise\n"
+    "  --from FILE           measures nothing and reports what a chart.csv says\n"
+    "  --out FOLDER          where files go\n"
+    "  --jobs N              processes at a time, 1 to 8 [2]\n"
+    "  --strict              exit status 1 when a bar is missed or not measured\n",
+    NULL
+};
+
 static const char *const help_help[] = {
-    "smear help [render|convert|compare|info]\n",
+    "smear help [render|view|convert|compare|info|bench|chart]\n",
     NULL
 };
 
 int help_print(const char *command)
 {
-    static const char *const names[] = { "render", "convert", "compare", "info", "help", NULL };
+    static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
+                                         "help", NULL };
     static const char *const *const texts[] = { render_help, convert_help, compare_help, info_help,
-                                               help_help };
+                                               bench_help, chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {
         fputs(program_help, stdout);
         return STATUS_OK;
     }
+    if (strcmp(command, "view") == 0)
+        return view_help_print();
     if (found < 0)
-        return say_bad_usage(command, command_is_planned(command) ? "not built yet"
-                                                                  : "unknown command (smear help)");
+        return say_bad_usage(command, "unknown command (smear help)");
     for (const char *const *text = texts[found]; *text != NULL; text++)
         fputs(*text, stdout);
     return STATUS_OK;
