@@ -33,17 +33,20 @@ LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip 
           assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
           timemask_slots timemask smooth choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
           band timed frame smear
+# The optional module that opens and plays models; a firmware that does not call it does not link it.
+LAYERS += blob model skin anim
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
+CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
-TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
+TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
@@ -151,9 +154,9 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
+SAN_SUITES := $(filter anim api clip convert convert_tool fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -207,7 +210,7 @@ FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
 
 build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(IMAGE_SRC) $(MODEL_SRC) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(TOOL_SRC) -lm
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
