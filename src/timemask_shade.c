@@ -192,8 +192,7 @@ static void shade_depth(struct timemask_shade *s, const struct segment_setup *po
     range_of(&s->depth_low, &s->depth_high, value);
     int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
     change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
-    s->slope[0] = change;
-    s->slope[1] = change >> 4;
+    s->slope = change;
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
