@@ -66,7 +66,7 @@ static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at,
 void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, const struct timemask_fragment *f);
 
 /* `high`: code that is not exceeded. */
-static inline void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
+SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
     int32_t farthest = b->farthest[pixel];
