@@ -6,10 +6,22 @@
 
 enum { BLOCK_MAX = 16 };
 
-static const int32_t inverse[BLOCK_MAX + 1] = {     /* 2^30 / n */
-    0, 1 << 30, 1 << 29, 357913941, 1 << 28, 214748365, 178956971, 153391689, 1 << 27,
-    119304647, 107374182, 97612893, 89478485, 82595525, 76695845, 71582788, 1 << 26
+/* Spans of at most this many pixels have a place for each: exact, and no dearer than the ends of a block. */
+enum { SHORT_SPAN = 4 };
+
+static const int32_t inverse[BLOCK_MAX + 1] = {     /* 2^16 / n */
+    0, 65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192, 7282, 6554, 5958, 5461, 5041, 4681, 4369, 4096
 };
+
+/* a / n for n up to 16, good to 2^-16 of it; exact where n is a power of two. */
+static inline int32_t part_of(int32_t a, int32_t n)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * inverse[n] >> 16);
+#else
+    return (a >> 16) * inverse[n] + (int32_t)(((uint32_t)a & 0xffffu) * (uint32_t)inverse[n] >> 16);
+#endif
+}
 
 static void span_flat(const struct setup *s, const struct span *p)
 {
@@ -82,14 +94,7 @@ SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct 
                                           int up, bool turns)
 {
     struct course c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
-    int32_t du = sub_wrap(to.u, from.u), dv = sub_wrap(to.v, from.v);
-    if (n == BLOCK_MAX) {
-        du >>= 4;
-        dv >>= 4;
-    } else {
-        du = mulh_i32(du, inverse[n]) * 4;
-        dv = mulh_i32(dv, inverse[n]) * 4;
-    }
+    int32_t du = part_of(sub_wrap(to.u, from.u), n), dv = part_of(sub_wrap(to.v, from.v), n);
     if (t->bent) {
         int32_t nearness = from.nearness + to.nearness;                                     /* q'/q, q16: */
         int32_t rate = t->mode == TEXTURE_QUADRATIC ? mul_wrap(t->slope, nearness) >> 17 : nearness >> 1;
@@ -119,6 +124,7 @@ SMEAR_INLINE struct smear_texture_run course_packed(struct course c)
 struct walk {
     int32_t x, last;        /* where the next block begins; the span's last pixel */
     int32_t start;          /* where the one before began */
+    int32_t block;          /* their pixels */
     int32_t q, u, v;        /* planes at x */
     struct place place;     /* there */
     struct smear_texture_run run;       /* of the block before x */
@@ -129,7 +135,7 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
 {
     const struct texture_setup *t = &s->texture;
     const struct place from = w->place;
-    int32_t n = min_i32(t->block, w->last - w->x);
+    int32_t n = min_i32(w->block, w->last - w->x);
     w->start = w->x;
     w->x += n;
     w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
@@ -137,7 +143,7 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
     w->v = add_wrap(w->v, mul_wrap(t->v.dx, n));
     w->place = place_at(s, w->q, w->u, w->v, t->turns);
     w->run = course_packed(course_between(t, from, w->place, n, t->up, t->turns));
-    return n + (w->x == w->last && (n == 0 || t->block > 1));
+    return n + (w->x == w->last && (n == 0 || w->block > 1));
 }
 
 /* Where the block begins in which pixel a is drawn, of a span from `left` to `last`. */
@@ -146,17 +152,25 @@ static inline int32_t block_start(int32_t left, int32_t last, int32_t a, int32_t
     return left + (max_i32(min_i32(a, last - 1) - left, 0) & -block);
 }
 
-static void walk_begin(struct walk *w, const struct setup *s, const struct span *p, int32_t block)
+/* In blocks of so many pixels: of a span that is short, single ones. */
+static inline int32_t block_of(const struct texture_setup *t, int32_t left, int32_t right)
 {
-    w->last = min_i32(p->right, s->frame->width) - 1;
-    w->x = block_start(max_i32(p->left, 0), w->last, p->a, block);
+    return right - left <= SHORT_SPAN ? 1 : t->block;
+}
+
+static void walk_begin(struct walk *w, const struct setup *s, const struct span *p, bool textured)
+{
+    int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
+    w->last = right - 1;
+    w->block = textured ? block_of(&s->texture, left, right) : s->color_block;
+    w->x = block_start(left, w->last, p->a, w->block);
 }
 
 /* The first block. */
 static int32_t walk_first(struct walk *w, const struct setup *s, const struct span *p)
 {
     const struct texture_setup *t = &s->texture;
-    walk_begin(w, s, p, t->block);
+    walk_begin(w, s, p, true);
     w->q = plane_at(&t->q, w->x, p->y);
     w->u = plane_at(&t->u, w->x, p->y);
     w->v = plane_at(&t->v, w->x, p->y);
@@ -453,6 +467,7 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
         struct piece p;
         uint32_t z = row_z, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
         int32_t a = left, b = right;
+        const bool exact = block_of(t, left, right) == 1;
         while (a < b) {
             int32_t x = a;
             if (in_pieces) {
@@ -462,12 +477,12 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
                 b = p.b;
                 z = p.z;
                 dz = p.dz;
-                if (t->block != 1)
+                if (!exact)
                     x = block_start(left, right - 1, a, t->block);
             }
             int32_t q = add_wrap(row_q, mul_wrap(t->q.dx, x)), u = add_wrap(row_u, mul_wrap(t->u.dx, x));
             int32_t v = add_wrap(row_v, mul_wrap(t->v.dx, x));
-            if (t->block == 1) {
+            if (exact) {
                 row_exact(s, row_color + x, row_depth + x, b - x, z + dz * (uint32_t)x, dz, q, u, v);
             } else {
                 struct place here = place_at(s, q, u, v, true);
@@ -565,7 +580,7 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     for (int i = 0; i < count; i++) {
         int32_t a = channel_over_w(plane_at(&s->channel[i], x0, p->y), zeros0, r0);
         int32_t b = channel_over_w(plane_at(&s->channel[i], x1, p->y), zeros1, r1);
-        int32_t step = x1 > x0 ? mulh_i32(b - a, inverse[x1 - x0]) * 4 : 0;
+        int32_t step = x1 > x0 ? part_of(b - a, x1 - x0) : 0;
         c[i] = (uint32_t)(a + step * (x - x0));
         d[i] = (uint32_t)step;
     }
@@ -662,9 +677,9 @@ static void write_block(const uint32_t *in, uint32_t *color, uint16_t *depth, ui
 }
 
 /* Blocks without a texture. */
-static int32_t plain_next(struct walk *w, const struct setup *s)
+static int32_t plain_next(struct walk *w)
 {
-    int32_t n = min_i32(s->color_block, w->last - w->x);
+    int32_t n = min_i32(w->block, w->last - w->x);
     w->start = w->x;
     w->x += n;
     return n + (w->x == w->last);
@@ -672,8 +687,8 @@ static int32_t plain_next(struct walk *w, const struct setup *s)
 
 static int32_t plain_first(struct walk *w, const struct setup *s, const struct span *p)
 {
-    walk_begin(w, s, p, s->color_block);
-    return plain_next(w, s);
+    walk_begin(w, s, p, false);
+    return plain_next(w);
 }
 
 /* In blocks: texels, then light, then the write. */
@@ -713,7 +728,7 @@ static void span_general(const struct setup *s, const struct span *p)
         z += (uint32_t)p->dz * (uint32_t)n;
         if (k.x >= p->b)
             return;
-        count = textured ? walk_next(&w, s) : plain_next(&w, s);
+        count = textured ? walk_next(&w, s) : plain_next(&w);
     }
 }
 
