@@ -48,9 +48,9 @@ struct place {
 };
 
 /* Coordinates from planes. Slivers, whose planes are anything, give anything: it wraps. */
-SMEAR_INLINE struct place place_at(const struct setup *s, int32_t q, int32_t u, int32_t v, bool turns)
+SMEAR_INLINE struct place place_at(const struct texture_setup *t, const struct smear_sampler *m, int32_t q, int32_t u,
+                                   int32_t v, bool turns)
 {
-    const struct texture_setup *t = &s->texture;
     struct place p = { u, v, 0 };
     if (t->mode == TEXTURE_QUADRATIC) {
         uint32_t n = (uint32_t)q >> 16, k = t->recip_base + (n * n >> 17);
@@ -71,7 +71,6 @@ SMEAR_INLINE struct place place_at(const struct setup *s, int32_t q, int32_t u, 
         p.u = mulh_i32(shl_wrap(u >> 1, zeros - 1), r);
         p.v = mulh_i32(shl_wrap(v >> 1, zeros - 1), r);
         if (!turns) {
-            const struct smear_sampler *m = &s->draw->sampler;
             p.u = smear_sampler_texel_u(m, shl_wrap(p.u, 2));
             p.v = smear_sampler_texel_v(m, shl_wrap(p.v, 2));
         }
@@ -141,7 +140,7 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
     w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
     w->u = add_wrap(w->u, mul_wrap(t->u.dx, n));
     w->v = add_wrap(w->v, mul_wrap(t->v.dx, n));
-    w->place = place_at(s, w->q, w->u, w->v, t->turns);
+    w->place = place_at(t, &s->draw->sampler, w->q, w->u, w->v, t->turns);
     w->run = course_packed(course_between(t, from, w->place, n, t->up, t->turns));
     return n + (w->x == w->last && (n == 0 || w->block > 1));
 }
@@ -174,7 +173,7 @@ static int32_t walk_first(struct walk *w, const struct setup *s, const struct sp
     w->q = plane_at(&t->q, w->x, p->y);
     w->u = plane_at(&t->u, w->x, p->y);
     w->v = plane_at(&t->v, w->x, p->y);
-    w->place = place_at(s, w->q, w->u, w->v, t->turns);
+    w->place = place_at(t, &s->draw->sampler, w->q, w->u, w->v, t->turns);
     return walk_next(w, s);
 }
 
@@ -380,6 +379,16 @@ SMEAR_INLINE void run_texels(uint32_t *color, uint16_t *depth, int32_t n, uint32
         texel_step(color, depth, &z, dz, texels, &s, log2_width, log2_height);
 }
 
+/* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
+static inline const struct texture_setup *texture_of(const struct setup *s)
+{
+    const struct texture_setup *t = &s->texture;
+#if defined(__ARM_ARCH_6M__)
+    __asm__("" : "+r"(t));
+#endif
+    return t;
+}
+
 /* Pixels [first, n) of a block that is cut, by the frame's columns or by a bend of the depth code. */
 static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, uint32_t *color, uint16_t *depth, int32_t first,
                                           int32_t n, uint32_t z, uint32_t dz, struct smear_texture_run run)
@@ -398,14 +407,15 @@ static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, uint32_t *color
 static SMEAR_NOINLINE void row_exact(const struct setup *s, uint32_t *color, uint16_t *depth, int32_t n, uint32_t z,
                                      uint32_t dz, int32_t q, int32_t u, int32_t v)
 {
-    const struct texture_setup *t = &s->texture;
+    const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
     const uint32_t *texels = m->texels;
+    const int log2_width = m->log2_width, log2_height = m->log2_height, up = t->up;
     for (; n > 0; n--, color++, depth++) {
         if ((uint16_t)(z >> 16) > *depth) {
-            const struct place p = place_at(s, q, u, v, true);
+            const struct place p = place_at(t, NULL, q, u, v, true);
             *depth = (uint16_t)(z >> 16);
-            *color = texels[sampler_index(m, (uint32_t)p.u << t->up, (uint32_t)p.v << t->up)];
+            *color = texels[packed_index(packed_uv((uint32_t)p.u << up, (uint32_t)p.v << up), log2_width, log2_height)];
         }
         z += dz;
         q = add_wrap(q, t->q.dx);
@@ -454,7 +464,7 @@ static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, co
 SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
 {
     const struct smear_raster_target *target = s->target;
-    const struct texture_setup *t = &s->texture;
+    const struct texture_setup *t = texture_of(s);
     const uint32_t *texels = s->draw->sampler.texels;
     const bool in_pieces = s->slope == SLOPE_BOTH || s->writes_velocity || target->x0 > 0
                         || target->x1 < s->frame->width;
@@ -485,13 +495,13 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
             if (exact) {
                 row_exact(s, row_color + x, row_depth + x, b - x, z + dz * (uint32_t)x, dz, q, u, v);
             } else {
-                struct place here = place_at(s, q, u, v, true);
+                struct place here = place_at(t, NULL, q, u, v, true);
                 do {
                     const int32_t n = min_i32(t->block, right - 1 - x), from = x;
                     q = add_wrap(q, mul_wrap(t->q.dx, n));
                     u = add_wrap(u, mul_wrap(t->u.dx, n));
                     v = add_wrap(v, mul_wrap(t->v.dx, n));
-                    const struct place next = place_at(s, q, u, v, true);
+                    const struct place next = place_at(t, NULL, q, u, v, true);
                     const struct course course = course_between(t, here, next, n, t->up, true);
                     here = next;
                     x = from + n == right - 1 ? right : from + n;
