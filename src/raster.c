@@ -535,6 +535,26 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 
 /* ------------------------------------------------------------------ a triangle */
 
+/* Without a texture and opaque: one colour throughout, which is then s->color. Faces of boxes have such vertices. */
+static bool is_flat(struct setup *s)
+{
+    const int at = s->segment->color;
+    if (s->segment->uv != 0 || s->draw->alpha != SMEAR_OPAQUE)
+        return false;
+    if (s->segment->shade != SHADE_GOURAUD)
+        return true;
+    if (s->v[0][at] != s->v[1][at] || s->v[0][at] != s->v[2][at]
+        || (((s->v[0][at + 1] ^ s->v[1][at + 1]) | (s->v[0][at + 1] ^ s->v[2][at + 1])) & 0xffff) != 0)
+        return false;
+    uint32_t code[3];
+    for (int c = 0; c < 3; c++) {
+        uint32_t value = (uint32_t)channel_value(s, 0, c);
+        code[c] = s->frame->linear ? smear_srgb_encode[value >> 12] : value >> 16;
+    }
+    s->color = pixel_make(0, code[0], code[1], code[2]);
+    return true;
+}
+
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
                                          const struct smear_segment *segment, uint32_t color,
@@ -577,12 +597,13 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     }
     smear_setup_area(&s, area);
     smear_setup_depth(&s);
-    if (s.segment->uv == 0 && s.segment->shade == SHADE_FLAT && !s.writes_velocity
-        && s.draw->alpha == SMEAR_OPAQUE && (width > SMALL_PX || height > SMALL_PX)) {
+    const bool flat = is_flat(&s);
+    if (flat && !s.writes_velocity && (width > SMALL_PX || height > SMALL_PX)) {
         cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
         return;
     }
-    smear_setup_color(&s);
+    if (!flat)
+        smear_setup_color(&s);
     if (s.segment->uv != 0)
         smear_setup_texture(&s);
     if (s.writes_velocity)
@@ -592,7 +613,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         cover_rows(&s, rows);
         return;
     }
-    smear_span_fn *write = smear_span_choose(&s);
+    smear_span_fn *write = flat ? smear_span_flat : smear_span_general;
     if (width <= SMALL_PX && height <= SMALL_PX)
         cover_small(&s, (int32_t)area, left, right, top, bottom, write);
     else

@@ -23,7 +23,7 @@ static inline int32_t part_of(int32_t a, int32_t n)
 #endif
 }
 
-static void span_flat(const struct setup *s, const struct span *p)
+void smear_span_flat(const struct setup *s, const struct span *p)
 {
     uint32_t *color = p->color;
     uint16_t *depth = p->depth;
@@ -702,7 +702,7 @@ static int32_t plain_first(struct walk *w, const struct setup *s, const struct s
 }
 
 /* In blocks: texels, then light, then the write. */
-static void span_general(const struct setup *s, const struct span *p)
+void smear_span_general(const struct setup *s, const struct span *p)
 {
     uint32_t block[BLOCK_MAX + 1];
     uint32_t *color = p->color;
@@ -740,10 +740,4 @@ static void span_general(const struct setup *s, const struct span *p)
             return;
         count = textured ? walk_next(&w, s) : plain_next(&w);
     }
-}
-
-smear_span_fn *smear_span_choose(const struct setup *s)
-{
-    return s->draw->alpha == SMEAR_OPAQUE && s->segment->uv == 0 && s->segment->shade != SHADE_GOURAUD ? span_flat
-                                                                                                      : span_general;
 }

@@ -19,8 +19,8 @@ struct span {
 /* Writes colour and depth where the span passes the depth test (and cutout, blend). */
 typedef void smear_span_fn(const struct setup *s, const struct span *p);
 
-/* The loop for a triangle: the plainest that does it. */
-smear_span_fn *smear_span_choose(const struct setup *s);
+/* One colour, opaque; and everything. */
+smear_span_fn smear_span_flat, smear_span_general;
 
 /* Plain texels in rows of their own: three to four times as fast as in blocks, of the same bits, and 2.5 kB larger. */
 #ifndef SMEAR_SPAN_ROWS
