@@ -22,8 +22,8 @@ static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
         { SMEAR_DRAFT, 80, 2, 6, 4, 8, 2, 768 },
-        { SMEAR_BALANCED, 40, 3, 6, 11, 16, 4, 512 },
-        { 0, 12, 6, 8, 20, 32, 6, 256 }
+        { SMEAR_BALANCED, 56, 3, 9, 11, 16, 4, 512 },
+        { 0, 16, 6, 12, 20, 32, 6, 256 }
     };
     const struct preset *p = preset;
     while (target < p->target)
