@@ -12,7 +12,7 @@
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
-enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3 };
+enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3, PIECES_LOG2 = 4 };
 
 enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
 
@@ -27,6 +27,7 @@ struct job {
     int32_t slots_log2;                         /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
     int32_t x, y, width, height;                /* the block */
+    bool even;                                  /* slots are */
     uint32_t fragments;
 };
 
@@ -115,7 +116,7 @@ static void choose_segments(struct job *j)
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend
-               || (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend))
+               || (!j->even && (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend)))
         log2++;
     j->segments_log2 = log2;
     j->slots_log2 = j->slots.slots_log2 - log2;
@@ -250,17 +251,25 @@ static void draw_whole(struct job *j, const struct mover *m)
     }
 }
 
-/* One that is there for a piece of the exposure: as it is in the middle of each slot. */
+/* One that is there for a piece of the exposure: a segment of its slots, where slots are even and there is one at least;
+ * else as it is in the middle of each slot. */
 static void draw_piece(struct job *j, const struct mover *m)
 {
-    struct timemask_pose pose;
+    struct timemask_pose pose[3];
+    const struct timemask_pose *poses[3] = { &pose[0], &pose[1], &pose[2] };
     int32_t slots = 1 << j->slots.slots_log2;
+    if (slots >= PATH_PIECES && j->even) {
+        for (int i = 0; i < 3; i++)
+            pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
+        draw_segment(j, m, poses, (m->bounds->piece - 1) * (slots / PATH_PIECES), j->slots.slots_log2 - PIECES_LOG2);
+        return;
+    }
+    poses[1] = poses[2] = &pose[0];
     for (int32_t slot = 0; slot < slots; slot++) {
         int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
         if (!path_piece_time(&time, m->bounds->piece))
             continue;
-        const struct timemask_pose *poses[3] = { &pose, &pose, &pose };
-        pose_at(&pose, j, m, time);
+        pose_at(&pose[0], j, m, time);
         draw_segment(j, m, poses, slot, 0);
     }
 }
@@ -316,6 +325,7 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
     struct job j = { .tile = t, .settings = settings, .list = t->work };
     smear_timemask_slots_place(&j.slots, j.list + LISTED, WIDTH_LOG2 + log2,
                                31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
+    j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     list_movers(&j);
     for (j.y = t->still.y0; j.y < t->still.y1; j.y += height)

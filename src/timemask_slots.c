@@ -70,16 +70,19 @@ static const uint32_t over[33] = {
 /* (a wa + b wb) / n with n = wa + wb slots: equal codes keep their mean. */
 static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
 {
-    uint32_t n = wa + wb, out[3];
-    for (int c = 0; c < 3; c++) {
-        int shift = 16 - 8 * c;
-        uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
-        if (linear)         /* the sum is below 2^21 */
-            out[c] = smear_srgb_encode[mulh_u32((smear_srgb_decode[ca] * wa + smear_srgb_decode[cb] * wb) << 11, over[n]) >> 5];
-        else                /* below 2^13 */
-            out[c] = mulh_u32((ca * wa + cb * wb + n / 2) << 18, over[n]) >> 8;
+    uint32_t n = wa + wb, by = over[n];
+    if (linear) {       /* sums are below 2^21 */
+        uint32_t red = smear_srgb_decode[pixel_red(a)] * wa + smear_srgb_decode[pixel_red(b)] * wb;
+        uint32_t green = smear_srgb_decode[pixel_green(a)] * wa + smear_srgb_decode[pixel_green(b)] * wb;
+        uint32_t blue = smear_srgb_decode[pixel_blue(a)] * wa + smear_srgb_decode[pixel_blue(b)] * wb;
+        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5], smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
+                          smear_srgb_encode[mulh_u32(blue << 11, by) >> 5]);
     }
-    return pixel_make(0, out[0], out[1], out[2]);
+    /* Below 2^13: products with by / 2^4 fit. */
+    uint32_t red_blue = (a & 0xff00ffu) * wa + (b & 0xff00ffu) * wb + (n >> 1) * 0x10001u;
+    uint32_t green = pixel_green(a) * wa + pixel_green(b) * wb + (n >> 1);
+    by = (by + 15u) >> 4;
+    return ((red_blue >> 16) * by >> 18) << 16 | (green * by >> 18) << 8 | (red_blue & 0xffffu) * by >> 18;
 }
 
 static inline uint32_t distance(uint32_t a, uint32_t b)
@@ -116,6 +119,8 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
     return e;
 }
 
+enum { ALIKE = 48 * 64 };       /* no need to look for better ones */
+
 /* How much it matters that two entries become one: by depth and colour. */
 static inline uint32_t apart(const struct entry *a, const struct entry *b)
 {
@@ -125,16 +130,21 @@ static inline uint32_t apart(const struct entry *a, const struct entry *b)
     return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
-/* All entries are taken: the two most alike share one. */
+/* All entries are taken: two that are alike share one. What is new first looks for one like itself, from the latest on. */
 static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
-    struct entry all[TIMEMASK_ENTRIES + 1];
-    for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-        all[e] = entry_at(b, pixel, e);
-    all[TIMEMASK_ENTRIES] = *fresh;
-    uint32_t first = 0, second = 1, least = UINT32_MAX;
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
-        for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
+    struct entry all[TIMEMASK_ENTRIES];
+    uint32_t first = 0, second = TIMEMASK_ENTRIES, least = UINT32_MAX;
+    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0 && least > ALIKE;) {
+        all[i] = entry_at(b, pixel, i);
+        uint32_t d = apart(&all[i], fresh);
+        if (d < least) {
+            least = d;
+            first = i;
+        }
+    }
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > ALIKE; i++)
+        for (uint32_t j = i + 1; j < TIMEMASK_ENTRIES; j++) {
             uint32_t d = apart(&all[i], &all[j]);
             if (d < least) {
                 least = d;
@@ -142,14 +152,15 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
                 second = j;
             }
         }
-    struct entry joined = entry_join(&all[first], &all[second], b->linear);
+    struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh, b->linear);
     entry_put(b, pixel, first, &joined);
-    if (second != TIMEMASK_ENTRIES)
+    if (second < TIMEMASK_ENTRIES)
         entry_put(b, pixel, second, fresh);
     /* It goes on in the longer's course for the other's slots, too. */
-    int32_t last_slot = (1 << b->slots_log2) - 1, lowest = (int32_t)joined.depth - (abs_i32(timemask_slope_of(joined.color)) * last_slot >> 5);
+    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->slots_log2) - 1) >> 5;
+    int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
     if (lowest < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)max_i32(lowest, 0);
+        b->farthest[pixel] = (uint16_t)lowest;
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -180,6 +191,13 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, stru
     b->any[pixel] |= mask;
     if (f->low < b->farthest[pixel])
         b->farthest[pixel] = (uint16_t)f->low;
+    for (uint32_t i = n; i-- > 0;) {
+        uint32_t at = (i << b->pixels_log2) + pixel;
+        if (timemask_is_same(b, at, f)) {
+            b->held[at] |= mask;
+            return;
+        }
+    }
     struct entry fresh = { mask, f->color, (uint32_t)f->depth };
     if (n == TIMEMASK_ENTRIES) {
         merge(b, pixel, &fresh);

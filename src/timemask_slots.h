@@ -56,7 +56,13 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* The same, where others have a say or entries run out. */
+/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, const struct timemask_fragment *f)
+{
+    return (b->color[at] ^ f->color) << 8 == 0 && (uint32_t)abs_i32((int32_t)b->depth[at] - f->depth) <= (uint32_t)f->depth >> 6;
+}
+
+/* timemask_slots_add, where others have a say or entries run out. */
 void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f);
 
 static inline void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
@@ -73,12 +79,16 @@ static inline void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, 
     }
     uint32_t at = (n << b->pixels_log2) + pixel;
     b->any[pixel] = any | f->mask;
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
+    if (n != 0 && timemask_is_same(b, at - (1u << b->pixels_log2), f)) {
+        b->held[at - (1u << b->pixels_log2)] |= f->mask;
+        return;
+    }
     b->held[at] = f->mask;
     b->color[at] = f->color;
     b->depth[at] = (uint16_t)f->depth;
     b->count[pixel] = (uint8_t)(n + 1);
-    if (f->low < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)f->low;
 }
 
 /* The pixel over the still scene's colour. */
