@@ -217,25 +217,28 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     return true;
 }
 
-/* Assembles as many tile rows from `first` on as find room; returns their end. `before` rows above are included, for
- * blended draws that come a row late. When even one row is too much, triangles are dropped and counted. */
-static int assemble_part(struct smear_context *c, int first, int before, const struct instant *instant)
+/* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
+ * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
+ * dropped and counted. */
+static int assemble_part(struct smear_context *c, int *top, int least, int first, const struct instant *instant)
 {
     int end = c->window.rows;
-    int top = max_i32(first - before, 0);
     uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        bool last = end - first <= 1;
-        if (assemble_rows(c, top, end, instant, last))
+        bool last = end - first <= 1 && *top == least;
+        if (assemble_rows(c, *top, end, instant, last))
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        end = first + (end - first) / 2;
+        if (end - first > 1)
+            end = first + (end - first) / 2;
+        else
+            ++*top;
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
-    for (int row = top; row < first; row++)
+    for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     stage_end(c, &c->stats.time_submit, start);
     return end;
@@ -466,7 +469,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 static int render_none(struct smear_context *c)
 {
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &sharp_instant);
+        int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = finish_sharp(c, row);
@@ -498,7 +501,7 @@ static int render_reconstruct(struct smear_context *c)
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, c->blends ? 1 : 0, &middle);
+        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -512,9 +515,12 @@ static int render_reconstruct(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    /* With smooth tiles the row above waits, and looks at the one above it. */
+    bool waits = c->chooser.has_window;
     for (int row = 0, end; row < c->window.rows; row = end) {
-        end = assemble_part(c, row, 0, &middle);
-        int result = smear_timed_rows(c, row, end);
+        int top = waits ? max_i32(row - 2, 0) : row;
+        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, &middle);
+        int result = smear_timed_rows(c, top, row, end);
         if (result != SMEAR_OK)
             return result;
     }
@@ -569,7 +575,7 @@ static int render_accumulate(struct smear_context *c)
     for (uint32_t k = 0; k < n; k++) {
         struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
         for (int row = 0; row < c->window.rows;) {
-            int end = assemble_part(c, row, 0, &instant);
+            int top = row, end = assemble_part(c, &top, row, row, &instant);
             for (; row < end; row++) {
                 draw_row(c, row);
                 blend_row(c, row);

@@ -288,8 +288,13 @@ static int finish_row(struct smear_context *c, int row, int first, int last)
     return smear_band_flush(c, row, finish.row.band);
 }
 
-int smear_timed_rows(struct smear_context *c, int first, int end)
+int smear_timed_rows(struct smear_context *c, int top, int first, int end)
 {
+    for (int row = top; row < first; row++) {       /* drawn before; all but the last are finished, too */
+        list_movers(c, row);
+        if (row < first - 1)
+            list_blended(c, row);
+    }
     for (int row = first; row < end; row++) {
         uint32_t start = stage_start(c);
         struct row_job job = { c, row, NULL };
@@ -302,10 +307,10 @@ int smear_timed_rows(struct smear_context *c, int first, int end)
         int result = SMEAR_OK;
         if (!c->chooser.has_window)
             result = finish_row(c, row, row, row);
-        else if (row > first)
-            result = finish_row(c, row - 1, first, row);
-        if (result == SMEAR_OK && c->chooser.has_window && row == end - 1)
-            result = finish_row(c, row, first, row);
+        else if (row > 0)
+            result = finish_row(c, row - 1, top, row);
+        if (result == SMEAR_OK && c->chooser.has_window && row == c->window.rows - 1)
+            result = finish_row(c, row, top, row);
         if (result != SMEAR_OK)
             return result;
     }

@@ -74,6 +74,8 @@ else
 fi
 suite command-line sh tests/cli.sh build/smear
 suite view sh tests/view.sh build/smear
+suite build-demo-screen $make -s build/host/demo-screen
+suite view-display sh tests/view_display.sh build/host/demo-screen
 if needs tmux "tmux"; then
     suite view-terminal sh tests/view_term.sh build/smear
 fi
@@ -86,6 +88,11 @@ suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
+if needs qemu-system-x86_64 "qemu-system-x86"; then
+    suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
+    suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
+        build/host/view_linux_init build/host/mkcpio
+fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
