@@ -635,7 +635,7 @@ static void prepare(struct smear_context *c)
         s->triangles_in += d->mesh->triangle_count;
     }
     c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
-                         && (textured || c->frame.target >= SMEAR_DRAFT);
+                         && c->frame.target >= (textured ? SMEAR_BALANCED : SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)
