@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* viewer.c - the loop of `smear view`: input, time, a frame, the screen. Start reading at loop(). */
+/* viewer.c - the loop of `smear view`: input, time, a frame, the screen. Start reading at
+ * loop(). */
 #include "view.h"
 
 #include "clock.h"
@@ -280,6 +281,9 @@ static bool draw_frame(struct view *v)
     struct instant instant = view_instant(v, v->at);
     if (!view_draw_main(v, v->at))
         return give_up(v, v->source->name, &v->why);
+    if (v->main.stats.triangles_dropped > 0 && !v->told_dropped)
+        view_say(v, "the arena is too small: triangles are left out");
+    v->told_dropped = v->main.stats.triangles_dropped > 0;
     double drawn_us = clock_us() - start;
     v->times.draw_us += drawn_us;
     if (v->times.count < MEDIAN_PICTURES)
@@ -333,7 +337,7 @@ static bool show(struct view *v)
     if (!v->screen->kind->surface(v->screen, &s, &f))
         return give_up(v, v->screen->kind->name, &f);
     double start = clock_us();
-    v->place = panel_fit(&v->look, v->width, v->height, &s);
+    v->place = panel_place_on(&v->look, v->width, v->height, &s);
     compose(v, &s, &text);
     double composed = clock_us();
     if (!v->screen->kind->show(v->screen, &text, &f))
