@@ -164,6 +164,8 @@ struct chart_verdict {
 };
 
 void chart_print_means(FILE *out, const struct chart *chart, int condition);
+/* Instructions per pixel of the sharp frame, on all scenes together. */
+void chart_print_none(FILE *out, const struct chart *chart, int condition);
 void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
 /* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
 void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,

@@ -3,6 +3,7 @@
 #include "chart.h"
 
 #include "../image/image.h"
+#include "sheet.h"
 #include "truth.h"
 
 #include <stdlib.h>
@@ -47,6 +48,24 @@ void chart_print_means(FILE *out, const struct chart *chart, int condition)
             fprintf(out, " %6.1f", object.worst > camera.worst ? object.worst : camera.worst);
         fprintf(out, "\n");
     }
+}
+
+void chart_print_none(FILE *out, const struct chart *chart, int condition)
+{
+    double each[KINDS], least = 0.0, most = 0.0;
+    int n = 0;
+    for (int k = 0; k < KINDS; k++) {
+        const struct chart_value *v = &chart->value[condition][k][chart_none];
+        if (!v->known)
+            continue;
+        each[n] = v->instructions / v->pixels;
+        least = n == 0 || each[n] < least ? each[n] : least;
+        most = each[n] > most ? each[n] : most;
+        n++;
+    }
+    if (n > 0)
+        fprintf(out, "none: %.0f to %.0f instructions per pixel, %.0f in the geometric mean of %d "
+                "scenes\n", least, most, geometric_mean(each, n), n);
 }
 
 void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind)
