@@ -51,7 +51,7 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo readme-pictures test bench chart chart-picture layers tables clean
+.PHONY: all cost-model help demo readme-pictures test bench chart chart-picture layers tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -94,6 +94,16 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
+# For a Linux without libraries, and what boots it.
+$(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -static -o $@ $^ -lm -lpthread
+
+$(BUILD)/view_linux_init: tests/view_linux_init.c
+	$(CC) -std=c11 -D_DEFAULT_SOURCE -Os -static -Wall -Wextra -o $@ $<
+
+$(BUILD)/mkcpio: tests/mkcpio.c
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
+
 $(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
@@ -130,7 +140,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform,$(ALL_SUITES))
+SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -142,6 +152,9 @@ CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c cha
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
 TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
+# What suites test of `smear view`.
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)
+TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/test_*.c)
@@ -192,5 +205,23 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+
+## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
+cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
+	$(RUN_BENCH) $< > $(BUILD)/cost.txt
+	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
+
+build/tapes/view_cost: tests/view_cost.c tools/view/cost.c $(TAPES_SRC)
+	@mkdir -p $(@D)
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Itests -o $@ \
+	    $(filter-out tests/target_tapes.c,$^) -lm
+
+build/tapes/cost.c: build/tapes/view_cost
+	build/tapes/view_cost tapes $@ build/tapes/cost.counts
+
+$(BUILD)/build/tapes/cost.o: CFLAGS += -Itests
+
+$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) tests/target_print.c tests/target_bench.c tests/play.c build/tapes/cost.c) $(LIB)
+	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -136,7 +136,8 @@ typedef enum smear_motion {
 
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
- * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close.
+ * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now` is
+ * that in the middle between them, whatever the exposure is.
  * Otherwise `open` is its pose one frame ago; when null, the library takes what it kept under `id`. A draw
  * whose earlier pose is unknown (first sight, cut, first frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
@@ -189,7 +190,8 @@ typedef struct smear_frame {
     uint8_t method;             /* smear_method */
     uint8_t exposure;           /* smear_exposure */
     uint8_t light;              /* smear_light */
-    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago */
+    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago, and the
+                                 * present ones those in the middle of the exposure */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
     uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
     uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and _TIMEMASK */

@@ -23,14 +23,14 @@ void smear_job_columns(const struct smear_context *c, int job, int32_t *x0, int3
     *x1 = min_i32(units * (job + 1) / n * unit, c->window.width);
 }
 
-uint8_t *smear_band_begin(struct smear_context *c, uint32_t ahead)
+uint8_t *smear_band_begin(struct smear_context *c)
 {
     /* With two buffers, the one from two bands ago must have been sent. */
     while (c->desc.bands == 2
-           && c->bands_handed + ahead - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
+           && c->bands_handed - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
         if (c->desc.idle != NULL)
             c->desc.idle(c->desc.user);
-    uint8_t *band = c->band[c->band[1] != NULL ? (c->bands_handed + ahead) & 1u : 0];
+    uint8_t *band = c->band[c->desc.bands == 2 ? c->bands_handed & 1u : 0];
     if (c->desc.format == SMEAR_L1_PAGES)
         __builtin_memset(band, 0, c->band_bytes);
     return band;
@@ -78,11 +78,17 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                       format, (smear_dither)c->desc.dither);
 }
 
+void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1)
+{
+    for (int32_t y = row_top(r->c, r->row); x0 < x1 && y < row_bottom(r->c, r->row); y++)
+        convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);
+}
+
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
 {
-    const struct smear_window *w = &r->c->window;
-    for (int32_t y = row_top(r->c, r->row); x0 < x1 && y < row_bottom(r->c, r->row); y++)
-        convert(r, w->color + window_slot(w, y) * w->width + x0, x0, x1, y);
+    struct smear_raster_target t;
+    smear_row_target(r->c, r->row, &t);
+    smear_band_convert_rows(r, &t, x0, x1);
 }
 
 void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile)

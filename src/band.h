@@ -56,13 +56,14 @@ struct row_job {
 
 /* ------------------------------------------------------------------ bands */
 
-/* A buffer for the rows after those handed out and `ahead` more; waits until it has been sent. */
-uint8_t *smear_band_begin(struct smear_context *c, uint32_t ahead);
+/* A buffer for the next rows; waits until what it held has been sent. */
+uint8_t *smear_band_begin(struct smear_context *c);
 
 /* Hands a tile row to the display. Returns SMEAR_OK, or what flush says if negative. */
 int smear_band_flush(struct smear_context *c, int row, uint8_t *band);
 
-/* Converts columns [x0, x1) of the row, which lie in the window. */
+/* Converts columns [x0, x1) of the row, which lie in a target or in the window. */
+void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1);
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1);
 
 /* Converts a tile of finished pixels, rows a tile apart. */

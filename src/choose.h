@@ -11,12 +11,10 @@ struct smear_tile_load {
     uint16_t travel, bend;      /* longest, 1/16 px */
     uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_BLENDED */
     uint16_t count;             /* triangles */
+    uint8_t method;             /* smear_tile_method it got in the end */
 };
 
-enum {
-    TILE_BLENDED = 0x100,       /* a blended draw is seen there, too */
-    TILE_STILL_SEEN = 0x200     /* so is a still one, or may be */
-};
+enum { TILE_BLENDED = 0x100 };  /* a blended draw is seen there, too */
 
 enum smear_tile_method { TILE_COPY, TILE_SMOOTH, TILE_SUBFRAMES, TILE_TIMEMASK };
 

@@ -32,15 +32,15 @@ struct smear_submitted {
 
 enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
 
-/* What moves in a tile row, and what is done about it. */
+/* What moves in a tile row. */
 struct smear_row_movers {
     struct smear_mover *mover;
     uint32_t count;
     struct smear_tile_load *load;               /* per tile */
-    /* With a window: tiles that wait for the row below. */
-    struct smear_smooth_field *field;           /* per tile */
-    uint8_t *waits;
 };
+
+/* Smooth tiles look at the movers of their own row and of its neighbours. */
+enum { ROWS_LISTED = 3 };
 
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
@@ -72,13 +72,12 @@ struct smear_context {
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
-    struct smear_row_movers row_movers[2];      /* of the row being drawn and the one above, by the row's last bit */
+    struct smear_row_movers row_movers[ROWS_LISTED];    /* with smooth tiles row r at r % 3, else the first */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
-    uint8_t *open;                  /* per tile of three rows, row r at r % 3: the background shows, or something still */
-    uint8_t *held;                  /* band of a row that waits for the one below */
-    uint8_t *still_tile;            /* per worker: colour and depth of a tile without movers */
+    uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
+    uint16_t *still_depth;
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */

@@ -62,13 +62,6 @@ static bool same_camera(const smear_camera *a, const smear_camera *b)
         && a->half_height == b->half_height;
 }
 
-/* The camera is not where it was: large parts of the picture may move as one. */
-static bool camera_turns(const struct smear_context *c)
-{
-    return c->camera_moves && !c->frame.cut
-        && (!same_camera(&c->camera_open, &c->camera) || !same_camera(&c->camera_close, &c->camera));
-}
-
 static bool is_mirrored(const smear_transform *t)
 {
     /* Sign of the determinant, in 20-bit entries. */
@@ -224,25 +217,28 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     return true;
 }
 
-/* Assembles as many tile rows from `first` on as find room; returns their end. `before` rows above are included, for
- * blended draws that come a row late. When even one row is too much, triangles are dropped and counted. */
-static int assemble_part(struct smear_context *c, int first, int before, const struct instant *instant)
+/* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
+ * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
+ * dropped and counted. */
+static int assemble_part(struct smear_context *c, int *top, int least, int first, const struct instant *instant)
 {
     int end = c->window.rows;
-    int top = max_i32(first - before, 0);
     uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        bool last = end - first <= 1;
-        if (assemble_rows(c, top, end, instant, last))
+        bool last = end - first <= 1 && *top == least;
+        if (assemble_rows(c, *top, end, instant, last))
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        end = first + (end - first) / 2;
+        if (end - first > 1)
+            end = first + (end - first) / 2;
+        else
+            ++*top;
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
-    for (int row = top; row < first; row++)
+    for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     stage_end(c, &c->stats.time_submit, start);
     return end;
@@ -357,7 +353,7 @@ static int finish_sharp(struct smear_context *c, int row)
 {
     blend_row(c, row);
     uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c, 0) };
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
     stage_end(c, &c->stats.time_convert, start);
     return smear_band_flush(c, row, job.band);
@@ -462,7 +458,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
     uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c, 0) };
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
     stage_end(c, &c->stats.time_blur, start);
     return smear_band_flush(c, row, job.band);
@@ -473,7 +469,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 static int render_none(struct smear_context *c)
 {
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &sharp_instant);
+        int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = finish_sharp(c, row);
@@ -505,7 +501,7 @@ static int render_reconstruct(struct smear_context *c)
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, c->blends ? 1 : 0, &middle);
+        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -519,15 +515,14 @@ static int render_reconstruct(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    smear_timed_begin(c);
-    for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &middle);
-        for (; row < end; row++) {
-            draw_row(c, row);
-            int result = smear_timed_row(c, row, row == end - 1);
-            if (result != SMEAR_OK)
-                return result;
-        }
+    /* With smooth tiles the row above waits, and looks at the one above it. */
+    bool waits = c->chooser.has_window;
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        int top = waits ? max_i32(row - 2, 0) : row;
+        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, &middle);
+        int result = smear_timed_rows(c, top, row, end);
+        if (result != SMEAR_OK)
+            return result;
     }
     return SMEAR_OK;
 }
@@ -580,7 +575,7 @@ static int render_accumulate(struct smear_context *c)
     for (uint32_t k = 0; k < n; k++) {
         struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
         for (int row = 0; row < c->window.rows;) {
-            int end = assemble_part(c, row, 0, &instant);
+            int top = row, end = assemble_part(c, &top, row, row, &instant);
             for (; row < end; row++) {
                 draw_row(c, row);
                 blend_row(c, row);
@@ -619,7 +614,8 @@ static void prepare(struct smear_context *c)
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
-                                         c->frame.method == SMEAR_AUTO && !c->desc.sharp && camera_turns(c) };
+                                         false };
+    bool textured = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -645,8 +641,11 @@ static void prepare(struct smear_context *c)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }
+    c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
+                         && (textured || c->frame.target >= SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)

@@ -77,7 +77,7 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
 {
     placement_transform(h, p, index);
     if (h->distance < p->now.near_distance)
-        return OUT_NEAR;
+        return OUT_NEAR | outcode_behind(h, viewport);
     project(screen, &p->now, h, viewport);
     int code = outcode_sides(screen, viewport);
     return h->distance > p->now.far_distance ? code | OUT_FAR : code;

@@ -88,15 +88,13 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     if (d->timed) {
         c->assembler.path_limit = d->max_triangles;
-        for (int i = 0; i < (d->sharp ? 1 : 2); i++) {
-            struct smear_row_movers *r = &c->row_movers[i];
-            r->mover = arena_take(a, d->max_triangles, sizeof *r->mover);
-            r->load = arena_take(a, columns, sizeof *r->load);
-            r->field = d->sharp ? NULL : arena_take(a, columns, sizeof *r->field);
-            r->waits = d->sharp ? NULL : arena_take(a, columns, 1);
+        for (int i = 0; i < (d->sharp ? 1 : ROWS_LISTED); i++) {
+            c->row_movers[i].mover = arena_take(a, d->max_triangles, sizeof *c->row_movers[i].mover);
+            c->row_movers[i].load = arena_take(a, columns, sizeof *c->row_movers[i].load);
         }
-        c->open = d->sharp ? NULL : arena_take(a, 3 * columns, 1);
-        c->still_tile = d->sharp ? NULL : arena_take(a, d->workers, (size_t)d->tile * (size_t)d->tile * 6);
+        size_t still = d->sharp ? 0 : 2 * (size_t)d->width * (size_t)d->tile;
+        c->still_color = arena_take(a, still, 4);
+        c->still_depth = arena_take(a, still, 2);
         c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
@@ -105,9 +103,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
-    /* Rows that wait for the one below have a band that is held back. */
-    int bands = d->timed && !d->sharp ? 2 : d->bands;
-    for (int i = 0; i < bands; i++)
+    for (int i = 0; i < d->bands; i++)
         c->band[i] = arena_take(a, c->band_bytes, 1);
 
     c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);

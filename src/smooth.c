@@ -119,6 +119,34 @@ static struct sample corner_sample(const struct way *w, const struct corner *c)
     return (struct sample){ c->x, c->y, close[0] - open[0], close[1] - open[1], open[0] + close[0], open[1] + close[1] };
 }
 
+/* Depths change alike at all vertices: displacements are linear on the screen, too. */
+static bool is_affine(const struct way *w)
+{
+    if (w->segment->flat_depth)
+        return true;
+    for (int pose = 0; pose < 2; pose++) {
+        int32_t low = min_i32(w->ratio[pose][0], min_i32(w->ratio[pose][1], w->ratio[pose][2]));
+        int32_t high = max_i32(w->ratio[pose][0], max_i32(w->ratio[pose][1], w->ratio[pose][2]));
+        if (high - low > 512)           /* off by 1/512 of a triangle's size at most */
+            return false;
+    }
+    return true;
+}
+
+static struct sample mixed_sample(const struct sample vertex[3], const struct corner *c)
+{
+    struct sample s = { c->x, c->y, 0, 0, 0, 0 };
+    int32_t weight[3];
+    for (int i = 0; i < 3; i++) {
+        weight[i] = c->weight[i] >> 6;      /* q10: displacements have 21 bits */
+        s.dx += (int32_t)((int64_t)vertex[i].dx * weight[i] >> 10);
+        s.dy += (int32_t)((int64_t)vertex[i].dy * weight[i] >> 10);
+        s.bx += (int32_t)((int64_t)vertex[i].bx * weight[i] >> 10);
+        s.by += (int32_t)((int64_t)vertex[i].by * weight[i] >> 10);
+    }
+    return s;
+}
+
 /* Samples of a triangle within `half` of the tile's middle: its corners there. */
 static int find_samples(struct sample out[CORNERS_MAX], struct way *w, int32_t half)
 {
@@ -140,6 +168,12 @@ static int find_samples(struct sample out[CORNERS_MAX], struct way *w, int32_t h
             w->ratio[pose][i] = w->segment->flat_depth ? 65536
                 : depth_ratio(w->record[i][VERTEX_DEPTH],
                               w->record[i][w->segment->motion + pose * PATH_POSE_WORDS + PATH_DEPTH]);
+    if (count != 0 && is_affine(w)) {
+        struct sample vertex[3] = { out[0], out[1], out[2] };
+        for (int i = 0; i < count; i++)
+            out[i] = mixed_sample(vertex, &c[i]);
+        return count;
+    }
     for (int i = 0; i < count; i++)
         out[i] = corner_sample(w, &c[i]);
     return count;
@@ -234,8 +268,22 @@ static void find_reach(struct smear_smooth_field *f, int32_t tile)
     int32_t half = tile << 7;           /* q8 px */
     int32_t x = abs_i32(f->x) + (int32_t)(((int64_t)(abs_i32(f->xx) + abs_i32(f->xy)) * half) >> 16);
     int32_t y = abs_i32(f->y) + (int32_t)(((int64_t)(abs_i32(f->yx) + abs_i32(f->yy)) * half) >> 16);
-    f->reach_x = ((x >> 1) + (abs_i32(f->bend_x) >> 2) + 255) >> 8;
-    f->reach_y = ((y >> 1) + (abs_i32(f->bend_y) >> 2) + 255) >> 8;
+    /* A line of pixels strays by up to one from the way it stands for, and takes a share of the pixel beyond its end. */
+    int32_t more_x = f->y != 0 || f->x != 0, more_y = f->y != 0;
+    f->reach_x = (((x >> 1) + (abs_i32(f->bend_x) >> 2) + 255) >> 8) + more_x;
+    f->reach_y = (((y >> 1) + (abs_i32(f->bend_y) >> 2) + 255) >> 8) + more_y;
+}
+
+/* The depth code that all of a triangle exceeds, or has. */
+static uint32_t farthest_of(const struct way *w)
+{
+    int32_t depth = INT32_MAX;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = w->record[i], *open = v + w->segment->motion, *close = open + PATH_POSE_WORDS;
+        depth = min_i32(depth, min_i32(v[VERTEX_DEPTH], min_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
+    }
+    uint32_t units = (uint32_t)depth >> 11;
+    return units < 32768u ? units : 32768u + ((units - 32768u) >> 4);
 }
 
 static void way_of(struct way *w, const struct smear_geometry *g, const struct smear_mover *m)
@@ -246,37 +294,44 @@ static void way_of(struct way *w, const struct smear_geometry *g, const struct s
         w->record[i] = geometry_vertex(g, w->segment, t->vertex[i]);
 }
 
-bool smear_smooth_fit(struct smear_smooth_field *field, const struct smear_geometry *geometry,
-                      const struct smear_mover *mover, uint32_t count, int32_t column, int32_t x0, int32_t y0,
-                      int32_t tile, int32_t travel, int32_t tolerance)
+bool smear_smooth_fit(struct smear_smooth_field *field, const struct smear_smooth_area *area,
+                      const struct smear_geometry *geometry, const struct smear_smooth_list *list, int lists,
+                      int32_t travel, int32_t tolerance, void *work, uint32_t work_bytes)
 {
-    struct way w = { .ox = x0 * 256 + tile * 128, .oy = y0 * 256 + tile * 128 };
+    struct way w = { .ox = area->x0 * 256 + area->tile * 128, .oy = area->y0 * 256 + area->tile * 128 };
     struct sums sums = { 0 };
-    struct sample sample[CORNERS_MAX];
-    const int32_t half = tile * 128 + (travel >> 1) + 256;      /* what is farther in the middle does not come here */
-    for (uint32_t i = 0; i < count; i++) {
-        if (!mover_is_in(&mover[i], column))
-            continue;
-        if (geometry_bounds(geometry, mover[i].triangle)->piece != 0)
-            return false;
-        way_of(&w, geometry, &mover[i]);
-        int n = find_samples(sample, &w, half);
-        for (int k = 0; k < n; k++)
-            sums_add(&sums, &sample[k]);
+    struct sample *sample = work;
+    const uint32_t limit = work_bytes / sizeof *sample;
+    const int32_t half = area->tile * 128 + (travel >> 1) + 256;    /* what is farther in the middle does not come here */
+    const int32_t left = max_i32(w.ox - half, 0) >> 8 >> area->tile_shift, right = (w.ox + half) >> 8 >> area->tile_shift;
+    uint32_t n = 0, farthest = UINT16_MAX;
+    for (int k = 0; k < lists; k++) {
+        for (uint32_t i = 0; i < list[k].count; i++) {
+            const struct smear_mover *m = &list[k].mover[i];
+            if (m->last < left || m->first > right)
+                continue;
+            const struct smear_path_bounds *b = geometry_bounds(geometry, m->triangle);
+            if (k != 0 && b->y0 < area->y0 + area->tile && b->y1 > area->y0)
+                continue;       /* it is in the tile's own row, too */
+            if (n + CORNERS_MAX > limit || b->piece != 0)
+                return false;
+            way_of(&w, geometry, m);
+            int found = find_samples(sample + n, &w, half);
+            if (found == 0)
+                continue;
+            farthest = min_u32(farthest, farthest_of(&w));
+            for (; found > 0; found--)
+                sums_add(&sums, &sample[n++]);
+        }
     }
-    if (sums.n == 0)
+    if (n == 0)
         return false;
     solve(field, &sums);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!mover_is_in(&mover[i], column))
-            continue;
-        way_of(&w, geometry, &mover[i]);
-        int n = find_samples(sample, &w, half);
-        for (int k = 0; k < n; k++)
-            if (departure(field, &sample[k]) > tolerance)
-                return false;
-    }
-    find_reach(field, tile);
+    for (uint32_t i = 0; i < n; i++)
+        if (departure(field, &sample[i]) > tolerance)
+            return false;
+    field->farthest = (uint16_t)farthest;
+    find_reach(field, area->tile);
     return true;
 }
 
@@ -298,67 +353,263 @@ static void taps_place(struct tap tap[TAPS_MAX / 2], const struct smear_smooth_f
     }
 }
 
-/* Encoded: both sums hold red and blue; the difference is green, 256 times. */
-struct color_sums {
-    uint32_t r, g, b, all, red_blue;
+/* ------------------------------------------------------------------ what is seen */
+
+struct channels {
+    uint32_t r, g, b;           /* codes, or linear light */
 };
 
-SMEAR_INLINE void add_pixel(struct color_sums *s, uint32_t p, bool linear)
+SMEAR_INLINE struct channels channels_of(uint32_t p, bool linear)
 {
+    if (linear)
+        return (struct channels){ smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)],
+                                  smear_srgb_decode[pixel_blue(p)] };
+    return (struct channels){ pixel_red(p), pixel_green(p), pixel_blue(p) };
+}
+
+/* Index of the movers' pixel (x, y). */
+SMEAR_INLINE uint32_t mover_index(const struct smear_smooth_source *s, int32_t x, int32_t y)
+{
+    return s->offset[y - s->first] + (uint32_t)x;
+}
+
+/* ------------------------------------------------------------------ taps */
+
+/* Encoded: `all` and `red_blue` hold red and blue, the first also green, 256 times. */
+struct tap_sums {
+    struct channels c;
+    uint32_t all, red_blue, count;
+};
+
+SMEAR_INLINE void add_tap(struct tap_sums *t, const struct smear_smooth_source *s, uint32_t at, uint32_t still_depth,
+                          bool linear)
+{
+    if (s->depth[at] <= still_depth)
+        return;
+    uint32_t p = s->color[at];
+    t->count++;
     if (linear) {
-        s->r += smear_srgb_decode[pixel_red(p)];
-        s->g += smear_srgb_decode[pixel_green(p)];
-        s->b += smear_srgb_decode[pixel_blue(p)];
+        struct channels c = channels_of(p, true);
+        t->c.r += c.r;
+        t->c.g += c.g;
+        t->c.b += c.b;
     } else {
-        s->all += p;
-        s->red_blue += p & 0xff00ffu;
+        t->all += p;
+        t->red_blue += p & 0xff00ffu;
     }
 }
 
 /* `over` is 2^24 / n, rounded up: equal values keep their mean. */
-SMEAR_INLINE uint32_t mean_of(const struct color_sums *s, uint32_t over, bool linear)
+SMEAR_INLINE uint32_t mean_of_taps(const struct tap_sums *t, uint32_t still, uint32_t n, uint32_t over, bool linear)
 {
+    struct channels c = t->c, rest = { 0, 0, 0 };
+    if (t->count != n)
+        rest = channels_of(still, linear);
+    uint32_t k = n - t->count;
     if (linear)
-        return pixel_make(0, smear_srgb_encode[mulh_u32(s->r << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->g << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->b << 8, over) >> 4]);
-    uint32_t q16 = over >> 8, g = (s->all - s->red_blue) >> 8 & 0xffffu;
-    return pixel_make(0, ((s->red_blue >> 16) * q16 + 0x8000u) >> 16, (g * q16 + 0x8000u) >> 16,
-                      ((s->red_blue & 0xffffu) * q16 + 0x8000u) >> 16);
+        return pixel_make(0, smear_srgb_encode[mulh_u32((c.r + k * rest.r) << 8, over) >> 4],
+                          smear_srgb_encode[mulh_u32((c.g + k * rest.g) << 8, over) >> 4],
+                          smear_srgb_encode[mulh_u32((c.b + k * rest.b) << 8, over) >> 4]);
+    uint32_t q16 = over >> 8;
+    c.r = (t->red_blue >> 16) + k * rest.r;
+    c.g = ((t->all - t->red_blue) >> 8 & 0xffffu) + k * rest.g;
+    c.b = (t->red_blue & 0xffffu) + k * rest.b;
+    return pixel_make(0, (c.r * q16 + 0x8000u) >> 16, (c.g * q16 + 0x8000u) >> 16, (c.b * q16 + 0x8000u) >> 16);
 }
 
 SMEAR_INLINE uint32_t mean_along(const struct smear_smooth_source *source, const struct tap *tap, int32_t taps,
-                                 int32_t x, int32_t y, int32_t vx, int32_t vy, uint32_t over, bool linear)
+                                 int32_t x, int32_t y, int32_t vx, int32_t vy, uint32_t over, uint32_t still,
+                                 uint32_t still_depth, bool linear)
 {
-    struct color_sums sums = { 0, 0, 0, 0, 0 };
-    const uint32_t *offset = source->offset - source->first;
+    struct tap_sums sums = { { 0, 0, 0 }, 0, 0, 0 };
     x = (x << 16) + 0x8000;
     y = (y << 16) + 0x8000;
     for (int32_t i = 0; i < taps / 2; i++) {
         int32_t dx = vx * (tap[i].s >> 4) >> 4, dy = vy * (tap[i].s >> 4) >> 4;     /* q8 x q12 to q16 */
         int32_t mx = x + tap[i].bend_x, my = y + tap[i].bend_y;
-        add_pixel(&sums, source->color[offset[(my - dy) >> 16] + (uint32_t)((mx - dx) >> 16)], linear);
-        add_pixel(&sums, source->color[offset[(my + dy) >> 16] + (uint32_t)((mx + dx) >> 16)], linear);
+        add_tap(&sums, source, mover_index(source, (mx - dx) >> 16, (my - dy) >> 16), still_depth, linear);
+        add_tap(&sums, source, mover_index(source, (mx + dx) >> 16, (my + dy) >> 16), still_depth, linear);
     }
-    return mean_of(&sums, over, linear);
+    return mean_of_taps(&sums, still, (uint32_t)taps, over, linear);
 }
 
-uint32_t smear_smooth_tile(uint32_t *out, int32_t stride, const struct smear_smooth_source *source,
-                           const struct smear_smooth_field *field, int32_t x0, int32_t y0, int32_t x1, int32_t y1,
-                           int32_t tile, int32_t taps, bool linear)
+static uint32_t mean_by_taps(uint32_t *out, const struct smear_smooth_source *source,
+                             const struct smear_smooth_field *field, const struct smear_smooth_area *a, int32_t taps,
+                             bool linear)
 {
     struct tap tap[TAPS_MAX / 2];
     taps = clamp_i32(taps + 1, 2, TAPS_MAX) & ~1;
     taps_place(tap, field, taps);
     uint32_t over = ((1u << 24) + (uint32_t)taps - 1u) / (uint32_t)taps;
-    for (int32_t y = y0; y < y1; y++, out += stride) {
+    const uint32_t *still = source->still;
+    const uint16_t *depth = source->still_depth;
+    for (int32_t y = a->y0; y < a->y1; y++, out += a->tile, still += source->stride, depth += source->stride) {
         /* Displacement at the row's first pixel, q16 px: places from the tile's middle are odd halves of pixels. */
-        int32_t rx = 1 - tile, ry = 2 * (y - y0) + 1 - tile;
+        int32_t rx = 1 - a->tile, ry = 2 * (y - a->y0) + 1 - a->tile;
         int32_t vx = field->x * 256 + ((field->xx * rx + field->xy * ry) >> 1);
         int32_t vy = field->y * 256 + ((field->yx * rx + field->yy * ry) >> 1);
-        for (int32_t x = x0; x < x1; x++, vx += field->xx, vy += field->yx)
-            out[x - x0] = linear ? mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, true)
-                                 : mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, false);
+        for (int32_t x = a->x0, i = 0; x < a->x1; x++, i++, vx += field->xx, vy += field->yx)
+            out[i] = linear ? mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, still[i], depth[i], true)
+                            : mean_along(source, tap, taps, x, y, vx >> 8, vy >> 8, over, still[i], depth[i], false);
     }
-    return (uint32_t)(taps * (x1 - x0) * (y1 - y0));
+    return (uint32_t)(taps * (a->x1 - a->x0) * (a->y1 - a->y0));
+}
+
+/* ------------------------------------------------------------------ the box */
+
+/* All pixels of the tile have one way, and no still surface lies before a mover: lines along the way, with a pixel per
+ * step of its longer axis, the same for all pixels on them. A sum that slides along a line gives the mean of each. */
+struct line {
+    bool upright;               /* steps go down, not right */
+    int32_t slope;              /* of the other axis, q16, within -1 .. 1 */
+    int32_t half;               /* whole pixels on both sides of the middle one */
+    uint32_t rest;              /* share of the ones beyond, q8 */
+    uint32_t length;            /* q8 px */
+    uint32_t over;              /* 2^30 / length, rounded up */
+};
+
+static struct line line_make(const struct smear_smooth_field *f)
+{
+    struct line l = { .upright = abs_i32(f->y) > abs_i32(f->x) };
+    int32_t major = l.upright ? f->y : f->x, minor = l.upright ? f->x : f->y;
+    int32_t length = max_i32(abs_i32(major), 256);
+    l.slope = ratio_q(major < 0 ? -(int64_t)minor : minor, length, 16);
+    l.half = (length - 256) >> 9;
+    l.rest = (uint32_t)(length - 256 - (l.half << 9)) >> 1;
+    l.length = 256u + ((uint32_t)l.half << 9) + 2u * l.rest;
+    l.over = ((1u << 30) + l.length - 1u) / l.length;
+    return l;
+}
+
+/* How far the line has strayed at step i from the tile's first pixel. */
+static inline int32_t stray(const struct line *l, int32_t i)
+{
+    return (l->slope * i + 0x8000) >> 16;
+}
+
+static inline uint32_t line_index(const struct smear_smooth_source *s, const struct smear_smooth_area *a,
+                                  const struct line *l, int32_t along, int32_t across)
+{
+    across += stray(l, along);
+    return mover_index(s, a->x0 + (l->upright ? across : along), a->y0 + (l->upright ? along : across));
+}
+
+struct box_sums {
+    struct channels c;
+    uint32_t count;
+};
+
+/* Where there is no mover the colour is 0. */
+SMEAR_INLINE void box_add(struct box_sums *b, const struct smear_smooth_source *s, uint32_t at, bool linear)
+{
+    struct channels c = channels_of(s->color[at], linear);
+    b->c.r += c.r;
+    b->c.g += c.g;
+    b->c.b += c.b;
+    b->count += s->depth[at] != 0;
+}
+
+SMEAR_INLINE void box_drop(struct box_sums *b, const struct smear_smooth_source *s, uint32_t at, bool linear)
+{
+    struct channels c = channels_of(s->color[at], linear);
+    b->c.r -= c.r;
+    b->c.g -= c.g;
+    b->c.b -= c.b;
+    b->count -= s->depth[at] != 0;
+}
+
+/* (256 sum + rest ends + (length - covered) still) / length, to nearest. Linear: 16-bit values of up to 129 px, whose sum
+ * has 31 bits in q7. */
+SMEAR_INLINE uint32_t box_mean(uint32_t sum, uint32_t ends, uint32_t still, uint32_t uncovered, const struct line *l,
+                               bool linear)
+{
+    if (linear) {
+        uint32_t q7 = sum * 128u + (ends * l->rest >> 1) + (still * uncovered >> 1);
+        return smear_srgb_encode[min_u32(mulh_u32(q7, l->over) >> 1, 4095u)];
+    }
+    uint32_t q8 = sum * 256u + ends * l->rest + still * uncovered;      /* below 2^23 */
+    return min_u32(mulh_u32((q8 << 2) + (l->length << 1), l->over), 255u);
+}
+
+SMEAR_INLINE uint32_t box_pixel(const struct box_sums *s, const struct box_sums *ends, uint32_t still,
+                                const struct line *l, bool linear)
+{
+    uint32_t uncovered = l->length - (s->count << 8) - ends->count * l->rest;
+    struct channels rest = { 0, 0, 0 };
+    if (uncovered == l->length)
+        return still;
+    if (uncovered != 0)
+        rest = channels_of(still, linear);
+    return pixel_make(0, box_mean(s->c.r, ends->c.r, rest.r, uncovered, l, linear),
+                      box_mean(s->c.g, ends->c.g, rest.g, uncovered, l, linear),
+                      box_mean(s->c.b, ends->c.b, rest.b, uncovered, l, linear));
+}
+
+SMEAR_INLINE void box_line(uint32_t *out, const struct smear_smooth_source *source, const struct smear_smooth_area *a,
+                           const struct line *l, int32_t across, bool linear)
+{
+    int32_t length = l->upright ? a->y1 - a->y0 : a->x1 - a->x0, width = l->upright ? a->x1 - a->x0 : a->y1 - a->y0;
+    int32_t first = 0, end = length;
+    while (first < end && (uint32_t)(across + stray(l, first)) >= (uint32_t)width)
+        first++;
+    while (end > first && (uint32_t)(across + stray(l, end - 1)) >= (uint32_t)width)
+        end--;
+    if (first == end)
+        return;
+    struct box_sums sums = { { 0, 0, 0 }, 0 };
+    for (int32_t i = first - l->half; i <= first + l->half; i++)
+        box_add(&sums, source, line_index(source, a, l, i, across), linear);
+    for (int32_t i = first; i < end; i++) {
+        struct box_sums ends = { { 0, 0, 0 }, 0 };
+        uint32_t after = line_index(source, a, l, i + l->half + 1, across);
+        box_add(&ends, source, line_index(source, a, l, i - l->half - 1, across), linear);
+        box_add(&ends, source, after, linear);
+        int32_t side = across + stray(l, i), x = l->upright ? side : i, y = l->upright ? i : side;
+        out[y * a->tile + x] = box_pixel(&sums, &ends, source->still[y * source->stride + x], l, linear);
+        box_add(&sums, source, after, linear);
+        box_drop(&sums, source, line_index(source, a, l, i - l->half, across), linear);
+    }
+}
+
+static void mean_by_box(uint32_t *out, const struct smear_smooth_source *source, const struct smear_smooth_field *field,
+                        const struct smear_smooth_area *a, bool linear)
+{
+    struct line l = line_make(field);
+    int32_t length = l.upright ? a->y1 - a->y0 : a->x1 - a->x0, width = l.upright ? a->x1 - a->x0 : a->y1 - a->y0;
+    int32_t shift = stray(&l, length - 1);
+    for (int32_t across = -max_i32(shift, 0); across < width - min_i32(shift, 0); across++) {
+        if (linear)
+            box_line(out, source, a, &l, across, true);
+        else
+            box_line(out, source, a, &l, across, false);
+    }
+}
+
+/* Ways of the tile's pixels differ by no more than 3/8 px at their ends. */
+static bool has_one_way(const struct smear_smooth_field *f, int32_t tile)
+{
+    int32_t x = (abs_i32(f->xx) + abs_i32(f->xy)) * tile >> 2, y = (abs_i32(f->yx) + abs_i32(f->yy)) * tile >> 2;
+    return max_i32(x, y) <= 3 << 13 && max_i32(abs_i32(f->bend_x), abs_i32(f->bend_y)) <= 384
+        && max_i32(abs_i32(f->x), abs_i32(f->y)) <= 127 * 256;
+}
+
+static bool is_before_all(const struct smear_smooth_source *s, const struct smear_smooth_field *f,
+                          const struct smear_smooth_area *a)
+{
+    const uint16_t *depth = s->still_depth;
+    for (int32_t y = a->y0; y < a->y1; y++, depth += s->stride)
+        for (int32_t i = 0; i < a->x1 - a->x0; i++)
+            if (depth[i] >= f->farthest)
+                return false;
+    return true;
+}
+
+uint32_t smear_smooth_tile(uint32_t *out, const struct smear_smooth_source *source,
+                           const struct smear_smooth_field *field, const struct smear_smooth_area *area, int32_t taps,
+                           bool linear)
+{
+    if (!has_one_way(field, area->tile) || !is_before_all(source, field, area))
+        return mean_by_taps(out, source, field, area, taps, linear);
+    mean_by_box(out, source, field, area, linear);
+    return (uint32_t)((area->x1 - area->x0) * (area->y1 - area->y0));
 }

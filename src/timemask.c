@@ -7,15 +7,20 @@
 #include "timemask_cover.h"
 #include "timemask_shade.h"
 #include "timemask_slots.h"
+#include "transform.h"
 
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
+
+enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
 
 /* What the blocks of a tile share. */
 struct job {
     const struct smear_moving_tile *tile;
     const struct smear_timemask_settings *settings;
     struct timemask_slots slots;
+    uint32_t *list;                             /* depth code, then place in the tile's list from `first` on */
+    uint32_t listed, first, next;
     int32_t segments_log2;
     int32_t slots_log2;                         /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
@@ -23,7 +28,7 @@ struct job {
     uint32_t fragments;
 };
 
-/* A moving triangle. */
+/* A moving triangle, looked up. */
 struct mover {
     const struct smear_path_bounds *bounds;
     const struct smear_triangle *triangle;
@@ -31,22 +36,50 @@ struct mover {
     const int32_t *record[3];
 };
 
-/* Movers that may be seen in a box of pixels. */
-static bool mover_take(struct mover *m, const struct job *j, uint32_t i)
+static void mover_take(struct mover *m, const struct job *j, uint32_t i)
 {
-    const struct smear_moving_tile *t = j->tile;
-    const struct smear_geometry *g = t->frame->geometry;
-    if (!mover_is_in(&t->mover[i], t->column))
-        return false;
-    m->bounds = geometry_bounds(g, t->mover[i].triangle);
-    if (m->bounds->x0 >= j->x + j->width || m->bounds->x1 <= j->x
-        || m->bounds->y0 >= j->y + j->height || m->bounds->y1 <= j->y)
-        return false;
-    m->triangle = geometry_triangle(g, t->mover[i].triangle);
+    const struct smear_geometry *g = j->tile->frame->geometry;
+    uint32_t triangle = j->tile->mover[i].triangle;
+    m->bounds = geometry_bounds(g, triangle);
+    m->triangle = geometry_triangle(g, triangle);
     m->segment = &g->segment[m->triangle->segment];
     for (int k = 0; k < 3; k++)
         m->record[k] = geometry_vertex(g, m->segment, m->triangle->vertex[k]);
-    return true;
+}
+
+/* ------------------------------------------------------------------ order */
+
+/* Shell sort, greatest first. */
+static void sort_down(uint32_t *a, uint32_t n)
+{
+    static const uint8_t gaps[] = { 57, 23, 10, 4, 1 };
+    for (uint32_t k = 0; k < sizeof gaps; k++) {
+        uint32_t gap = gaps[k];
+        for (uint32_t i = gap; i < n; i++) {
+            uint32_t key = a[i], at = i;
+            for (; at >= gap && a[at - gap] < key; at -= gap)
+                a[at] = a[at - gap];
+            a[at] = key;
+        }
+    }
+}
+
+/* Lists the tile's movers from `next` on, as many as there is room for, the nearest first. What is merged in a pixel is
+ * hardly ever hidden by what comes later then. */
+static void list_movers(struct job *j)
+{
+    const struct smear_moving_tile *t = j->tile;
+    j->first = j->next;
+    j->listed = 0;
+    for (; j->next < t->mover_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
+        if (mover_is_in(&t->mover[j->next], t->column))
+            j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16 | (65535u - (j->next - j->first));
+    sort_down(j->list, j->listed);
+}
+
+static inline uint32_t listed_mover(const struct job *j, uint32_t i)
+{
+    return j->first + 65535u - (j->list[i] & 0xffffu);
 }
 
 /* ------------------------------------------------------------------ segments */
@@ -87,12 +120,16 @@ static void choose_segments(struct job *j)
     const struct smear_moving_tile *t = j->tile;
     int32_t bend = 0, travel = 0;               /* q8 px */
     struct mover m;
-    for (uint32_t i = 0; i < t->mover_count; i++)
-        if (mover_take(&m, j, i) && m.bounds->piece == 0) {
+    for (uint32_t i = 0; i < t->mover_count; i++) {
+        if (!mover_is_in(&t->mover[i], t->column))
+            continue;
+        mover_take(&m, j, i);
+        if (m.bounds->piece == 0) {
             travel = max_i32(travel, m.bounds->travel << 4);
             bend = max_i32(bend, m.bounds->bend << 3);
             bend = max_i32(bend, max_i32(edge_bend(&m, 0, 1), max_i32(edge_bend(&m, 1, 2), edge_bend(&m, 2, 0))));
         }
+    }
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend
@@ -114,7 +151,7 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
         path_at(place, m->record[i], m->segment, time);
         p->x[i] = place[0] - x;
         p->y[i] = place[1] - y;
-        p->depth[i] = max_i32(place[2], 1);
+        p->depth[i] = clamp_i32(place[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);      /* a parabola overshoots */
     }
 }
 
@@ -127,39 +164,72 @@ static inline uint32_t still_at(const struct smear_plane_rows *r, const struct s
     return (uint32_t)(slot * r->stride + x - r->x0);
 }
 
-/* A triangle in a segment of 2^slots_log2 slots, from pose a to pose b; `first` is the segment's first slot. */
-static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *a,
-                         const struct timemask_pose *b, int32_t first, int32_t slots_log2)
+/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much nearer it is
+ * in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
+static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, int32_t from, int32_t count)
+{
+    int32_t end = begin + 2 * slope * (count - 1);
+    if (begin > 0 && end > 0)
+        return UINT32_MAX >> (32 - count) << from;
+    if (begin <= 0 && end <= 0)
+        return 0;
+    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
+    return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
+}
+
+/* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
+static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3], int32_t first,
+                         int32_t slots_log2)
 {
     const struct smear_raster_target *still = &j->tile->still;
     struct timemask_cover c;
     struct timemask_shade s;
-    struct timemask_run run[TIMEMASK_BLOCK];
-    if (!smear_timemask_cover(&c, a, b, j->width, j->height, slots_log2))
+    struct timemask_run run[TIMEMASK_RUNS];
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, a, b, slots_log2, j->settings->tap);
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
+    /* Slopes as they are kept, below and from code 32768; and how far the middle of the exposure is off. */
+    const uint32_t kept[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
+    const int32_t slope[2] = { timemask_slope_of(kept[0]), timemask_slope_of(kept[1]) };
+    const int32_t last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first;
+    const bool plain = !s.gouraud && s.sampler == NULL;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
-            uint32_t code = timemask_depth(&s, y, &run[i]);
-            if (code <= depth[run[i].x])
+            const struct timemask_run *r = &run[i];
+            int32_t count = r->to - r->from;
+            uint32_t code = timemask_depth(&s, y, r), high = code >> 15;
+            int32_t apart = ((int32_t)code - (int32_t)depth[r->x]) * 32, most = abs_i32(slope[high]) * (count - 1);
+            if (apart <= -most)
                 continue;
-            uint32_t color = s.gouraud || s.sampler != NULL ? smear_timemask_color(&s, y, &run[i]) : s.color;
-            uint32_t mask = (UINT32_MAX >> (32 - (run[i].to - run[i].from))) << (first + run[i].from);
-            smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + run[i].x), mask, color, code);
+            uint32_t mask = UINT32_MAX >> (32 - count) << (first + r->from);
+            if (apart <= most)
+                mask = slots_before_still(apart - slope[high] * (count - 1), slope[high], first + r->from, count);
+            if (mask == 0)
+                continue;
+            /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
+            int32_t middle = (int32_t)code + (slope[high] * (last_slot - (r->from + r->to - 1)) >> 5);
+            uint32_t color = plain ? s.color : smear_timemask_color(&s, y, r);
+            if ((uint32_t)middle < 65536u)
+                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color | kept[high],
+                                         (uint32_t)middle, slope[high]);
+            else
+                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color, code, 0);
             j->fragments++;
         }
     }
 }
 
-static void draw_mover(struct job *j, const struct mover *m)
+static void draw_whole(struct job *j, const struct mover *m)
 {
-    struct timemask_pose pose[2];
+    struct timemask_pose pose[3];
     pose_at(&pose[0], j, m, j->time[0]);
     for (int i = 0; i < 1 << j->segments_log2; i++) {
-        pose_at(&pose[~i & 1], j, m, j->time[i + 1]);
-        draw_segment(j, m, &pose[i & 1], &pose[~i & 1], i << j->slots_log2, j->slots_log2);
+        const struct timemask_pose *poses[3] = { &pose[i & 1 ? 2 : 0], &pose[1], &pose[i & 1 ? 0 : 2] };
+        pose_at(&pose[1], j, m, (j->time[i] + j->time[i + 1]) >> 1);
+        pose_at(&pose[i & 1 ? 0 : 2], j, m, j->time[i + 1]);
+        draw_segment(j, m, poses, i << j->slots_log2, j->slots_log2);
     }
 }
 
@@ -172,9 +242,23 @@ static void draw_piece(struct job *j, const struct mover *m)
         int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
         if (!path_piece_time(&time, m->bounds->piece))
             continue;
+        const struct timemask_pose *poses[3] = { &pose, &pose, &pose };
         pose_at(&pose, j, m, time);
-        draw_segment(j, m, &pose, &pose, slot, 0);
+        draw_segment(j, m, poses, slot, 0);
     }
+}
+
+static void draw_mover(struct job *j, uint32_t i)
+{
+    struct mover m;
+    mover_take(&m, j, i);
+    const struct smear_path_bounds *b = m.bounds;
+    if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
+        return;
+    if (b->piece == 0)
+        draw_whole(j, &m);
+    else
+        draw_piece(j, &m);
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -187,10 +271,8 @@ static void finish_block(const struct job *j)
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
         uint32_t *out = t->out + (j->y + y - still->y0) * t->tile + (j->x - still->x0);
         for (int32_t x = 0; x < j->width; x++) {
-            uint32_t at = (uint32_t)(y * TIMEMASK_BLOCK + x), held = 0;
-            for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-                held |= j->slots.held[e * j->slots.pixels + at];
-            out[x] = held == 0 ? color[x] : smear_timemask_slots_mean(&j->slots, at, color[x]);
+            uint32_t at = (uint32_t)(y * TIMEMASK_BLOCK + x);
+            out[x] = smear_timemask_slots_mean(&j->slots, at, color[x]);
         }
     }
 }
@@ -199,7 +281,8 @@ static void finish_block(const struct job *j)
 static int32_t block_height(uint32_t work_bytes)
 {
     int32_t height = TIMEMASK_BLOCK;
-    while (work_bytes != 0 && height > 1 && timemask_slots_bytes((uint32_t)(TIMEMASK_BLOCK * height)) > work_bytes)
+    while (work_bytes != 0 && height > 1
+           && timemask_slots_bytes((uint32_t)(TIMEMASK_BLOCK * height)) + LISTED * sizeof(uint32_t) > work_bytes)
         height >>= 1;
     return height;
 }
@@ -207,30 +290,32 @@ static int32_t block_height(uint32_t work_bytes)
 size_t smear_timemask_work(int32_t tile)
 {
     (void)tile;
-    return timemask_slots_bytes(TIMEMASK_BLOCK * TIMEMASK_BLOCK);
+    return timemask_slots_bytes(TIMEMASK_BLOCK * TIMEMASK_BLOCK) + LISTED * sizeof(uint32_t);
 }
 
 uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
 {
     const int32_t height = block_height(t->work_bytes);
-    struct job j = { .tile = t, .settings = settings, .x = t->still.x0, .y = t->still.y0, .width = t->tile,
-                     .height = t->tile };
-    struct mover m;
-    smear_timemask_slots_place(&j.slots, t->work, (uint32_t)(TIMEMASK_BLOCK * height),
+    struct job j = { .tile = t, .settings = settings, .list = t->work };
+    smear_timemask_slots_place(&j.slots, j.list + LISTED, (uint32_t)(TIMEMASK_BLOCK * height),
                                31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
     choose_segments(&j);
+    list_movers(&j);
     for (j.y = t->still.y0; j.y < t->still.y1; j.y += height)
         for (j.x = t->still.x0; j.x < t->still.x1; j.x += TIMEMASK_BLOCK) {
             j.width = min_i32(t->still.x1 - j.x, TIMEMASK_BLOCK);
             j.height = min_i32(t->still.y1 - j.y, height);
             smear_timemask_slots_clear(&j.slots);
-            for (uint32_t i = 0; i < t->mover_count; i++) {
-                if (!mover_take(&m, &j, i))
-                    continue;
-                if (m.bounds->piece == 0)
-                    draw_mover(&j, &m);
-                else
-                    draw_piece(&j, &m);
+            if (j.first != 0) {         /* did not fit at once: from the start */
+                j.next = 0;
+                list_movers(&j);
+            }
+            for (;;) {
+                for (uint32_t i = 0; i < j.listed; i++)
+                    draw_mover(&j, listed_mover(&j, i));
+                if (j.next == t->mover_count)
+                    break;
+                list_movers(&j);
             }
             finish_block(&j);
         }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_cover.h - when a moving triangle covers the centres of pixels.
  *
- * During a segment of the exposure vertices move along chords, so an edge function goes from its value at the segment's
- * start to that at its end, and is taken to do so evenly (which is exact where the edge does not turn). Where it changes
- * its sign the pixel is entered or left; three edges leave one run of time slots. A slot is covered when its middle is.
+ * During a segment of the exposure an edge function goes from its value at the segment's start to that at its end, along
+ * the parabola through its value in the middle: exact where vertices move along chords. Where it changes its sign the
+ * pixel is entered or left; what three edges leave are runs of time slots, most often one. A slot is covered when its
+ * middle is.
  *
  * An edge's numbers come from its two vertices in one order, whichever triangle asks: runs of the triangles on both
  * its sides add up to the whole segment, slot for slot. */
@@ -34,11 +35,13 @@ static inline int32_t timemask_plane_at(const struct timemask_plane *p, int32_t 
 struct timemask_cover {
     int32_t x0, y0, x1, y1;     /* pixels of the block that may be covered */
     int32_t slots_log2;         /* of the segment */
+    int32_t edge;               /* see struct smear_timemask_settings */
     uint8_t enters, leaves, stills, turns;      /* edges of each kind; those inside everywhere are in none */
     struct timemask_plane enter[3], leave[3];   /* slots q14, 1/2 added: the run starts, ends at its integer part */
     struct timemask_plane still[3];             /* inside is >= 0 */
     struct {
         struct timemask_plane start, end;       /* edge functions in their own order */
+        struct timemask_plane bow;              /* twice what the middle lies off the mean of both */
         bool reversed;                          /* the triangle lies on the edge's other side */
     } turn[3];
 };
@@ -48,11 +51,14 @@ struct timemask_run {
     uint8_t x, from, to;
 };
 
-/* False when no pixel of the block's width x height is covered in the segment from a to b, which has 2^slots_log2 slots. */
-bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *a, const struct timemask_pose *b,
-                          int32_t width, int32_t height, int32_t slots_log2);
+/* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that begins, is halfway
+ * and ends at the poses. `edge` as in struct smear_timemask_settings. */
+bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
+                          int32_t height, int32_t slots_log2, int32_t edge);
 
-/* Runs of a row, at most 16, by x; how many. */
+enum { TIMEMASK_RUNS = 4 * TIMEMASK_BLOCK };        /* three edges that bow in and out again */
+
+/* Runs of a row, by x; how many. */
 int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, struct timemask_run *out);
 
 #endif

@@ -6,6 +6,7 @@
 
 enum {
     MOST_CHANGE = 1 << 25,      /* of a value in a segment: times 64 it fits */
+    MOST_SLOPE = 1 << 21,
     AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -42,55 +43,85 @@ static uint64_t pose_start(struct pose_setup *p, const struct timemask_pose *pos
     return (uint64_t)area;
 }
 
-/* Slopes are those of `shape`, the place is that of `place`; returns the value at the block's first pixel. */
-static int64_t pose_plane(const struct pose_setup *shape, const struct pose_setup *place, const int32_t value[3],
-                          struct plane *p)
+/* Poses of a segment, and which of them has an area to take slopes from. */
+struct segment_setup {
+    struct pose_setup pose[3];
+    const struct pose_setup *shape[3];
+    bool turns;
+    const struct timemask_shade *shade;
+};
+
+/* At the point that attributes go with. */
+static inline int32_t point_of(const int32_t a[3])
+{
+    return (int32_t)(((int64_t)a[0] + a[0] + a[1] + a[2]) >> 2);
+}
+
+static void slopes_of(struct plane *p, const struct pose_setup *shape, const int32_t value[3])
 {
     const uint8_t *o = shape->order;
     smear_plane_make(&shape->setup, p, value[o[0]], value[o[1]], value[o[2]]);
-    const int32_t *v = place->record[0];
-    return value[0] - (((int64_t)p->dx * v[VERTEX_X] + (int64_t)p->dy * v[VERTEX_Y]) >> 8);
 }
 
-/* Poses of a segment; `shape` tells which of them has an area to take slopes from. */
-struct segment_setup {
-    struct pose_setup end[2];
-    const struct pose_setup *shape[2];
-};
-
-static bool is_within(int64_t a, int32_t dx, int32_t dy, int64_t most)
+/* From values at the three vertices at the start, in the middle and at the end. A plane that changes by `most` or more is so
+ * steep that it has no exact pixels: it becomes one value. */
+static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3], int64_t most)
 {
-    const int64_t reach = TIMEMASK_BLOCK;
-    return a + reach * (abs_i32(dx) + (int64_t)abs_i32(dy)) < most
-        && -a + reach * (abs_i32(dx) + (int64_t)abs_i32(dy)) < most;
-}
-
-/* From values at the three vertices at both ends; a change of `most` or more makes it one value for the triangle: such
- * a plane is so steep that it has no exact pixels. */
-static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t a[3], const int32_t b[3],
-                       int64_t most)
-{
-    struct plane start, end;
-    int64_t at_start = pose_plane(s->shape[0], &s->end[0], a, &start);
-    int64_t at_end = pose_plane(s->shape[1], &s->end[1], b, &end);
-    t->at = (int32_t)(uint32_t)(uint64_t)at_start;
-    t->dx = start.dx;
-    t->dy = start.dy;
-    int64_t change = at_end - at_start;
-    t->change_dx = end.dx - start.dx;
-    t->change_dy = end.dy - start.dy;
-    if (!is_within(change, t->change_dx, t->change_dy, most)) {
-        t->at = (int32_t)(((int64_t)a[0] + a[1] + 2 * (int64_t)a[2]) >> 2);
-        change = (int32_t)(((int64_t)b[0] + b[1] + 2 * (int64_t)b[2]) >> 2) - (int64_t)t->at;
-        t->dx = t->dy = t->change_dx = t->change_dy = 0;
+    const struct timemask_shade *shade = s->shade;
+    struct plane p, start, end;
+    slopes_of(&p, s->shape[1], value[1]);
+    t->dx = p.dx;
+    t->dy = p.dy;
+    t->at = point_of(value[1]);
+    int64_t change = (int64_t)point_of(value[2]) - point_of(value[0]);
+    t->dx_change = t->dy_change = 0;
+    if (s->turns) {
+        slopes_of(&start, s->shape[0], value[0]);
+        slopes_of(&end, s->shape[2], value[2]);
+        t->dx_change = end.dx - start.dx;
+        t->dy_change = end.dy - start.dy;
+        t->change = (int32_t)(change > most ? most : change < -most ? -most : change);
+        return;
     }
+    int64_t at = t->at - (((int64_t)p.dx * shade->x + (int64_t)p.dy * shade->y) >> 8);
+    change -= ((int64_t)p.dx * shade->x_change + (int64_t)p.dy * shade->y_change) >> 8;
+    if (change >= most || change <= -most) {
+        t->change = t->dx = t->dy = 0;
+        return;
+    }
+    t->at = (int32_t)(uint32_t)(uint64_t)at;
     t->change = (int32_t)change;
 }
 
-static void range_of(int32_t *low, int32_t *high, const int32_t a[3], const int32_t b[3])
+static void range_of(int32_t *low, int32_t *high, const int32_t *const value[3])
 {
-    *low = min_i32(min_i32(min_i32(a[0], a[1]), a[2]), min_i32(min_i32(b[0], b[1]), b[2]));
-    *high = max_i32(max_i32(max_i32(a[0], a[1]), a[2]), max_i32(max_i32(b[0], b[1]), b[2]));
+    *low = INT32_MAX;
+    *high = INT32_MIN;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            *low = min_i32(*low, value[k][i]);
+            *high = max_i32(*high, value[k][i]);
+        }
+}
+
+static inline uint32_t spread(const int32_t a[3])
+{
+    return (uint32_t)max_i32(a[0], max_i32(a[1], a[2])) - (uint32_t)min_i32(a[0], min_i32(a[1], a[2]));
+}
+
+/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest, or depths
+ * along them by more than 1/512 of depth. */
+static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b)
+{
+    int32_t change = 0, deeper = 0, size = 0;
+    for (int i = 1; i < 3; i++) {
+        int32_t ex = a->x[i] - a->x[0], ey = a->y[i] - a->y[0], ez = a->depth[i] - a->depth[0];
+        int32_t fx = b->x[i] - b->x[0], fy = b->y[i] - b->y[0], fz = b->depth[i] - b->depth[0];
+        size = max_i32(size, max_i32(abs_i32(ex), abs_i32(ey)));
+        change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
+        deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
+    }
+    return change > size >> 3 || deeper > a->depth[0] >> 10;
 }
 
 /* ------------------------------------------------------------------ set-up */
@@ -116,24 +147,18 @@ static uint32_t channels_pixel(const int32_t c[3], bool linear)
     return pixel_make(0, (uint32_t)c[0] >> 16, (uint32_t)c[1] >> 16, (uint32_t)c[2] >> 16);
 }
 
-/* Values of the vertices that go into planes with or without 1/w. */
-struct vertex_values {
-    int32_t q[2][3];            /* 1/w at both ends, all bits there are */
-    bool over_w;
-    const struct segment_setup *poses;
-};
-
-static void values_make(struct timemask_timed *t, const struct vertex_values *w, const int32_t a[3], int64_t most)
+/* Values of the vertices that go into planes, times 1/w where that is wanted. */
+static void values_make(struct timemask_timed *t, const struct segment_setup *poses, const int32_t (*q)[3],
+                        const int32_t a[3], int64_t most)
 {
-    if (!w->over_w) {
-        timed_make(t, w->poses, a, a, most);
-        return;
-    }
-    int32_t over[2][3];
-    for (int end = 0; end < 2; end++)
+    int32_t over[3][3];
+    const int32_t *value[3] = { a, a, a };
+    for (int k = 0; k < 3 && q != NULL; k++) {
         for (int i = 0; i < 3; i++)
-            over[end][i] = times_q15(a[i], w->q[end][i]);
-    timed_make(t, w->poses, over[0], over[1], most);
+            over[k][i] = times_q15(a[i], q[k][i]);
+        value[k] = over[k];
+    }
+    timed_make(t, poses, value, most);
 }
 
 /* Whether interpolation on the screen is off by too much: range of the values, in 1/64 of what counts. */
@@ -144,23 +169,30 @@ static bool needs_w(const struct timemask_pose *p, uint32_t range)
     return smear_times_over((uint32_t)(high - low), range, (uint32_t)low) >> 2 > AFFINE_OFF;
 }
 
-static uint32_t spread(const int32_t a[3])
+static void shade_depth(struct timemask_shade *s, const struct segment_setup *poses,
+                        const struct timemask_pose *const pose[3])
 {
-    return (uint32_t)max_i32(a[0], max_i32(a[1], a[2])) - (uint32_t)min_i32(a[0], min_i32(a[1], a[2]));
+    int32_t depth[3][3];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            depth[k][i] = pose[k]->depth[i] >> 6;
+    const int32_t *value[3] = { depth[0], depth[1], depth[2] };
+    timed_make(&s->depth, poses, value, MOST_CHANGE);
+    range_of(&s->depth_low, &s->depth_high, value);
+    int32_t change = s->depth.change;
+    if (s->turns)
+        change = narrow_sat(change - (((int64_t)s->depth.dx * s->x_change + (int64_t)s->depth.dy * s->y_change) >> 8));
+    change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
+    s->slope[0] = change >> 1;
+    s->slope[1] = change >> 5;
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, const struct smear_triangle *triangle,
-                          const struct timemask_pose *a, const struct timemask_pose *b, int32_t slots_log2, int32_t tap)
+                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
 {
     struct segment_setup poses;
     const int32_t *record[3];
-    uint64_t area_a = pose_start(&poses.end[0], a), area_b = pose_start(&poses.end[1], b);
-    poses.shape[0] = &poses.end[area_a == 0];
-    poses.shape[1] = &poses.end[area_b != 0];
-    for (int i = 0; i < 3; i++)
-        record[i] = geometry_vertex(frame->geometry, segment, triangle->vertex[i]);
-
     s->frame = frame;
     s->segment = segment;
     s->slots_log2 = slots_log2;
@@ -168,14 +200,26 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->color = triangle->color;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
     s->gouraud = segment->shade == SHADE_GOURAUD;
+    for (int i = 0; i < 3; i++)
+        record[i] = geometry_vertex(frame->geometry, segment, triangle->vertex[i]);
 
-    int32_t depth[2][3];
-    for (int i = 0; i < 3; i++) {
-        depth[0][i] = a->depth[i] >> 6;
-        depth[1][i] = b->depth[i] >> 6;
+    /* Slopes of the middle, unless it is seen from its edge then. */
+    uint64_t area = pose_start(&poses.pose[1], pose[1]);
+    poses.shade = s;
+    poses.turns = s->turns = area == 0 || shape_turns(pose[0], pose[2]);
+    poses.shape[1] = &poses.pose[1];
+    if (s->turns) {
+        uint64_t area_a = pose_start(&poses.pose[0], pose[0]), area_b = pose_start(&poses.pose[2], pose[2]);
+        const struct pose_setup *some = &poses.pose[area != 0 ? 1 : area_a != 0 ? 0 : 2];
+        poses.shape[0] = area_a != 0 ? &poses.pose[0] : some;
+        poses.shape[1] = some;
+        poses.shape[2] = area_b != 0 ? &poses.pose[2] : some;
     }
-    timed_make(&s->depth, &poses, depth[0], depth[1], MOST_CHANGE);
-    range_of(&s->depth_low, &s->depth_high, depth[0], depth[1]);
+    s->x = point_of(pose[1]->x);
+    s->y = point_of(pose[1]->y);
+    s->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
+    s->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
+    shade_depth(s, &poses, pose);
 
     int32_t channel[3][3];
     if (s->gouraud) {
@@ -209,23 +253,28 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     }
     for (int c = 0; c < 3 && s->gouraud; c++)
         range = max_u32(range, spread(channel[c]) >> 10);
-    struct vertex_values w = { .poses = &poses };
-    w.over_w = s->over_w = !segment->flat_depth && (needs_w(a, range) || needs_w(b, range));
+    int32_t over[3][3];
+    const int32_t (*q)[3] = NULL;
+    s->over_w = !segment->flat_depth && (needs_w(pose[0], range) || needs_w(pose[2], range));
     if (s->over_w) {
-        int32_t low, high;
-        range_of(&low, &high, a->depth, b->depth);
+        int32_t high = 0;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++)
+                high = max_i32(high, pose[k]->depth[i]);
         int up = max_i32(count_leading_zeros((uint32_t)high) - 3, 0);
-        for (int i = 0; i < 3; i++) {
-            w.q[0][i] = a->depth[i] << up;
-            w.q[1][i] = b->depth[i] << up;
-        }
-        timed_make(&s->q, &poses, w.q[0], w.q[1], INT32_MAX);
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++)
+                over[k][i] = pose[k]->depth[i] << up;
+        const int32_t *value[3] = { over[0], over[1], over[2] };
+        q = (const int32_t (*)[3])over;
+        timed_make(&s->q, &poses, value, INT32_MAX);
     }
     for (int c = 0; c < 3 && s->gouraud; c++) {
-        range_of(&s->channel_low[c], &s->channel_high[c], channel[c], channel[c]);
+        const int32_t *value[3] = { channel[c], channel[c], channel[c] };
+        range_of(&s->channel_low[c], &s->channel_high[c], value);
         for (int i = 0; i < 3 && s->over_w; i++)
             channel[c][i] >>= 8;
-        values_make(&s->channel[c], &w, channel[c], s->over_w ? INT32_MAX : MOST_CHANGE);
+        values_make(&s->channel[c], &poses, q, channel[c], s->over_w ? INT32_MAX : MOST_CHANGE);
     }
     if (m == NULL)
         return;
@@ -234,25 +283,46 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
         v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
     }
-    values_make(&s->u, &w, u, INT32_MAX);
-    values_make(&s->v, &w, v, INT32_MAX);
+    values_make(&s->u, &poses, q, u, INT32_MAX);
+    values_make(&s->v, &poses, q, v, INT32_MAX);
     s->travel = 0;
     for (int i = 0; i < 3; i++) {
-        int32_t dx = abs_i32(b->x[i] - a->x[i]), dy = abs_i32(b->y[i] - a->y[i]);
+        int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
         s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
     }
 }
 
 /* ------------------------------------------------------------------ colours */
 
-/* As timemask_value, for any change. */
-static int32_t wide_value(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
+/* floor(a time / 64) for any a. */
+static inline int32_t times_time(int32_t a, int32_t time)
 {
-    int32_t here = add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
-    int32_t change = add_wrap(p->change, add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y)));
     const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
-    return add_wrap(here, add_wrap(mul_wrap(change >> TIMEMASK_TIME_LOG2, time),
-                                   (change & below) * time >> TIMEMASK_TIME_LOG2));
+    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
+}
+
+/* a b / 256 for a b below 2^23. */
+static inline int32_t times_q8(int32_t a, int32_t b)
+{
+    return add_wrap(mul_wrap(a >> 8, b), (a & 255) * b >> 8);
+}
+
+int32_t smear_timemask_turning_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
+                                     int32_t time)
+{
+    int32_t px = x * 256 - s->x - times_time(s->x_change, time), py = y * 256 - s->y - times_time(s->y_change, time);
+    int32_t dx = add_wrap(p->dx, times_time(p->dx_change, time)), dy = add_wrap(p->dy, times_time(p->dy_change, time));
+    return add_wrap(add_wrap(p->at, times_time(p->change, time)), add_wrap(times_q8(dx, px), times_q8(dy, py)));
+}
+
+/* As timemask_value, for any change. */
+static int32_t wide_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
+                          int32_t time)
+{
+    if (s->turns)
+        return smear_timemask_turning_value(s, p, x, y, time);
+    int32_t here = add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
+    return add_wrap(here, times_time(p->change, time));
 }
 
 /* w at a time: 1/q = recip 2^(zeros - 61). */
@@ -263,7 +333,7 @@ struct quotient {
 
 static struct quotient quotient_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
-    uint32_t q = (uint32_t)max_i32(wide_value(&s->q, x, y, time), 1 << 11);
+    uint32_t q = (uint32_t)max_i32(wide_value(s, &s->q, x, y, time), 1 << 11);
     int zeros = count_leading_zeros(q);
     return (struct quotient){ zeros, (int32_t)recip_norm(q << zeros) };
 }
@@ -280,8 +350,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
     if (s->over_w)
         w = quotient_at(s, x, y, time);
     for (int c = 0; c < 3; c++) {
-        int32_t value = s->over_w ? quotient_of(&w, wide_value(&s->channel[c], x, y, time)) >> 4
-                                  : timemask_value(&s->channel[c], x, y, time);
+        int32_t value = s->over_w ? quotient_of(&w, wide_value(s, &s->channel[c], x, y, time)) >> 4
+                                  : timemask_value(s, &s->channel[c], x, y, time);
         out[c] = clamp_i32(value, s->channel_low[c], s->channel_high[c]);
     }
 }
@@ -290,8 +360,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    *u = wide_value(&s->u, x, y, time);
-    *v = wide_value(&s->v, x, y, time);
+    *u = wide_value(s, &s->u, x, y, time);
+    *v = wide_value(s, &s->v, x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         *u = quotient_of(&w, *u);
@@ -317,8 +387,9 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;
     int32_t u0, v0, u1, v1;
-    texel_at(s, x, y, run->from << up, &u0, &v0);
-    texel_at(s, x, y, run->to << up, &u1, &v1);
+    const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
+    texel_at(s, x, y, (run->from << up) - half, &u0, &v0);
+    texel_at(s, x, y, (run->to << up) - half, &u1, &v1);
     int32_t du = sub_wrap(u1, u0) >> log2, dv = sub_wrap(v1, v0) >> log2;
     const struct smear_texture_run along = {
         .at = packed_uv((uint32_t)add_wrap(u0, du >> 1), (uint32_t)add_wrap(v0, dv >> 1)),
@@ -350,7 +421,7 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, const s
 {
     int32_t x = run->x, light[3];
     if (s->gouraud) {
-        channels_at(s, x, y, (run->from + run->to) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2), light);
+        channels_at(s, x, y, timemask_middle(s, run), light);
         if (s->sampler == NULL)
             return channels_pixel(light, s->frame->linear);
     } else if (s->segment->shade == SHADE_FLAT) {

@@ -24,27 +24,54 @@ static inline uint32_t count_bits(uint32_t m)
     return ((m + (m >> 4)) & 0x0f0f0f0fu) * 0x01010101u >> 24;
 }
 
+/* ------------------------------------------------------------------ depth in time */
+
+uint32_t smear_timemask_slope(int32_t slope)
+{
+    uint32_t size = min_u32((uint32_t)abs_i32(slope), 15u << 14), sign = slope < 0 ? 128u : 0;
+    if (size < 8)
+        return sign | size;
+    int exponent = 29 - count_leading_zeros(size);
+    return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
+}
+
+/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of the exposure
+ * less b's, in 1/32, `slope` a's slope less b's. */
+static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
+{
+    int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
+    int32_t begin = depth + slope * (2 * first - last_slot), end = depth + slope * (2 * last - last_slot);
+    if (begin > 0 && end > 0)
+        return both;
+    if (begin <= 0 && end <= 0)
+        return 0;
+    /* They cross: slots before are those whose difference has the sign of the first. */
+    int32_t step = (end - begin) / (last - first);
+    int32_t count = step == 0 ? 1 : clamp_i32(-begin / step, 0, last - first - 1) + 1;
+    uint32_t before = both & ((2u << (first + count - 1)) - 1u);
+    return begin > 0 ? before : both & ~before;
+}
+
 /* ------------------------------------------------------------------ merging */
 
-/* 2^18 / n, rounded up. */
+/* 2^22 / n, rounded up. */
 static const uint32_t over[33] = {
-    0, 262144, 131072, 87382, 65536, 52429, 43691, 37450, 32768, 29128, 26215, 23832, 21846, 20165, 18725, 17477,
-    16384, 15421, 14564, 13798, 13108, 12484, 11916, 11398, 10923, 10486, 10083, 9710, 9363, 9040, 8739, 8457, 8192
+    0, 4194304, 2097152, 1398102, 1048576, 838861, 699051, 599187, 524288, 466034, 419431, 381301,
+    349526, 322639, 299594, 279621, 262144, 246724, 233017, 220753, 209716, 199729, 190651, 182362,
+    174763, 167773, 161320, 155345, 149797, 144632, 139811, 135301, 131072
 };
 
-/* (a wa + b wb) / n to nearest, with n = wa + wb >= 2 slots. */
+/* (a wa + b wb) / n with n = wa + wb slots: equal codes keep their mean. */
 static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
 {
     uint32_t n = wa + wb, out[3];
     for (int c = 0; c < 3; c++) {
         int shift = 16 - 8 * c;
         uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
-        if (linear) {       /* q12, below 2^17 for 32 slots */
-            uint32_t sum = (smear_srgb_decode[ca] * wa + smear_srgb_decode[cb] * wb) >> 4;
-            out[c] = smear_srgb_encode[sum * (over[n] >> 3) >> 15];
-        } else {
-            out[c] = (ca * wa + cb * wb + n / 2) * over[n] >> 18;
-        }
+        if (linear)         /* the sum is below 2^21 */
+            out[c] = smear_srgb_encode[mulh_u32((smear_srgb_decode[ca] * wa + smear_srgb_decode[cb] * wb) << 11, over[n]) >> 5];
+        else                /* below 2^13 */
+            out[c] = mulh_u32((ca * wa + cb * wb + n / 2) << 18, over[n]) >> 8;
     }
     return pixel_make(0, out[0], out[1], out[2]);
 }
@@ -54,39 +81,64 @@ static inline uint32_t distance(uint32_t a, uint32_t b)
     return a > b ? a - b : b - a;
 }
 
-/* All entries are taken: the two of four that lie closest in depth share one. */
-static void merge(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth)
+struct entry {
+    uint32_t held, color, depth;
+};
+
+static inline struct entry entry_at(const struct timemask_slots *b, uint32_t at)
 {
-    uint32_t held[TIMEMASK_ENTRIES + 1], colors[TIMEMASK_ENTRIES + 1], depths[TIMEMASK_ENTRIES + 1];
-    for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++) {
-        held[e] = b->held[e * b->pixels + pixel];
-        colors[e] = b->color[e * b->pixels + pixel];
-        depths[e] = b->depth[e * b->pixels + pixel];
-    }
-    held[TIMEMASK_ENTRIES] = mask;
-    colors[TIMEMASK_ENTRIES] = color;
-    depths[TIMEMASK_ENTRIES] = depth;
+    return (struct entry){ b->held[at], b->color[at], b->depth[at] };
+}
+
+static inline void entry_put(struct timemask_slots *b, uint32_t at, const struct entry *e)
+{
+    b->held[at] = e->held;
+    b->color[at] = e->color;
+    b->depth[at] = (uint16_t)e->depth;
+}
+
+/* Two entries in one: in the course of the longer. */
+static struct entry entry_join(const struct entry *a, const struct entry *b, bool linear)
+{
+    uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
+    const struct entry *longer = wa < wb ? b : a;
+    struct entry e;
+    e.held = a->held | b->held;
+    e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
+    e.depth = longer->depth;
+    return e;
+}
+
+/* How much it matters that two entries become one: by depths, and by colours. */
+static uint32_t unlikeness(const struct entry *a, const struct entry *b)
+{
+    uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
+                   + distance(pixel_green(a->color), pixel_green(b->color))
+                   + distance(pixel_blue(a->color), pixel_blue(b->color));
+    return (distance(a->depth, b->depth) + 16u) * (color + 16u);
+}
+
+/* All entries are taken: the two of four that are most alike share one. */
+static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
+{
+    struct entry all[TIMEMASK_ENTRIES + 1];
+    for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
+        all[e] = entry_at(b, pixel * TIMEMASK_ENTRIES + e);
+    all[TIMEMASK_ENTRIES] = *fresh;
     uint32_t first = 0, second = 1, least = UINT32_MAX;
     for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
         for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
-            uint32_t d = distance(depths[i], depths[j]);
+            uint32_t d = unlikeness(&all[i], &all[j]);
             if (d < least) {
                 least = d;
                 first = i;
                 second = j;
             }
         }
-    uint32_t wa = count_bits(held[first]), wb = count_bits(held[second]);
-    uint32_t at = first * b->pixels + pixel;
-    b->held[at] = held[first] | held[second];
-    b->color[at] = mean_of_two(colors[first], wa, colors[second], wb, b->linear);
-    b->depth[at] = (uint16_t)((depths[first] + depths[second] + 1) >> 1);
-    if (second == TIMEMASK_ENTRIES)
-        return;
-    at = second * b->pixels + pixel;
-    b->held[at] = mask;
-    b->color[at] = color;
-    b->depth[at] = (uint16_t)depth;
+    struct entry joined = entry_join(&all[first], &all[second], b->linear);
+    entry_put(b, pixel * TIMEMASK_ENTRIES + first, &joined);
+    if (second != TIMEMASK_ENTRIES)
+        entry_put(b, pixel * TIMEMASK_ENTRIES + second, fresh);
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -97,57 +149,82 @@ static inline bool is_level(uint32_t a, uint32_t b)
     return distance(a, b) <= a >> 6;
 }
 
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth)
+void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth,
+                              int32_t slope)
 {
-    uint32_t free = TIMEMASK_ENTRIES, same = TIMEMASK_ENTRIES;
-    for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++) {
-        uint32_t at = e * b->pixels + pixel;
-        uint32_t both = b->held[at] & mask;
-        if (both != 0) {
-            if (depth > b->depth[at])
-                b->held[at] &= ~mask;
-            else
-                mask &= ~both;
+    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    uint32_t *const held = b->held + pixel * TIMEMASK_ENTRIES, *const colors = b->color + pixel * TIMEMASK_ENTRIES;
+    uint16_t *const depths = b->depth + pixel * TIMEMASK_ENTRIES;
+    uint32_t occupied = 0;
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
+        occupied |= held[i];
+    if ((occupied & mask) != 0) {
+        for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
+            uint32_t both = held[i] & mask;
+            if (both == 0)
+                continue;
+            int32_t apart = ((int32_t)depth - (int32_t)depths[i]) * 32;
+            int32_t turn = slope - timemask_slope_of(colors[i]), most = abs_i32(turn) * last_slot;
+            uint32_t taken = apart > most ? both : apart <= -most ? 0 : nearer_slots(apart, turn, both, last_slot);
+            mask &= ~both | taken;
+            held[i] &= ~taken;
         }
-        if (b->held[at] == 0)
-            free = e;
-        else if (b->color[at] == color && is_level(b->depth[at], depth))
-            same = e;
+        if (mask == 0)
+            return;
     }
-    if (mask == 0)
-        return;
-    if (same < TIMEMASK_ENTRIES) {
-        b->held[same * b->pixels + pixel] |= mask;
-    } else if (free < TIMEMASK_ENTRIES) {
-        uint32_t at = free * b->pixels + pixel;
-        b->held[at] = mask;
-        b->color[at] = color;
-        b->depth[at] = (uint16_t)depth;
-    } else {
-        merge(b, pixel, mask, color, depth);
+    uint32_t free = TIMEMASK_ENTRIES;
+    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0;) {
+        if (held[i] == 0) {
+            free = i;
+        } else if (colors[i] << 8 == color << 8 && is_level(depths[i], depth)) {
+            held[i] |= mask;
+            return;
+        }
     }
+    struct entry fresh = { mask, color, depth };
+    if (free < TIMEMASK_ENTRIES)
+        entry_put(b, pixel * TIMEMASK_ENTRIES + free, &fresh);
+    else
+        merge(b, pixel, &fresh);
+}
+
+/* Linear light, entry by entry; `rest` slots of the still colour. */
+static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
+{
+    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, half = rest >> 1;
+    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
+        uint32_t at = pixel * TIMEMASK_ENTRIES + e;
+        uint32_t n = e < TIMEMASK_ENTRIES ? count_bits(b->held[at]) : rest, color = e < TIMEMASK_ENTRIES ? b->color[at] : still;
+        rest -= n;
+        if (n == 0)
+            continue;
+        sum[0] += n * smear_srgb_decode[pixel_red(color)];
+        sum[1] += n * smear_srgb_decode[pixel_green(color)];
+        sum[2] += n * smear_srgb_decode[pixel_blue(color)];
+    }
+    for (int c = 0; c < 3; c++)
+        sum[c] = smear_srgb_encode[(sum[c] + half) >> b->slots_log2 >> 4];
+    return pixel_make(0, sum[0], sum[1], sum[2]);
 }
 
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
 {
-    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, out[3];
-    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
-        uint32_t at = e * b->pixels + pixel, color = still, n = rest;
-        if (e < TIMEMASK_ENTRIES) {
-            n = count_bits(b->held[at]);
-            color = b->color[at];
-            rest -= n;
-        }
-        if (n == 0)
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
+    for (uint32_t at = pixel * TIMEMASK_ENTRIES, end = at + TIMEMASK_ENTRIES; at < end; at++) {
+        uint32_t held = b->held[at];
+        if (held == 0)
             continue;
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = color >> (16 - 8 * c) & 255u;
-            sum[c] += n * (b->linear ? smear_srgb_decode[code] : code);
-        }
+        if (held == all)
+            return b->color[at] & 0xffffffu;
+        if (b->linear)
+            return mean_linear(b, pixel, still);
+        uint32_t n = count_bits(held), color = b->color[at];
+        rest -= n;
+        red_blue += (color & 0xff00ffu) * n;
+        green += (color >> 8 & 0xffu) * n;
     }
-    for (int c = 0; c < 3; c++) {
-        uint32_t mean = (sum[c] + ((1u << b->slots_log2) >> 1)) >> b->slots_log2;
-        out[c] = b->linear ? smear_srgb_encode[mean >> 4] : mean;
-    }
-    return pixel_make(0, out[0], out[1], out[2]);
+    red_blue += (still & 0xff00ffu) * rest;
+    green += (still >> 8 & 0xffu) * rest;
+    return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
 }

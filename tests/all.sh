@@ -86,6 +86,11 @@ suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
+if needs qemu-system-x86_64 "qemu-system-x86"; then
+    suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
+    suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
+        build/host/view_linux_init build/host/mkcpio
+fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
@@ -94,6 +99,10 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
+        suite target-gba $make -s TARGET=gba target-test
+        suite demo-gba $make -s TARGET=gba demo-test
+    fi
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \

@@ -445,10 +445,10 @@ const struct fail_row fail_other_rows[] = {
         {"peak of the streak", "%", 5.0,
          .only = NOBODY, .otherwise = "colours end at white: there is no HDR"},
     }, NULL},
-    {34, "layers", layers, {
+    {34, "behind and in front, in one layer", layers, {
         {"beyond the colours of the sources", "codes", 1.0, .known = {0}},
         {"still bar in front", "codes", 1.0, .known = {[PLAIN] = 140}},
-    }, "one layer: methods `object` and `layered` are not offered"},
+    }, "layers of their own, methods `object` and `layered`, are not offered"},
     {36, "large coordinates", far_away, {
         {"10000 units away", "codes", 1.0, .hard = true},
     }, NULL},

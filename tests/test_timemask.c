@@ -196,7 +196,7 @@ static struct path path_moved(struct place p, int32_t dx, int32_t dy, int32_t de
 /* Whether the memory around the work area is as it was. */
 static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
 {
-    const struct smear_timemask_settings settings = { slots, bend, tap };
+    const struct smear_timemask_settings settings = { .slots = slots, .bend = bend, .edge = 10, .tap = tap };
     const size_t words = (smear_timemask_work(tile) + 3) / 4;
     const struct smear_plane_rows rows = { W, 0, H, 0 };
     bool intact = CHECK(words <= WORK_WORDS);

@@ -309,7 +309,7 @@ claim "input that goes back" fails 1 bad view $race $small --out null --frames 1
 
 for board in oled rp2040 round gba memlcd fb320; do
     options=$("$smear" help view | sed -n "/^  $board /{n;p;}" |
-        sed 's/--bus [0-9]*//;s/--panel-hz [0-9]*//;s/--cpu [^ ]*//;s/--tint [^ ]*//;s/--round//')
+        sed 's/--bus [0-9]*//;s/--panel-hz [0-9.]*//;s/--cpu [^ ]*//;s/--tint [^ ]*//;s/--round//')
     [ -n "$options" ] || failed=$((failed + 1))
     # shellcheck disable=SC2086
     board_as_render() {
@@ -319,7 +319,8 @@ for board in oled rp2040 round gba memlcd fb320; do
     claim "board $board draws what its options say" board_as_render
 done
 claim "options go before the board's" eval 'view $race --board gba --size 64x48 --frames 1 --crc &&
-    equals "$(crcs)" "$(render_crcs $race 0-0 --size 64x48 --format rgb555 --arena 229376)"'
+    equals "$(crcs)" "$(render_crcs $race 0-0 --size 64x48 --format rgb555 --arena 229376 \
+    --method reconstruct)"'
 # the picture on the glass is not the frame: what the device draws stays the same
 for look in '--zoom 3' '--rotate 90' '--rotate 180' '--rotate 270' '--round' '--tint 102030,ffffff' \
     '--bus 1000000 --panel-hz 60' '--bus 1000000 --sync' '--cpu cortex-m3:72e6' '--see velocity' \

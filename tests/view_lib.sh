@@ -17,6 +17,7 @@ claim() {
     shift
     if "$@" >"$base/claim" 2>&1; then
         passed=$((passed + 1))
+        [ -z "${VERBOSE:-}" ] || echo "$(date +%T) $claim_name"
     else
         failed=$((failed + 1))
         echo "FAIL: $claim_name"

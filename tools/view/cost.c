@@ -1,16 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* cost.c - see cost.h. */
+/* cost.c - see cost.h.
+ *
+ * Instructions per piece of work are what `make TARGET=... cost-model` prints: fitted to frames whose
+ * instructions were counted. They are a third off in the mean of squares and up to three quarters in single
+ * frames: what is drawn over and over is not counted. Cycles per instruction
+ * are assumptions about code that runs from cached flash or from RAM; on the ARM7TDMI, whose data lies
+ * behind wait states, they weigh most. The M7 and the ARM7TDMI run the M4's and M3's instructions. */
 #include "cost.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 const struct cost_core cost_cores[] = {
-    { "cortex-m0plus", 50000, 450, 500, 110, 110, 60, 1.5 },
-    { "cortex-m3", 40000, 250, 300, 70, 70, 35, 1.4 },
-    { "cortex-m7", 40000, 250, 300, 70, 70, 35, 0.9 },
-    { "arm7tdmi", 40000, 300, 350, 80, 80, 45, 3.0 },
-    { "arm926", 40000, 250, 300, 70, 70, 35, 1.6 },
-    { NULL, 0, 0, 0, 0, 0, 0, 0 },
+    { "cortex-m0plus", { 0, 1437, 2180, 314, 483, 30565, 706, 1999, 250 }, 1.4 },
+    { "cortex-m3", { 0, 564, 1516, 202, 257, 12652, 378, 938, 95 }, 1.3 },
+    { "cortex-m4", { 0, 561, 1543, 202, 255, 12679, 375, 946, 95 }, 1.3 },
+    { "cortex-m7", { 0, 561, 1543, 202, 255, 12679, 375, 946, 95 }, 0.8 },
+    { "arm7tdmi", { 0, 564, 1516, 202, 257, 12652, 378, 938, 95 }, 3.0 },
+    { NULL, { 0 }, 0 },
 };
 
 const struct cost_core *cost_find(const char *name)
@@ -21,14 +28,33 @@ const struct cost_core *cost_find(const char *name)
     return NULL;
 }
 
-double cost_instructions(const struct cost_core *core, const smear_stats *s)
+void cost_count(const smear_stats *s, double work[COST_WORKS])
 {
-    return core->frame + core->triangle_in * s->triangles_in +
-           core->triangle_drawn * s->triangles_drawn + core->pixel * s->pixels +
-           core->sample * s->samples;
+    double timed_tiles = s->tiles_subframes + s->tiles_timemask, instants = 1.0;
+    double samples[3] = { s->samples, 0.0, 0.0 };       /* taps, of subframes, of timemask */
+    bool accumulates = s->tiles_accumulate > 0;
+    if (accumulates && s->pixels > 0)
+        instants = (double)s->samples / s->pixels;
+    if (timed_tiles > 0.0) {
+        samples[1] = s->samples * (s->tiles_subframes / timed_tiles);
+        samples[2] = s->samples - samples[1];
+    }
+    work[COST_FRAME] = 1.0;
+    work[COST_TRIANGLE_IN] = s->triangles_in * instants;
+    work[COST_TRIANGLE_DRAWN] = s->triangles_drawn;
+    work[COST_PIXEL] = s->pixels;
+    work[COST_TAP] = accumulates || timed_tiles > 0.0 ? 0.0 : samples[0];
+    work[COST_TIMED_TRIANGLE] = timed_tiles > 0.0 ? s->triangles_drawn : 0.0;
+    work[COST_SUBFRAMES] = samples[1];
+    work[COST_TIMEMASK] = samples[2];
+    work[COST_ACCUMULATED] = accumulates ? s->samples : 0.0;
 }
 
 double cost_us(const struct cost_core *core, double hz, const smear_stats *stats)
 {
-    return cost_instructions(core, stats) * core->cycles_per_instruction * 1e6 / hz;
+    double work[COST_WORKS], instructions = 0.0;
+    cost_count(stats, work);
+    for (int i = 0; i < COST_WORKS; i++)
+        instructions += work[i] * core->instructions[i];
+    return instructions * core->cycles_per_instruction * 1e6 / hz;
 }

@@ -144,22 +144,45 @@ static uint32_t tile_color(double streak, int reach)
     return share <= 1.0 ? rgb(0.9, 0.8 * (1.0 - share), 0.1) : 0xa030d0;
 }
 
-/* How many tiles of a row of tiles the library found still, uniform and complex, as a bar. */
-static void draw_bar(const struct lane *lane, int band, uint32_t *picture)
+/* Shares of a band's height, one above the other, in columns [x0, x1). */
+static void draw_bar(const struct lane *lane, const struct lane_band *b, int x0, int x1,
+                     const uint32_t *count, const uint32_t *color, int kinds, uint32_t *picture)
 {
-    static const uint32_t color[3] = { 0x30ff70, 0xffe030, 0xff4020 };
-    const struct lane_band *b = &lane->band[band];
-    const smear_stats none = { 0 }, *to = &b->counts;
-    const smear_stats *from = band > 0 ? &lane->band[band - 1].counts : &none;
-    double count[3] = { to->tiles_still - from->tiles_still,
-                        to->tiles_uniform - from->tiles_uniform,
-                        to->tiles_complex - from->tiles_complex };
-    double all = count[0] + count[1] + count[2];
-    for (int y = b->y; y < b->y + b->height && all > 0.0; y++) {
-        double at = (y - b->y + 0.5) / b->height * all;
-        uint32_t c = at < count[0] ? color[0] : at < count[0] + count[1] ? color[1] : color[2];
-        for (int x = 0; x < BAR_WIDTH && x < lane->setup.width; x++)
-            picture[(size_t)y * (size_t)lane->setup.width + (size_t)x] = c;
+    uint32_t all = 0;
+    for (int k = 0; k < kinds; k++)
+        all += count[k];
+    for (int y = 0; y < b->height && all > 0; y++) {
+        double at = (y + 0.5) / b->height * all;
+        int kind = 0;
+        for (double end = count[0]; kind < kinds - 1 && at >= end; end += count[kind])
+            kind++;
+        for (int x = x0 > 0 ? x0 : 0; x < x1 && x < lane->setup.width; x++)
+            picture[(size_t)(b->y + y) * (size_t)lane->setup.width + (size_t)x] = color[kind];
+    }
+}
+
+/* What the library counted of each row of tiles. Left: green still, yellow uniform, red complex.
+ * Right, by method: grey none, white accumulate, yellow reconstruct, blue subframes, violet
+ * timemask. */
+static void draw_counts(const struct lane *lane, uint32_t *picture)
+{
+    static const uint32_t class_color[3] = { 0x30ff70, 0xffe030, 0xff4020 };
+    static const uint32_t method_color[5] = { 0x808080, 0xffffff, 0xffe030, 0x2080ff, 0xc040ff };
+    const smear_stats none = { 0 };
+    for (int i = 0; i < lane->band_count; i++) {
+        const smear_stats *to = &lane->band[i].counts;
+        const smear_stats *from = i > 0 ? &lane->band[i - 1].counts : &none;
+        const uint32_t classes[3] = { to->tiles_still - from->tiles_still,
+                                      to->tiles_uniform - from->tiles_uniform,
+                                      to->tiles_complex - from->tiles_complex };
+        const uint32_t methods[5] = { to->tiles_none - from->tiles_none,
+                                      to->tiles_accumulate - from->tiles_accumulate,
+                                      to->tiles_reconstruct - from->tiles_reconstruct,
+                                      to->tiles_subframes - from->tiles_subframes,
+                                      to->tiles_timemask - from->tiles_timemask };
+        draw_bar(lane, &lane->band[i], 0, BAR_WIDTH, classes, class_color, 3, picture);
+        draw_bar(lane, &lane->band[i], lane->setup.width - BAR_WIDTH, lane->setup.width, methods,
+                 method_color, 5, picture);
     }
 }
 
@@ -179,8 +202,7 @@ static bool show_tiles(const struct debug *d, const struct lane *lane, uint32_t 
             *p = blend(grey_of(*p), tile_color(streak, lane->setup.reach),
                        x % edge == 0 || y % edge == 0 ? 200 : 110);
         }
-    for (int i = 0; i < lane->band_count; i++)
-        draw_bar(lane, i, picture);
+    draw_counts(lane, picture);
     free(longest);
     return true;
 }

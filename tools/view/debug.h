@@ -12,7 +12,8 @@ enum debug_kind {
     DEBUG_PICTURE,
     DEBUG_VELOCITY,             /* colour: direction; brightness: length */
     DEBUG_DEPTH,
-    DEBUG_TILES,                /* longest velocity in and around each tile; counts of each row */
+    DEBUG_TILES,                /* longest velocity in and around each tile; of each row of tiles the
+                                 * share of classes (left edge) and of methods (right edge) */
     DEBUG_BANDS,                /* what is handed to the display at once */
     DEBUG_WIRE,                 /* the triangles' edges */
     DEBUG_KINDS

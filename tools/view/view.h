@@ -93,7 +93,7 @@ struct view {
     int width, height;              /* of them */
     struct debug debug;
     enum debug_kind debug_kind;
-    bool has_overlay, has_error;
+    bool has_overlay, has_error, told_dropped;
     int help_page;                  /* 0: no help */
     struct image_distance error;    /* of the frame shown, when has_error */
     double board_us, wire_us;       /* estimates for the frame shown */

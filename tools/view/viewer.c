@@ -280,6 +280,9 @@ static bool draw_frame(struct view *v)
     struct instant instant = view_instant(v, v->at);
     if (!view_draw_main(v, v->at))
         return give_up(v, v->source->name, &v->why);
+    if (v->main.stats.triangles_dropped > 0 && !v->told_dropped)
+        view_say(v, "the arena is too small: triangles are left out");
+    v->told_dropped = v->main.stats.triangles_dropped > 0;
     double drawn_us = clock_us() - start;
     v->times.draw_us += drawn_us;
     if (v->times.count < MEDIAN_PICTURES)
