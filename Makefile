@@ -33,17 +33,20 @@ LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip 
           assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
           timemask_slots timemask smooth choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
           band timed frame smear
+# The optional module that opens and plays models; a firmware that does not call it does not link it.
+LAYERS += blob model skin anim
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
+CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
-VIEW_SRC  := $(wildcard tools/view/*.c)
+VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
-TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
+TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
@@ -51,7 +54,7 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all cost-model help demo readme-pictures test bench chart chart-picture layers tables clean
+.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -93,6 +96,19 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+# platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked
+# by its CRCs (tools/view/host_display.c).
+HOST_DISPLAY_SRC := platform/host/platform.c tools/view/host_display.c tools/cli/picture.c \
+    $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
+        console.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
+
+## a desktop's display for firmware: build/host/libsmear-display.a
+host-display: $(BUILD)/libsmear-display.a
+
+$(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
+	@rm -f $@
+	$(AR) rcs $@ $^
 
 # For a Linux without libraries, and what boots it.
 $(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
@@ -138,9 +154,9 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
+SAN_SUITES := $(filter anim api clip convert convert_tool fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -194,7 +210,7 @@ FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
 
 build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(IMAGE_SRC) $(MODEL_SRC) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(TOOL_SRC) -lm
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
@@ -205,6 +221,11 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+
+# The demo firmware on a desktop's screen.
+$(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \
+    $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

@@ -74,6 +74,8 @@ else
 fi
 suite command-line sh tests/cli.sh build/smear
 suite view sh tests/view.sh build/smear
+suite build-demo-screen $make -s build/host/demo-screen
+suite view-display sh tests/view_display.sh build/host/demo-screen
 if needs tmux "tmux"; then
     suite view-terminal sh tests/view_term.sh build/smear
 fi

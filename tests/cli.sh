@@ -600,7 +600,7 @@ usage b info a b
 input missing.glb info missing.glb
 input builtin:nosuch info builtin:nosuch
 
-for command in render compare info bench chart help; do
+for command in render convert compare info bench chart help; do
     claim "help $command" works help $command
     claim "names it" out_has "smear $command"
     claim "$command --help" works $command --help
@@ -615,19 +615,78 @@ for option in size fps time frames clip loop camera eye look fov filter clear sh
     dither arena threads repeat depth velocity stats; do
     claim "help knows --$option" out_has "--$option"
 done
+works help convert >/dev/null
+for option in name clip keep scale fit up texture texture-size colors filter normals influences \
+    clip-error rows fov distance max-triangles max-flash max-ram; do
+    claim "help convert knows --$option" out_has "--$option"
+done
 usage nosuch help nosuch
-usage convert help convert
-claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
+
+# ------------------------------------------------------------------ convert
+
+claim "a header" works convert "$plate" -o plate.h
+for line in '^triangles: 4$' '^vertices: 8 of 8$' '^clips: 2$' '  0 "slide" 1 s, 1 channels, 2 keys of 2' \
+    '^flash: [0-9]* bytes (meshes ' '^ram: [0-9]* bytes an actor with 2 poses' \
+    '^largest position error: 0\.0[0-9]* px, at rest 0\.0' '^wrote plate.h$'; do
+    claim "has $line" out_has "$line"
+done
+claim "its names are the file's" grep -q '^static const smear_model plate_model = {$' plate.h
+claim "a name of one's own" works convert "$plate" --name my_plate -o other.h
+claim "is in the header" grep -q '^#define MY_PLATE_CLIP_SLIDE 0$' other.h
+claim "a blob" works convert "$plate" -o plate.smr
+claim "begins with SMR1" starts_with plate.smr "123 115 122 061"
+claim "the same again" works convert "$plate" -o again.smr
+claim "is the same" same plate.smr again.smr
+claim "one clip" works convert "$plate" --clip spin -o spin.smr
+claim "is another file" differ plate.smr spin.smr
+claim "knows one clip" out_has '^clips: 1$'
+claim "no clips" works convert "$plate" --clip none -o still.h
+claim "knows none" out_has '^clips: 0$'
+claim "nothing moves" out_has 'nodes: 0$'
+claim "kept nodes" works convert "$plate" --clip none --keep wall --keep 1 -o kept.h
+claim "are nodes" out_has 'nodes: 2$'
+claim "a texture" works convert "$base/in/card.obj" --texture-size 8 -o card.h
+claim "is shrunk" out_has '0 8x8 from 16x16, palette8, '
+claim "rgb565" works convert "$base/in/card.obj" --texture rgb565 --filter bilinear -o card.h
+claim "is said" out_has '0 16x16 from 16x16, rgb565, rms error '
+claim "baked" works convert "$base/in/card.obj" --texture baked -o card.h
+claim "has no texture" out_has '^textures: 0$'
+claim "has colours" grep -q card_face_color_0 card.h
+claim "everything at once" works convert "$plate" --scale 0.5 --up z --normals flat --influences 1 --colors 16 \
+    --clip-error 1 --rows 64 --fov 30 --distance 9 --max-triangles 4 --max-flash 99999 --max-ram 9999 -o all.h
+claim "says what a pixel is" out_has '(64 rows, 30 degrees, at 9 units)$'
+claim "to a size" works convert "$plate" --fit 3 -o fit.h
+input "$plate" convert "$plate" --max-triangles 3 -o no.h
+claim "says how many there are" err_has 'has 4 triangles, more than 3 (--max-triangles)'
+input "$plate" convert "$plate" --max-flash 100 -o no.h
+claim "says what takes it" err_has 'bytes of flash (meshes [0-9]*, textures 0, animation [0-9]*), more than 100'
+input "$plate" convert "$plate" --max-ram 100 -o no.h
+claim "says how much" err_has 'bytes of RAM with 2 poses, more than 100'
+input "$plate" convert "$plate" --scale 1e4 -o no.h
+claim "says that it is too large" err_has 'reaches .* units, more than 30000: use --scale or --fit'
+input missing.glb convert missing.glb -o no.h
+input nowhere/x.h convert "$plate" -o nowhere/x.h
+usage convert convert
+usage convert convert "$plate"
+usage -o convert "$plate" -o out.c
+usage two convert one two -o x.h
+usage --frob convert "$plate" --frob -o x.h
+usage --clip convert "$plate" --clip nosuch -o x.h
+usage --clip convert "$plate" --clip spin --clip 1 -o x.h
+usage --keep convert "$plate" --keep nosuch -o x.h
+usage --name convert "$plate" --name 3d -o x.h
+usage --name convert "$plate" --name Fox -o x.h
+for wrong in "--scale 0" "--scale -1" "--scale nan" "--fit 0" "--up x" "--texture png" "--texture-size 0" \
+    "--texture-size 5000" "--colors 1" "--colors 257" "--filter cubic" "--normals smooth" "--influences 5" \
+    "--influences 0" "--clip-error 0" "--rows 0" "--fov 180" "--distance 0" "--max-triangles 0" "--max-flash x"; do
+    usage "${wrong% *}" convert "$plate" $wrong -o x.h
+done
 
 # ------------------------------------------------------------------ bad usage
 
 usage "no command"
 usage frobnicate frobnicate
-for command in convert; do
-    usage $command $command
-    claim "says that it is not built" err_has "not built yet"
-done
 usage --frob chart --frob
 usage nosuch chart --scenes nosuch
 usage nosuch chart --methods nosuch

@@ -12,6 +12,8 @@ static const char program_help[] =
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
     "    smear view [SCENE]               in a window or terminal, with live controls\n"
+    "    smear convert MODEL -o OUT.h|OUT.smr\n"
+    "                                     a model as constant data for firmware\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
     "    smear bench                      what frames cost, beside the bars set for them\n"
@@ -19,7 +21,6 @@ static const char program_help[] =
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: convert.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -109,6 +110,43 @@ static const char *const render_help[] = {
     NULL
 };
 
+static const char *const convert_help[] = {
+    "smear convert MODEL -o OUT.h|OUT.smr [options]\n"
+    "\n"
+    "Writes a .glb, .gltf or .obj file as constant data for firmware: int16 vertices in an order that\n"
+    "suits the vertex cache, textures, materials, and clips for the optional animation module\n"
+    "(smear_model.h). A header is C and fits every machine; a .smr blob is little-endian and is read\n"
+    "where it lies. The same model and options give the same bytes everywhere. Prints the flash and\n"
+    "RAM it takes and how many pixels vertices are off, played by the code of the device.\n"
+    "\n"
+    "  -o FILE.h|FILE.smr\n"
+    "  --name NAME           prefix of the header's names [from the file's]\n"
+    "  --clip NAME|INDEX|all|none\n"
+    "                        clips to keep; may be repeated [all]\n"
+    "  --keep NODE|all       a node that a program will move (name or index); may be repeated. Nodes\n"
+    "                        that do not move go into the vertices\n"
+    "  --scale F             world units per unit of the file [1]\n"
+    "  --fit UNITS           instead: the largest extent at rest becomes so many units\n"
+    "  --up y|z              the file's axis that points up; it becomes +Y [y]\n"
+    "\n",
+    "  --texture palette8|rgb565|rgb8888|baked|none\n"
+    "                        baked: no texture, its mean colour goes to each vertex, or to each face\n"
+    "                        of flat meshes. rgb565 has no alpha: pictures that need it stay\n"
+    "                        palette8 [palette8]\n"
+    "  --texture-size N      pictures are halved until no edge is longer [128]\n"
+    "  --colors N            of a palette, 2 to 256 [256]\n"
+    "  --filter nearest|bilinear\n"
+    "                        [nearest]\n"
+    "  --normals keep|flat   flat: normals are left out [keep]\n"
+    "  --influences N        joints per vertex at most, 1 to 4 [4]\n"
+    "  --clip-error PX       what the keys of a clip may be off by [0.1]\n"
+    "  --rows N, --fov DEG, --distance UNITS\n"
+    "                        what a pixel is [240 rows, 45 degrees, where the whole model is seen]\n"
+    "  --max-triangles N, --max-flash BYTES, --max-ram BYTES\n"
+    "                        exit status 1 when it takes more; nothing is simplified\n",
+    NULL
+};
+
 static const char *const compare_help[] = {
     "smear compare A B [options]\n"
     "\n"
@@ -166,16 +204,16 @@ static const char *const chart_help[] = {
 };
 
 static const char *const help_help[] = {
-    "smear help [render|view|compare|info|bench|chart]\n",
+    "smear help [render|view|convert|compare|info|bench|chart]\n",
     NULL
 };
 
 int help_print(const char *command)
 {
-    static const char *const names[] = { "render", "compare", "info", "bench", "chart", "help",
-                                         NULL };
-    static const char *const *const texts[] = { render_help, compare_help, info_help, bench_help,
-                                               chart_help, help_help };
+    static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
+                                         "help", NULL };
+    static const char *const *const texts[] = { render_help, convert_help, compare_help, info_help,
+                                               bench_help, chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {
         fputs(program_help, stdout);
@@ -184,8 +222,7 @@ int help_print(const char *command)
     if (strcmp(command, "view") == 0)
         return view_help_print();
     if (found < 0)
-        return say_bad_usage(command, command_is_planned(command) ? "not built yet"
-                                                                  : "unknown command (smear help)");
+        return say_bad_usage(command, "unknown command (smear help)");
     for (const char *const *text = texts[found]; *text != NULL; text++)
         fputs(*text, stdout);
     return STATUS_OK;
