@@ -193,7 +193,7 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
         b->farthest[pixel] = (uint16_t)f->low;
     for (uint32_t i = n; i-- > 0;) {
         uint32_t at = (i << b->pixels_log2) + pixel;
-        if (timemask_is_same(b, at, f->color, f->depth)) {
+        if (timemask_is_same(b, at, f)) {
             b->held[at] |= mask;
             return;
         }

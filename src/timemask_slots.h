@@ -56,10 +56,13 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
-static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, uint32_t color, int32_t depth)
+/* Whether an entry is of the same colour and, as far as that matters, in the same course. */
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, const struct timemask_fragment *f)
 {
-    return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
+    uint32_t color = b->color[at];
+    if ((color ^ f->color) << 8 != 0)
+        return false;
+    return abs_i32((int32_t)b->depth[at] - f->depth) + abs_i32(timemask_slope_of(color) - f->slope) <= f->depth >> 8;
 }
 
 /* timemask_slots_add, where others have a say or entries run out. */
@@ -84,7 +87,7 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     b->any[pixel] = any | f.mask;
     if (f.low < farthest)
         b->farthest[pixel] = (uint16_t)f.low;
-    if (n != 0 && timemask_is_same(b, before, f.color, f.depth)) {
+    if (n != 0 && timemask_is_same(b, before, &f)) {
         b->held[before] |= f.mask;
         return;
     }
