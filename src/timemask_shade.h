@@ -29,7 +29,7 @@ struct timemask_shade {
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
-    int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
+    int32_t slope;                          /* of the depth, 1/16 unit per slot */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
