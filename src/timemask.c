@@ -214,6 +214,15 @@ SMEAR_INLINE uint32_t paint_row(struct timemask_slots *slots, const struct paint
             size = abs_i32(slope);
         }
         int32_t units = add_wrap(add_wrap(row.at, mul_wrap(depth.dx, x)), timemask_part(change, time));
+        if (turns && s->thin) {
+            int32_t half = (to - from) << time_shift;
+            int32_t begin = smear_timemask_thin_depth(s, x, y, time - half);
+            int32_t end = smear_timemask_thin_depth(s, x, y, time + half);
+            units = (begin + end) >> 1;
+            kept = timemask_slope_pack((end - begin) / (to - from)) << 24;
+            slope = timemask_slope_of(kept);
+            size = abs_i32(slope);
+        }
         units = (clamp_i32(units, low, high) + 8) >> 4;
         int32_t reach = size * (to - from - 1) >> 5, behind = (int32_t)smear_depth_units(still[x]);
         if (units + reach <= behind)
@@ -258,7 +267,7 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
                          .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
     p.kept = timemask_slope_pack(s.slope) << 24;
     p.slope = timemask_slope_of(p.kept);
-    const bool plain = !s.gouraud && s.sampler == NULL, turns = (s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0;
+    const bool plain = !s.gouraud && s.sampler == NULL, turns = s.thin || (s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
