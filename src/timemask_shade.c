@@ -11,7 +11,7 @@ enum {
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
     LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
-    THIN_PX = 2,                /* triangles that turn, of less height */
+    THIN_PX = 1,                /* triangles that turn, of less height */
     TAPS_MAX = 8
 };
 
@@ -381,8 +381,10 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         s->pose[k] = pose[k];
     shade_depth(s, &course, pose);
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
-    if (!s->gouraud && s->sampler == NULL)
+    if (!s->gouraud && s->sampler == NULL) {
+        s->thin = false;
         return;
+    }
     if (!course.started)
         course_start(&course, pose);
     if (s->thin) {
