@@ -46,14 +46,13 @@ static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
 
 /* ------------------------------------------------------------------ edges */
 
-/* An edge function at one end of the segment, q8 px^2 rounded down: exact in its sign. */
-static struct timemask_plane edge_at(int32_t ax, int32_t ay, int32_t bx, int32_t by)
+/* An edge function at one time, q8 px^2 rounded down: exact in its sign. */
+SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i, int j)
 {
-    int32_t dx = bx - ax, dy = by - ay;
-    /* A centre on the edge counts for edges that go up and those that go right. */
-    int32_t bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
-    int64_t here = (int64_t)dy * ax - (int64_t)dx * ay + bias;
-    here >>= 8;
+    int32_t ax = p->x[i], ay = p->y[i], dx = p->x[j] - ax, dy = p->y[j] - ay;
+    /* A centre on the edge counts (0, else -1) for edges that go up and those that go right. */
+    int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
+    int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
     /* Steps are below 2^22: far beyond 2^26 the sign is the same all over the block. Differences of two still fit. */
     const int32_t most = (1 << 30) - (1 << 28);
     int32_t at = here > most ? most : here < -most ? -most : (int32_t)here;
@@ -72,16 +71,11 @@ static bool is_before(const struct timemask_pose *a, const struct timemask_pose 
     return b->x[i] < b->x[j];
 }
 
-static inline int32_t plane_low(const struct timemask_plane *p, const struct timemask_cover *c)
+/* Twice the value in the middle of the pixels that may be covered; more or less by `reach` at their corners. */
+SMEAR_INLINE int32_t plane_middle(const struct timemask_plane *p, const struct timemask_cover *c, int32_t *reach)
 {
-    return p->at + (p->dx < 0 ? p->dx * (c->x1 - 1) : p->dx * c->x0)
-                 + (p->dy < 0 ? p->dy * (c->y1 - 1) : p->dy * c->y0);
-}
-
-static inline int32_t plane_high(const struct timemask_plane *p, const struct timemask_cover *c)
-{
-    return p->at + (p->dx > 0 ? p->dx * (c->x1 - 1) : p->dx * c->x0)
-                 + (p->dy > 0 ? p->dy * (c->y1 - 1) : p->dy * c->y0);
+    *reach = abs_i32(p->dx) * (c->x1 - 1 - c->x0) + abs_i32(p->dy) * (c->y1 - 1 - c->y0);
+    return 2 * p->at + p->dx * (c->x0 + c->x1 - 1) + p->dy * (c->y0 + c->y1 - 1);
 }
 
 /* The other side of an edge: -e - 1, so that >= 0 is exactly what was < 0. */
@@ -186,16 +180,16 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
         i = j;
         j = keep;
     }
-    w.start = edge_at(a->x[i], a->y[i], a->x[j], a->y[j]);
-    w.end = edge_at(b->x[i], b->y[i], b->x[j], b->y[j]);
-    struct timemask_plane middle = edge_at(m->x[i], m->y[i], m->x[j], m->y[j]);
+    w.start = edge_at(a, i, j);
+    w.end = edge_at(b, i, j);
+    struct timemask_plane middle = edge_at(m, i, j);
     w.bow = bow_of(&w.start, &middle, &w.end);
     w.bows = plane_size(&w.bow);
-    int32_t low = min_i32(plane_low(&w.start, c), plane_low(&w.end, c));
-    int32_t high = max_i32(plane_high(&w.start, c), plane_high(&w.end, c));
-    if (low - (w.bows >> 1) >= 0)
+    int32_t reach_start, reach_end;
+    int32_t start = plane_middle(&w.start, c, &reach_start), end = plane_middle(&w.end, c, &reach_end);
+    if (min_i32(start - reach_start, end - reach_end) >= w.bows)
         return !w.reversed;     /* inside everywhere, or outside */
-    if (high + (w.bows >> 1) < 0)
+    if (max_i32(start + reach_start, end + reach_end) < -w.bows)
         return w.reversed;
 
     int32_t mx = w.start.dx + w.end.dx, my = w.start.dy + w.end.dy;

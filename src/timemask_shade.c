@@ -6,6 +6,8 @@
 
 enum {
     MOST_SLOPE = 1 << 20,
+    LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
+    TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
     AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -46,6 +48,7 @@ static uint64_t pose_start(struct pose_setup *p, const struct timemask_pose *pos
 struct segment_setup {
     struct pose_setup pose[3];
     const struct pose_setup *shape[3];
+    bool started;
     bool turns;                 /* slopes are not the same */
     int32_t x, y, x_change, y_change;       /* a point that attributes go with: q8 px from the block's first centre */
 };
@@ -121,7 +124,7 @@ static inline uint32_t spread(const int32_t a[3])
 }
 
 /* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest, or depths
- * along them by more than 1/512 of depth. */
+ * along them by more than a part of depth. */
 static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b)
 {
     int32_t change = 0, deeper = 0, size = 0;
@@ -132,7 +135,7 @@ static bool shape_turns(const struct timemask_pose *a, const struct timemask_pos
         change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
         deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
     }
-    return change > size >> 3 || deeper > a->depth[0] >> 10;
+    return change > size >> 3 || deeper > a->depth[0] >> TURN_LOG2;
 }
 
 /* ------------------------------------------------------------------ set-up */
@@ -149,6 +152,12 @@ static int32_t channel_of(const int32_t *record, const struct smear_segment *g, 
     uint32_t word = (uint32_t)record[g->color + (c >> 1)];
     int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
     return linear ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+}
+
+static bool is_one_color(const int32_t *const record[3], const struct smear_segment *g)
+{
+    const int32_t *a = record[0] + g->color, *b = record[1] + g->color, *c = record[2] + g->color;
+    return ((a[0] ^ b[0]) | (a[0] ^ c[0]) | ((a[1] ^ b[1]) & 0xffff) | ((a[1] ^ c[1]) & 0xffff)) == 0;
 }
 
 static uint32_t channels_pixel(const int32_t c[3], bool linear)
@@ -180,7 +189,27 @@ static bool needs_w(const struct timemask_pose *p, uint32_t range)
     return smear_times_over((uint32_t)(high - low), range, (uint32_t)low) >> 2 > AFFINE_OFF;
 }
 
-static void shade_depth(struct timemask_shade *s, const struct segment_setup *poses,
+static void poses_start(struct segment_setup *s, const struct timemask_pose *const pose[3])
+{
+    /* Slopes of the middle, unless it is seen from its edge then. */
+    uint64_t area = pose_start(&s->pose[1], pose[1]);
+    s->started = true;
+    s->turns = area == 0 || shape_turns(pose[0], pose[2]);
+    s->shape[1] = &s->pose[1];
+    if (s->turns) {
+        uint64_t area_a = pose_start(&s->pose[0], pose[0]), area_b = pose_start(&s->pose[2], pose[2]);
+        const struct pose_setup *some = &s->pose[area != 0 ? 1 : area_a != 0 ? 0 : 2];
+        s->shape[0] = area_a != 0 ? &s->pose[0] : some;
+        s->shape[1] = some;
+        s->shape[2] = area_b != 0 ? &s->pose[2] : some;
+    }
+    s->x = point_of(pose[1]->x);
+    s->y = point_of(pose[1]->y);
+    s->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
+    s->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
+}
+
+static void shade_depth(struct timemask_shade *s, struct segment_setup *poses,
                         const struct timemask_pose *const pose[3])
 {
     int32_t depth[3][3];
@@ -188,12 +217,16 @@ static void shade_depth(struct timemask_shade *s, const struct segment_setup *po
         for (int i = 0; i < 3; i++)
             depth[k][i] = pose[k]->depth[i] >> 7;
     const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-    timed_make(&s->depth, poses, value);
     range_of(&s->depth_low, &s->depth_high, value);
+    if (s->depth_high - s->depth_low <= s->depth_high >> LEVEL_LOG2) {
+        s->depth = (struct timemask_timed){ .at = point_of(depth[1]), .change = point_of(depth[2]) - point_of(depth[0]) };
+    } else {
+        poses_start(poses, pose);
+        timed_make(&s->depth, poses, value);
+    }
     int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
     change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
-    s->slope[0] = change;
-    s->slope[1] = change >> 4;
+    s->slope = change;
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
@@ -212,40 +245,25 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     for (int i = 0; i < 3; i++)
         record[i] = geometry_vertex(frame->geometry, segment, triangle->vertex[i]);
 
-    /* Slopes of the middle, unless it is seen from its edge then. */
-    uint64_t area = pose_start(&poses.pose[1], pose[1]);
-    poses.turns = area == 0 || shape_turns(pose[0], pose[2]);
-    poses.shape[1] = &poses.pose[1];
-    if (poses.turns) {
-        uint64_t area_a = pose_start(&poses.pose[0], pose[0]), area_b = pose_start(&poses.pose[2], pose[2]);
-        const struct pose_setup *some = &poses.pose[area != 0 ? 1 : area_a != 0 ? 0 : 2];
-        poses.shape[0] = area_a != 0 ? &poses.pose[0] : some;
-        poses.shape[1] = some;
-        poses.shape[2] = area_b != 0 ? &poses.pose[2] : some;
-    }
-    poses.x = point_of(pose[1]->x);
-    poses.y = point_of(pose[1]->y);
-    poses.x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
-    poses.y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
+    poses.started = false;
     shade_depth(s, &poses, pose);
 
     int32_t channel[3][3];
-    if (s->gouraud) {
-        bool equal = true;
+    if (s->gouraud && s->sampler == NULL && is_one_color(record, segment)) {
         for (int c = 0; c < 3; c++)
-            for (int i = 0; i < 3; i++) {
-                channel[c][i] = channel_of(record[i], segment, c, frame->linear);
-                equal = equal && channel[c][i] == channel[c][0];
-            }
-        if (equal && s->sampler == NULL) {
-            const int32_t one[3] = { channel[0][0], channel[1][0], channel[2][0] };
-            s->color = channels_pixel(one, frame->linear);
-            s->gouraud = false;
-        }
+            channel[0][c] = channel_of(record[0], segment, c, frame->linear);
+        s->color = channels_pixel(channel[0], frame->linear);
+        s->gouraud = false;
     }
     s->color &= 0xffffffu;
     if (!s->gouraud && s->sampler == NULL)
         return;
+
+    if (!poses.started)
+        poses_start(&poses, pose);
+    for (int c = 0; c < 3 && s->gouraud; c++)
+        for (int i = 0; i < 3; i++)
+            channel[c][i] = channel_of(record[i], segment, c, frame->linear);
 
     /* Mesh units, and how far they reach in texels. */
     const struct smear_sampler *m = s->sampler;

@@ -29,7 +29,7 @@ struct timemask_shade {
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
-    int32_t slope[2];                       /* of depth codes below and from 32768, 1/16 per slot */
+    int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
@@ -78,12 +78,6 @@ static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t r
 {
     return ((timemask_run_from(run) + timemask_run_to(run)) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2))
          - (1 << (TIMEMASK_TIME_LOG2 - 1));
-}
-
-/* Depth code of units q4. */
-static inline int32_t timemask_code(int32_t units)
-{
-    return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
 }
 
 #endif
