@@ -112,7 +112,7 @@ static void choose_segments(struct job *j)
             bend = max_i32(bend, b->bend << 3);
         }
     }
-    bend >>= 2;                                 /* what edges that follow parabolas leave of it */
+    bend >>= 4;                                 /* what edges that follow parabolas leave of it, about */
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend
@@ -254,7 +254,8 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     uint32_t run[TIMEMASK_RUNS];
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, m->record, pose, slots_log2,
+                         j->settings->tap);
     struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
                          .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
     for (int i = 0; i < 2; i++) {

@@ -40,7 +40,7 @@ struct timemask_shade {
 
 /* From the poses at a segment's start, middle and end. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, const struct smear_triangle *triangle,
+                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
                           const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap);
 
 /* Colour of a pixel of the block over a run. */

@@ -143,7 +143,7 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
             first = i;
         }
     }
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > ALIKE; i++)
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > 4 * ALIKE; i++)
         for (uint32_t j = i + 1; j < TIMEMASK_ENTRIES; j++) {
             uint32_t d = apart(&all[i], &all[j]);
             if (d < least) {
