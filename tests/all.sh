@@ -92,6 +92,7 @@ if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
     suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
+    suite demo-linux $make -s TARGET=linux demo-test
 fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear
