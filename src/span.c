@@ -546,12 +546,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
          : t->width == 256 ? rows_texel_256 : rows_texel_any;
 }
-#else
-smear_rows_fn *smear_rows_choose(const struct setup *s)
-{
-    (void)s;
-    return NULL;
-}
 #endif
 
 /* ------------------------------------------------------------------ everything else */
@@ -600,28 +594,17 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
 {
-    bool linear = s->frame->linear;
+    const bool linear = s->frame->linear;
+    uint32_t c[4], d[4] = { 0, 0, 0, 0 };
     if (s->segment->shade == SHADE_FLAT) {
-        uint32_t r = pixel_red(s->color), g = pixel_green(s->color), b = pixel_blue(s->color);
-        uint32_t a = pixel_alpha(s->color);
-        if (linear) {
-            r = smear_srgb_decode[r];
-            g = smear_srgb_decode[g];
-            b = smear_srgb_decode[b];
+        for (int i = 0; i < 3; i++) {
+            uint32_t code = s->color >> (16 - 8 * i) & 255u;
+            c[i] = linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16;
         }
-        for (; n > 0; n--, texel++) {
-            uint32_t t = *texel;
-            *texel = linear ? pixel_make(code_times(pixel_alpha(t), a),
-                                         code_times_linear(pixel_red(t), r),
-                                         code_times_linear(pixel_green(t), g),
-                                         code_times_linear(pixel_blue(t), b))
-                            : pixel_make(code_times(pixel_alpha(t), a), code_times(pixel_red(t), r),
-                                         code_times(pixel_green(t), g), code_times(pixel_blue(t), b));
-        }
-        return;
+        c[3] = pixel_alpha(s->color) << 16;
+    } else {
+        channels_at(s, p, k, c, d);
     }
-    uint32_t c[4], d[4];
-    channels_at(s, p, k, c, d);
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;
