@@ -29,18 +29,24 @@ endif
 include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
-LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip geometry path tiny assemble texture target \
-          mover setup span velocity raster subframes window tilemax blur blur_uniform blur_reconstruct convert jobs context frame smear
+LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip geometry path shutter record tiny assemble \
+          assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
+          timemask_slots timemask smooth choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
+          band timed frame smear
+# The optional module that opens and plays models; a firmware that does not call it does not link it.
+LAYERS += blob model skin anim
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
+CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
+VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
-TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC)
+TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
@@ -48,9 +54,9 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all help demo readme-pictures test bench layers tables clean
-## the program build/smear and the library (build/host/libsmear.a)
-all: $(BIN)/smear
+.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers tables clean
+## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
+all: $(BIN)/smear $(BIN)/smear-bench
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -60,7 +66,7 @@ $(LIB): $(call objects,$(LIB_SRC))
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-$(BIN)/smear: $(call objects,$(CLI_SRC) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures of real models, in build/demo
@@ -75,11 +81,47 @@ test:
 bench: $(BIN)/smear-bench
 	MAKE="$(MAKE)" sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
 
+## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
+chart: $(BIN)/smear-bench
+	$(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
+
+## the picture of the README again, from the last whole chart
+chart-picture: $(BIN)/smear-bench
+	@mkdir -p tools/bench/pictures
+	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
+	cp build/chart/both.svg tools/bench/pictures/chart.svg
+
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+# platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked
+# by its CRCs (tools/view/host_display.c).
+HOST_DISPLAY_SRC := platform/host/platform.c tools/view/host_display.c tools/cli/picture.c \
+    $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
+        console.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
+
+## a desktop's display for firmware: build/host/libsmear-display.a
+host-display: $(BUILD)/libsmear-display.a
+
+$(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+# For a Linux without libraries, and what boots it.
+$(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(CC) $(LDFLAGS) -static -o $@ $^ -lm -lpthread
+
+$(BUILD)/view_linux_init: tests/view_linux_init.c
+	$(CC) -std=c11 -D_DEFAULT_SOURCE -Os -static -Wall -Wextra -o $@ $<
+
+$(BUILD)/mkcpio: tests/mkcpio.c
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
+
+$(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## pictures of the README again
 readme-pictures: $(BIN)/smear-demo
@@ -112,17 +154,23 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter api clip convert fixed fixmath geometry jobs light matrix present raster texture tilemax transform,$(ALL_SUITES))
+SAN_SUITES := $(filter anim api clip convert convert_tool fixed fixmath geometry jobs light matrix present raster texture tilemax transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
 EXR_SRC  := tests/exr.c
 endif
 
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(SUITES:%=tests/test_%.c) $(REF_SRC) $(EXR_SRC)
+# The chart without what measures.
+CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
+                 chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
+TEST_SRC := tests/run.c tests/test.c tests/accuracy.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
+# What suites test of `smear view`.
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)
+TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/test_*.c)
@@ -162,7 +210,7 @@ FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
 
 build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(IMAGE_SRC) $(MODEL_SRC) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(TOOL_SRC) -lm
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
@@ -173,5 +221,28 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+
+# The demo firmware on a desktop's screen.
+$(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \
+    $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
+cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
+	$(RUN_BENCH) $< > $(BUILD)/cost.txt
+	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
+
+build/tapes/view_cost: tests/view_cost.c tools/view/cost.c $(TAPES_SRC)
+	@mkdir -p $(@D)
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Itests -o $@ \
+	    $(filter-out tests/target_tapes.c,$^) -lm
+
+build/tapes/cost.c: build/tapes/view_cost
+	build/tapes/view_cost tapes $@ build/tapes/cost.counts
+
+$(BUILD)/build/tapes/cost.o: CFLAGS += -Itests
+
+$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) tests/target_print.c tests/target_bench.c tests/play.c build/tapes/cost.c) $(LIB)
+	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
 -include $(shell find build -name '*.d' 2>/dev/null)

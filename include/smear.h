@@ -136,7 +136,8 @@ typedef enum smear_motion {
 
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
- * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close.
+ * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now` is
+ * that in the middle between them, whatever the exposure is.
  * Otherwise `open` is its pose one frame ago; when null, the library takes what it kept under `id`. A draw
  * whose earlier pose is unknown (first sight, cut, first frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
@@ -152,11 +153,22 @@ typedef struct smear_draw {
 } smear_draw;
 
 typedef enum smear_method {
-    SMEAR_DEFAULT_METHOD,       /* SMEAR_RECONSTRUCT */
+    SMEAR_DEFAULT_METHOD,       /* SMEAR_AUTO with desc.timed; else SMEAR_RECONSTRUCT, or SMEAR_NONE without a window */
     SMEAR_NONE,                 /* the sharp instant */
     SMEAR_ACCUMULATE,           /* mean of `samples` sharp instants; needs desc.accumulate */
-    SMEAR_RECONSTRUCT           /* tile-maximum reconstruction filter; needs the window */
+    SMEAR_RECONSTRUCT,          /* tile-maximum reconstruction filter; needs the window */
+    SMEAR_SUBFRAMES,            /* tiles in which something moves: mean of instants, one per half pixel of travel, at
+                                 * most `samples`; needs desc.timed */
+    SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
+                                 * needs desc.timed */
+    SMEAR_AUTO                  /* per tile the cheapest method that keeps to `target`; needs desc.timed */
 } smear_method;
+
+/* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
+enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
+
+/* Points of a shutter's openness over the exposure. */
+#define SMEAR_SHUTTER_POINTS 33
 
 typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
 typedef enum smear_light { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light;
@@ -178,12 +190,16 @@ typedef struct smear_frame {
     uint8_t method;             /* smear_method */
     uint8_t exposure;           /* smear_exposure */
     uint8_t light;              /* smear_light */
-    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago */
+    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago, and the
+                                 * present ones those in the middle of the exposure */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
     uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
-    uint16_t samples;           /* 1..1024; 0 means 8. Taps, or instants of SMEAR_ACCUMULATE */
+    uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and _TIMEMASK */
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
+    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
+    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
+                                 * Copied. Filters take it for a box */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */
@@ -227,13 +243,15 @@ typedef struct smear_desc {
     uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
-    uint8_t sharp;              /* 1: SMEAR_NONE (and SMEAR_ACCUMULATE) only: no window is kept */
+    uint8_t sharp;              /* 1: no filter: no window is kept */
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
+    uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
-                                 * SMEAR_TRIANGLE_BYTES each; more are drawn in parts; 0 means 1024 */
+                                 * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in
+                                 * parts; 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_flush_fn *flush;      /* required */
     smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
@@ -251,6 +269,7 @@ typedef struct smear_stats {
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
     uint32_t tiles_still, tiles_uniform, tiles_complex;
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
+    uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */
@@ -325,6 +344,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
+#define SMEAR_TIMED_TRIANGLE_BYTES 64u      /* list entry (32), places at three instants: 36 bytes per vertex */
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 

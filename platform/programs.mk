@@ -6,17 +6,25 @@
 #   UNIT_SUITES   test suites that need neither libc nor floating point: NAME stands for
 #                 suite_NAME() in tests/test_NAME.c
 #   HOST_CC       the host's compiler, for the program that records the tapes
+#   SCRIPTS       linker scripts; TARGET_TESTS: golden, where unit tests take too long
+#   PLATFORM_OBJ  further objects of the port; RUN_NEEDS: what RUN needs to be built first
 #
 #   make TARGET=cortex-m0plus target-test     unit tests and golden frames
 #   make TARGET=cortex-m0plus target-bench    instructions per frame
+#   make TARGET=lm3s6965evb demo-firmware     the demo; demo-run starts it, demo-test tries it
+#
+# A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
+# DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
+# tests/target_demo.sh and platform/lm3s6965evb/target.mk.
 
-HOST_CC ?= cc
+HOST_CC      ?= cc
+TARGET_TESTS ?= unit golden
 
 TAPES     := build/tapes
 TAPES_SRC := tests/target_tapes.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
              $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
 
-PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(BUILD)/tests/target_print.o
+PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(PLATFORM_OBJ) $(BUILD)/tests/target_print.o
 GOLDEN_OBJ  := $(PROGRAM_OBJ) $(BUILD)/tests/target_golden.o $(BUILD)/tests/play.o \
                $(BUILD)/$(TAPES)/golden.o
 BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target_bench.o $(BUILD)/tests/play.o \
@@ -39,33 +47,82 @@ $(TAPES)/bench.c: $(TAPES)/target_tapes
 $(BUILD)/tests/target_unit.o: CFLAGS += \
     -D'TARGET_SUITES=$(foreach suite,$(UNIT_SUITES),SUITE($(suite)))'
 
-$(BUILD)/target_golden$(EXE): $(GOLDEN_OBJ) $(LIB)
+$(BUILD)/target_golden$(EXE): $(GOLDEN_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(GOLDEN_OBJ) $(LIB) $(LDLIBS)
 
-$(BUILD)/target_unit$(EXE): $(UNIT_OBJ) $(LIB)
+$(BUILD)/target_unit$(EXE): $(UNIT_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(UNIT_OBJ) $(LIB) $(LDLIBS)
 
 # On small boards (SMALL_LAYOUTS) the linker script holds programs to the real sizes; golden frames
 # that need more memory than there is are skipped.
-$(BUILD)/target_golden-%$(EXE): $(GOLDEN_OBJ) $(LIB) platform/cortexm/%.ld
+$(BUILD)/target_golden-%$(EXE): $(GOLDEN_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/%.ld
 	$(CC) $(LDFLAGS) -T $*.ld -o $@ $(GOLDEN_OBJ) $(LIB) $(LDLIBS)
 
-$(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB)
+$(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
+
+# ---------------------------------------------------------------------- demo
+
+DISPLAY_SRC ?= platform/host/display.c
+DEMO_SCREEN ?= pico
+DEMO_LOOPS  ?= oled:6 gba:6
+
+PROPS     := build/demo
+PROPS_SRC := platform/demo_props.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
+             $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
+
+FIRMWARE_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/demo.o \
+                $(BUILD)/platform/demo_player.o $(BUILD)/platform/demo_scene.o \
+                $(BUILD)/$(PROPS)/props.o
+
+$(BUILD)/$(PROPS)/props.o: CFLAGS += -Itests
+$(BUILD)/platform/demo.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"'
+
+$(PROPS)/demo_props: $(PROPS_SRC) platform/demo_scene.h
+	@mkdir -p $(@D)
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -o $@ $(PROPS_SRC) -lm
+
+$(PROPS)/props.c: $(PROPS)/demo_props
+	$(PROPS)/demo_props $@
+
+$(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+
+# Draws a frame on this machine, to look at and to compare screenshots with.
+SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
+              $(LIB_SRC) $(wildcard tools/image/*.c)
+
+$(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(SCREEN_SRC) -lm
+
+.PHONY: demo-firmware demo-run demo-cost demo-test
+## the demo as firmware for TARGET
+demo-firmware: $(BUILD)/demo$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it
+demo-run: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+	$(RUN) $< show
+
+## its frames and, where there is a display, screenshots against the host's
+demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
+	RUN="$(RUN)" sh tests/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
+
+## what its frames cost on TARGET
+demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
 ## unit tests and golden frames on TARGET
-target-test: $(BUILD)/target_unit$(EXE) $(BUILD)/target_golden$(EXE) \
-             $(SMALL_LAYOUTS:%=target-test-%)
-	$(RUN) $(BUILD)/target_unit$(EXE)
-	$(RUN) $(BUILD)/target_golden$(EXE)
+target-test: $(TARGET_TESTS:%=$(BUILD)/target_%$(EXE)) $(SMALL_LAYOUTS:%=target-test-%) $(RUN_NEEDS)
+	$(foreach test,$(TARGET_TESTS),$(RUN) $(BUILD)/target_$(test)$(EXE) &&) true
 
 $(SMALL_LAYOUTS:%=target-test-%): target-test-%: $(BUILD)/target_golden-%$(EXE)
 	$(RUN_$*) $<
 
 ## what frames cost on TARGET
-target-bench: $(BUILD)/target_bench$(EXE)
+target-bench: $(BUILD)/target_bench$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $(BUILD)/target_bench$(EXE)
 
 ## take today's golden frames as right (look at the pictures first)

@@ -15,37 +15,19 @@ static void forget_all(struct smear_assembler *a)
     for (uint32_t i = 0; i <= a->cache_mask; i++)
         a->cache[i].tag = 0;
     a->serial = 0;
+    a->cache_has_paths = false;
 }
 
 void smear_assembler_reset(struct smear_assembler *a)
 {
+    a->path_count = 0;
     if (a->serial == 0)         /* later, serial numbers tell old vertices from new ones */
         forget_all(a);
 }
 
-static inline void fill_cached(struct smear_cached_vertex *v, const struct smear_assembler *a,
-                               const struct smear_assembly *d, uint32_t index)
+static uint32_t index_of(const struct smear_cached_vertex *v)
 {
-    struct smear_homogeneous h;
-    v->stored = 0;
-    smear_transform_vertex(&h, &d->now, d->position + 3 * index);
-    for (int i = 0; i < d->extra_count; i++) {
-        struct smear_homogeneous term;
-        smear_transform_vertex(&term, &d->extra[i], d->extra_position[i] + 3 * index);
-        h.x += term.x;
-        h.y += term.y;
-        h.w += term.w;
-        h.distance += term.distance;
-    }
-    v->now = h;
-    if (h.distance < d->now.near_distance) {
-        v->outcode = OUT_NEAR;
-        return;
-    }
-    project(&v->screen, &d->now, &h, &a->viewport);
-    v->outcode = outcode_sides(&v->screen, &a->viewport);
-    if (h.distance > d->now.far_distance)
-        v->outcode |= OUT_FAR;
+    return v->tag & 0xffffu;
 }
 
 static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
@@ -61,7 +43,7 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
                          const struct smear_screen *screen, const struct smear_viewport *viewport)
 {
     /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
-    int scale = d->now.scale - d->pose[pose].scale;
+    int scale = d->at.now.scale - d->pose[pose].scale;
     int zeros = count_leading_zeros((uint32_t)now->w);
     int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
     /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
@@ -73,190 +55,6 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
     out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
     out[MOTION_RATIO] = (uint32_t)ratio;
-}
-
-static uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
-{
-    record[VERTEX_X] = (uint32_t)screen->x;
-    record[VERTEX_Y] = (uint32_t)screen->y;
-    record[VERTEX_DEPTH] = (uint32_t)screen->depth;
-    return record;
-}
-
-static void store_color(uint32_t *record, const uint16_t channel[4])
-{
-    record[0] = (uint32_t)channel[0] | (uint32_t)channel[1] << 16;
-    record[1] = (uint32_t)channel[2] | (uint32_t)channel[3] << 16;
-}
-
-static void store_uv(uint32_t *record, int32_t u, int32_t v)
-{
-    *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
-}
-
-static void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
-                         const uint8_t *face_color, uint32_t face_cosine, bool flip)
-{
-    const smear_mesh *mesh = d->mesh;
-    uint32_t cosine = face_cosine;
-    if (d->shading.lit && mesh->normal != NULL) {
-        const int8_t *n = mesh->normal + 3 * index;
-        if (flip) {
-            const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
-                                     (int8_t)-max_i32(n[2], -127) };
-            cosine = smear_light_normal(&d->shading, back);
-        } else {
-            cosine = smear_light_normal(&d->shading, n);
-        }
-    }
-    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
-                cosine);
-}
-
-static uint32_t index_of(const struct smear_cached_vertex *v)
-{
-    return v->tag & 0xffffu;
-}
-
-/* What a triangle has in common. */
-struct face {
-    bool back;                  /* seen from behind: double-sided */
-    const uint8_t *color;
-    uint32_t cosine;            /* flat light */
-};
-
-/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when clockwise on the
- * screen (y down). */
-static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
-{
-#if !SMEAR_HAS_MUL64
-    const uint32_t small = 1 << 15;
-    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small)
-         | ((uint32_t)y2 + small)) < 2 * small)
-        return x1 * y2 - x2 * y1;
-#endif
-    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
-}
-
-static int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
-                       const struct smear_screen *c)
-{
-    return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
-}
-
-/* Pixels whose centres may be covered. */
-struct box {
-    int32_t x0, y0, x1, y1;
-};
-
-static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
-                                const struct smear_screen *c)
-{
-    struct box box;
-    box.x0 = (min_i32(a->x, min_i32(b->x, c->x)) + 127) >> 8;
-    box.x1 = (max_i32(a->x, max_i32(b->x, c->x)) + 127) >> 8;
-    box.y0 = (min_i32(a->y, min_i32(b->y, c->y)) + 127) >> 8;
-    box.y1 = (max_i32(a->y, max_i32(b->y, c->y)) + 127) >> 8;
-    return box;
-}
-
-/* Cuts a box to the part of the frame that is being filled. */
-static inline void box_cut(struct box *box, const struct smear_assembler *a)
-{
-    const struct smear_geometry *g = a->geometry;
-    box->x0 = max_i32(box->x0, 0);
-    box->x1 = min_i32(box->x1, a->viewport.width);
-    box->y0 = max_i32(box->y0, g->row_first * g->row_px);
-    box->y1 = min_i32(box->y1, min_i32(a->viewport.height, g->row_end * g->row_px));
-}
-
-static inline bool box_is_empty(const struct box *box)
-{
-    return box->x0 >= box->x1 || box->y0 >= box->y1;
-}
-
-static bool is_blend(const struct smear_assembly *d)
-{
-    return d->material->alpha == SMEAR_BLEND;
-}
-
-/* Lays out the vertex records of this draw. */
-static struct smear_segment *open_segment(struct smear_assembler *a, const struct smear_assembly *d)
-{
-    struct smear_segment *s = smear_geometry_open(a->geometry);
-    if (s == NULL)
-        return NULL;
-    const smear_mesh *mesh = d->mesh;
-    bool textured = d->material->texture != NULL && mesh->uv != NULL;
-    bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
-    int at = VERTEX_BASE_WORDS;
-    s->draw = d->draw;
-    s->uv = s->color = s->motion = 0;
-    if (textured)
-        s->uv = (uint8_t)at++;
-    if (per_vertex) {
-        s->color = (uint8_t)at;
-        at += 2;
-    }
-    s->moves = a->keep_motion && !is_blend(d) ? d->moves : 0;
-    if (s->moves != 0) {
-        s->motion = (uint8_t)at;
-        at += s->moves * MOTION_WORDS;
-    }
-    s->shade = per_vertex ? SHADE_GOURAUD
-             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
-    s->flat_depth = d->now.orthographic;
-    s->stride = (uint8_t)at;
-    return s;
-}
-
-/* Vertices cannot be shared when a face's own light or colour goes into them. */
-static bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
-{
-    return s->color == 0
-        || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
-}
-
-/* Room for one more triangle with three new vertices; opens a new segment where offsets run out. */
-static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
-                                              struct smear_segment *s, uint32_t entries)
-{
-    struct smear_geometry *g = a->geometry;
-    if (s == NULL || g->vertex_words + 3u * s->stride - s->base > 65536u) {
-        s = open_segment(a, d);
-        if (s == NULL)
-            return NULL;
-    }
-    return geometry_has_room(g, 3u * s->stride, entries) ? s : NULL;
-}
-
-static inline uint32_t *row_list(struct smear_geometry *g, const struct smear_assembly *d, int row)
-{
-    return is_blend(d) ? &g->blend_last[row] : &g->opaque_last[row];
-}
-
-static uint32_t face_color_of(const struct smear_assembly *d, const struct smear_segment *s,
-                              const struct face *face)
-{
-    if (s->shade != SHADE_FLAT)
-        return 0xffffffffu;
-    struct smear_color color;
-    smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
-    return smear_color_pack(&color, d->shading.linear);
-}
-
-static struct face face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
-{
-    struct face face = { back, NULL, 65536u };
-    if (d->mesh->face_color != NULL)
-        face.color = d->mesh->face_color + 4 * triangle;
-    if (d->shading.lit && d->mesh->normal == NULL) {
-        const int16_t *p = d->position;
-        const uint16_t *index = d->mesh->index + 3 * triangle;
-        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
-                                       p + 3 * index[back ? 1 : 2]);
-    }
-    return face;
 }
 
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
@@ -288,35 +86,35 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
     struct smear_clip_vertex probe[SMEAR_CLIP_MAX];
     for (int i = 0; i < 3; i++)
         probe[i] = polygon[i];
-    int count = smear_clip_triangle(probe, &d->now, codes);
+    int count = smear_clip_polygon(probe, 3, &d->at.now, codes);
     int64_t area = 0;
     for (int i = 0; i < count; i++)
-        smear_project(&screen[i], &d->now, &probe[i].now, &a->viewport);
+        smear_project(&screen[i], &d->at.now, &probe[i].now, &a->viewport);
     for (int i = 2; i < count; i++)
         area += area_of(&screen[0], &screen[i - 1], &screen[i]);
     bool back = (area > 0) != d->mirrored;
     if (area == 0 || (back && !d->material->double_sided))
         return true;
 
-    struct face face = face_of(d, triangle, back);
+    struct smear_face face = smear_face_of(d, triangle, back);
     if (*segment == NULL)
-        *segment = open_segment(a, d);
+        *segment = smear_record_segment(a, d);
     if (*segment == NULL)
         return false;
     if ((*segment)->color != 0) {
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
-            shade_vertex(&color, d, index_of(corner[i]), face.color, face.cosine, back);
+            smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
             for (int c = 0; c < 4; c++)
                 polygon[i].color[c] = color.channel[c];
         }
     }
-    count = smear_clip_triangle(polygon, &d->now, codes);
+    count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
     for (int i = 0; i < count; i++) {
-        smear_project(&screen[i], &d->now, &polygon[i].now, &a->viewport);
+        smear_project(&screen[i], &d->at.now, &polygon[i].now, &a->viewport);
         screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
         screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
     }
@@ -357,7 +155,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         struct smear_triangle *t = geometry_add(g, row_list(g, d, geometry_row(g, box.y0)));
         a->triangles_drawn++;
         t->segment = (uint16_t)(s - a->geometry->segment);
-        t->color = face_color_of(d, s, &face);
+        t->color = smear_face_color(d, s, &face);
         t->vertex[0] = offset[0];
         t->vertex[1] = offset[area > 0 ? 1 : 2];
         t->vertex[2] = offset[area > 0 ? 2 : 1];
@@ -415,8 +213,8 @@ static inline int cover(struct covered out[POINTS_MAX], const struct tiny_edges 
 
 static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
 {
-    struct face face = face_of(b->d, triangle, back);
-    return face_color_of(b->d, b->segment, &face);
+    struct smear_face face = smear_face_of(b->d, triangle, back);
+    return smear_face_color(b->d, b->segment, &face);
 }
 
 static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, bool back)
@@ -448,8 +246,8 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
         record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
     } else if (s->color != 0) {
         struct smear_color color;
-        struct face face = face_of(d, triangle, back);
-        shade_vertex(&color, d, index, face.color, face.cosine, back);
+        struct smear_face face = smear_face_of(d, triangle, back);
+        smear_record_shade(&color, d, index, face.color, face.cosine, back);
         store_color(record + s->color, color.channel);
     }
     for (int pose = 0; pose < s->moves; pose++) {
@@ -569,7 +367,8 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
     if (v == in_use1 || v == in_use2)
         v = spare;
     v->tag = tag;
-    fill_cached(v, a, d, tag & 0xffffu);
+    v->stored = 0;
+    v->outcode = placement_project(&v->screen, &v->now, &d->at, tag & 0xffffu, &a->viewport);
     return v;
 }
 
@@ -577,7 +376,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
 {
     const smear_mesh *mesh = d->mesh;
     const struct smear_geometry *g = a->geometry;
-    struct batch b = { .a = a, .d = d, .segment = open_segment(a, d) };
+    struct batch b = { .a = a, .d = d, .segment = smear_record_segment(a, d) };
     if (b.segment == NULL) {
         if (drop)
             a->triangles_dropped += mesh->triangle_count;
@@ -590,7 +389,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
         b.face_color = mesh->face_color;
     if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)
         b.vertex_color = mesh->color;
-    if (a->serial == 0xffffu)
+    if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);
     uint32_t tag = ++a->serial << 16;
     struct smear_cached_vertex spare[3];

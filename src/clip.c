@@ -94,13 +94,12 @@ static int clip_plane(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count
     return result < 3 ? 0 : result;
 }
 
-int smear_clip_triangle(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX],
-                        const struct smear_projection *projection, int codes)
+int smear_clip_polygon(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
+                       const struct smear_projection *projection, int codes)
 {
-    int count = 3;
-    if (codes & OUT_NEAR)
+    if (count != 0 && codes & OUT_NEAR)
         count = clip_plane(vertex, count, projection, PLANE_NEAR);
-    if (codes & OUT_FAR)
+    if (count != 0 && codes & OUT_FAR)
         count = clip_plane(vertex, count, projection, PLANE_FAR);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
     if (codes & (OUT_NEAR | OUT_GUARD))

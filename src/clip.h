@@ -14,13 +14,14 @@ struct smear_clip_vertex {
     int32_t color[4];                   /* 0 .. 65535 */
 };
 
-/* A triangle cut by six planes has at most nine corners. */
-#define SMEAR_CLIP_MAX 9
+/* A triangle cut by six planes has at most nine corners. Cut in three poses, it may have more, of which none is
+ * likely. */
+#define SMEAR_CLIP_MAX 12
 
-/* Clips vertex[0..2] in place of vertex[0 .. n-1], a convex polygon in the same order; returns n, 0 when nothing is
+/* Clips the convex polygon vertex[0 .. count-1] in place; returns how many corners it has then, 0 when nothing is
  * left. `codes` is the union of the three outcodes: only those planes are looked at. An edge is always cut
  * from its inner towards its outer end, so two triangles that share it get the same new vertex, bit for bit. */
-int smear_clip_triangle(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX],
-                        const struct smear_projection *projection, int codes);
+int smear_clip_polygon(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
+                       const struct smear_projection *projection, int codes);
 
 #endif

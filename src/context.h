@@ -7,10 +7,14 @@
 #include "smear.h"
 
 #include "assemble.h"
+#include "assemble_path.h"
 #include "blur.h"
+#include "choose.h"
 #include "geometry.h"
 #include "jobs.h"
 #include "raster.h"
+#include "shutter.h"
+#include "subframes.h"
 #include "window.h"
 
 /* The pose a draw had, kept under its id. */
@@ -27,6 +31,16 @@ struct smear_submitted {
 };
 
 enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
+
+/* What moves in a tile row. */
+struct smear_row_movers {
+    struct smear_mover *mover;
+    uint32_t count;
+    struct smear_tile_load *load;               /* per tile */
+};
+
+/* Smooth tiles look at the movers of their own row and of its neighbours. */
+enum { ROWS_LISTED = 3 };
 
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
@@ -55,6 +69,16 @@ struct smear_context {
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
+    /* methods that look at several instants */
+    struct smear_shutter shutter;
+    struct smear_chooser chooser;
+    struct smear_row_movers row_movers[ROWS_LISTED];    /* with smooth tiles row r at r % 3, else the first */
+    uint8_t *work;                  /* work_bytes per worker */
+    uint32_t work_bytes;
+    uint32_t moving;                /* list of the row being drawn */
+    uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
+    uint16_t *still_depth;
+
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
 

@@ -9,24 +9,11 @@
  *             finish      the row above, which now has neighbours on both sides:
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
-#include "context.h"
+#include "timed.h"
 
-#include "convert.h"
 #include "fixmath.h"
 #include "pixel.h"
 #include "tilemax.h"
-
-/* ------------------------------------------------------------------ time */
-
-static uint32_t now(const struct smear_context *c)
-{
-    return c->desc.clock != NULL ? c->desc.clock(c->desc.user) : 0;
-}
-
-static void charge(const struct smear_context *c, uint32_t *stage, uint32_t start)
-{
-    *stage += now(c) - start;
-}
 
 /* ------------------------------------------------------------------ poses */
 
@@ -141,6 +128,36 @@ static void project_pose(struct smear_projection *out, const struct smear_contex
     smear_projection_make(out, &view, p->camera[i], c->window.height);
 }
 
+/* Where the vertices are at an instant: a sum of poses, linear in clip space. */
+static void place(struct smear_placement *out, const struct smear_context *c, const struct draw_poses *p,
+                  const smear_mesh *mesh, const struct instant *instant)
+{
+    struct smear_projection sum[3];
+    const int16_t *position[3];
+    int32_t weight[3];
+    int count = 0;
+    out->extra_count = 0;
+    for (int k = 0; k < 3; k++) {
+        if (instant->weight[k] == 0)
+            continue;
+        project_pose(&sum[count], c, p, k, mesh);
+        position[count] = p->position[k];
+        weight[count++] = instant->weight[k];
+    }
+    if (count > 1)
+        smear_projection_weigh(sum, weight, count, &c->camera);
+    out->now = sum[0];
+    out->position = position[0];
+    for (int k = 1; k < count; k++) {
+        if (position[k] == out->position) {
+            smear_projection_add(&out->now, &sum[k]);
+        } else {
+            out->extra[out->extra_count] = sum[k];
+            out->extra_position[out->extra_count++] = position[k];
+        }
+    }
+}
+
 /* Everything the assembler needs of draw `i`, for the given instant. */
 static void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
                           struct smear_assembly *a)
@@ -154,41 +171,19 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->draw = (uint16_t)i;
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->extra_count = 0;
-    a->position = poses.position[0];
+    a->path = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
                        c->frame.light == SMEAR_LIGHT_LINEAR);
 
-    bool moves[3] = { false, pose_differs(&poses, 1), pose_differs(&poses, 2) };
-    project_pose(&a->now, c, &poses, 0, a->mesh);
-    if (!moves[1] && !moves[2])
+    bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
+    place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
+    if (!moves)
         return;
-
-    /* Another instant than now: a sum of poses, linear in clip space. */
-    bool shifted = instant->weight[0] != 1 << 24;
-    struct smear_projection sum[3];
-    const int16_t *position[3];
-    int32_t weight[3];
-    int count = 0;
-    if (shifted) {
-        for (int k = 0; k < 3; k++) {
-            if (instant->weight[k] == 0)
-                continue;
-            project_pose(&sum[count], c, &poses, k, a->mesh);
-            position[count] = poses.position[k];
-            weight[count++] = instant->weight[k];
-        }
-        smear_projection_weigh(sum, weight, count, &c->camera);
-        a->now = sum[0];
-        a->position = position[0];
-        for (int k = 1; k < count; k++) {
-            if (position[k] == a->position) {
-                smear_projection_add(&a->now, &sum[k]);
-            } else {
-                a->extra[a->extra_count] = sum[k];
-                a->extra_position[a->extra_count++] = position[k];
-            }
-        }
+    if (c->assembler.keep_paths) {
+        struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
+        a->path = true;
+        place(&a->key[0], c, &poses, a->mesh, &open);
+        place(&a->key[1], c, &poses, a->mesh, &close);
     }
     if (!c->assembler.keep_motion)
         return;
@@ -197,7 +192,7 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     project_pose(&a->pose[0], c, &poses, 1, a->mesh);
     a->pose_position[0] = poses.position[1];
     a->moves = 1;
-    if (c->frame.shutter_poses || shifted) {
+    if (c->frame.shutter_poses || instant->weight[0] != 1 << 24) {
         int later = c->frame.shutter_poses ? 2 : 0;
         project_pose(&a->pose[1], c, &poses, later, a->mesh);
         a->pose_position[1] = poses.position[later];
@@ -216,33 +211,36 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     for (uint32_t i = 0; i < c->draw_count; i++) {
         struct smear_assembly a;
         make_assembly(c, i, instant, &a);
-        if (!smear_assemble(&c->assembler, &a, drop))
+        if (!(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
 }
 
-/* Assembles as many tile rows from `first` on as find room; returns their end. `before` rows above are included, for
- * blended draws that come a row late. When even one row is too much, triangles are dropped and counted. */
-static int assemble_part(struct smear_context *c, int first, int before, const struct instant *instant)
+/* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
+ * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
+ * dropped and counted. */
+static int assemble_part(struct smear_context *c, int *top, int least, int first, const struct instant *instant)
 {
     int end = c->window.rows;
-    int top = max_i32(first - before, 0);
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        bool last = end - first <= 1;
-        if (assemble_rows(c, top, end, instant, last))
+        bool last = end - first <= 1 && *top == least;
+        if (assemble_rows(c, *top, end, instant, last))
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        end = first + (end - first) / 2;
+        if (end - first > 1)
+            end = first + (end - first) / 2;
+        else
+            ++*top;
         c->stats.triangles_split++;
     }
-    c->opaque = c->blend = SMEAR_NO_TRIANGLE;
-    for (int row = top; row < first; row++)
-        c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
-    charge(c, &c->stats.time_submit, start);
+    c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
+    for (int row = *top; row < first; row++)
+        c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+    stage_end(c, &c->stats.time_submit, start);
     return end;
 }
 
@@ -275,43 +273,6 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
     }
 }
 
-/* Pixel rows of a tile row. */
-static int32_t row_top(const struct smear_context *c, int row)
-{
-    return row * c->geometry.row_px;
-}
-
-static int32_t row_bottom(const struct smear_context *c, int row)
-{
-    return min_i32(row_top(c, row) + c->geometry.row_px, c->window.height);
-}
-
-/* Columns of a raster job: the frame's width in as many equal cuts as there are workers. */
-static void job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1)
-{
-    int32_t unit = max_i32(c->window.tile, 16), n = c->jobs.workers;
-    int32_t units = (c->window.width + unit - 1) / unit;
-    *x0 = min_i32(units * job / n * unit, c->window.width);
-    *x1 = min_i32(units * (job + 1) / n * unit, c->window.width);
-}
-
-static void window_target(const struct smear_context *c, int row, struct smear_raster_target *t)
-{
-    const struct smear_window *w = &c->window;
-    struct smear_plane_rows rows = { w->width, window_slot(w, row_top(c, row)), w->ring, 0 };
-    *t = (struct smear_raster_target){
-        .x0 = 0, .x1 = w->width, .y0 = row_top(c, row), .y1 = row_bottom(c, row),
-        .color = w->color, .color_rows = rows, .depth = w->depth, .window_rows = rows,
-        .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
-    };
-}
-
-struct row_job {
-    struct smear_context *c;
-    int row;
-    uint8_t *band;              /* finished rows */
-};
-
 static void raster_job(void *argument, int job, int worker)
 {
     const struct row_job *r = argument;
@@ -319,8 +280,8 @@ static void raster_job(void *argument, int job, int worker)
     struct smear_window *w = &c->window;
     struct smear_raster_target t;
     (void)worker;
-    window_target(c, r->row, &t);
-    job_columns(c, job, &t.x0, &t.x1);
+    smear_row_target(c, r->row, &t);
+    smear_job_columns(c, job, &t.x0, &t.x1);
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
@@ -338,8 +299,8 @@ static void blend_job(void *argument, int job, int worker)
     const struct row_job *r = argument;
     struct smear_raster_target t;
     (void)worker;
-    window_target(r->c, r->row, &t);
-    job_columns(r->c, job, &t.x0, &t.x1);
+    smear_row_target(r->c, r->row, &t);
+    smear_job_columns(r->c, job, &t.x0, &t.x1);
     if (t.x0 < t.x1)
         smear_raster_list(&r->c->raster, &t, r->c->blend);
 }
@@ -358,14 +319,14 @@ static void inspect_rows(struct smear_context *c, int row)
 static void draw_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
-    uint32_t start = now(c);
-    c->opaque = smear_geometry_advance(&c->geometry, c->opaque, row, false);
+    uint32_t start = stage_start(c);
+    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
     smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
     if (c->inspect != NULL)
         inspect_rows(c, row);
-    charge(c, &c->stats.time_raster, start);
+    stage_end(c, &c->stats.time_raster, start);
 }
 
 static void blend_row(struct smear_context *c, int row)
@@ -373,56 +334,8 @@ static void blend_row(struct smear_context *c, int row)
     if (!c->blends)
         return;
     struct row_job job = { .c = c, .row = row };
-    c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+    c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
     smear_jobs_run(&c->jobs, blend_job, &job, c->jobs.workers);
-}
-
-/* ------------------------------------------------------------------ bands */
-
-static uint8_t *band_buffer(struct smear_context *c)
-{
-    /* With two buffers, the one from two bands ago must have been sent. */
-    while (c->desc.bands == 2
-           && c->bands_handed - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
-        if (c->desc.idle != NULL)
-            c->desc.idle(c->desc.user);
-    uint8_t *band = c->band[c->desc.bands == 2 ? c->bands_handed & 1u : 0];
-    if (c->desc.format == SMEAR_L1_PAGES)
-        __builtin_memset(band, 0, c->band_bytes);
-    return band;
-}
-
-/* The CRC is over what goes to the display; of 32-bit pixels, over their bytes R, G, B. */
-static void add_crc(struct smear_context *c, const uint8_t *band, uint32_t size)
-{
-    if (c->desc.format != SMEAR_XRGB8888) {
-        c->stats.crc32 = smear_crc32(c->stats.crc32, band, size);
-        return;
-    }
-    const uint32_t *pixel = (const uint32_t *)(const void *)band;
-    for (uint32_t i = 0; i < size / 4; i++) {
-        const uint8_t rgb[3] = { (uint8_t)(pixel[i] >> 16), (uint8_t)(pixel[i] >> 8), (uint8_t)pixel[i] };
-        c->stats.crc32 = smear_crc32(c->stats.crc32, rgb, 3);
-    }
-}
-
-static int flush_band(struct smear_context *c, int row, uint8_t *band)
-{
-    smear_format format = (smear_format)c->desc.format;
-    int32_t y = row_top(c, row), height = row_bottom(c, row) - y;
-    smear_band b = {
-        .pixels = band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
-        .stride = smear_convert_stride(c->window.width, format),
-        .size = smear_convert_size(c->window.width, height, format)
-    };
-    if (c->desc.crc)
-        add_crc(c, band, b.size);
-    c->bands_handed++;
-    int result = c->desc.flush(c->desc.user, &b);
-    if (result >= 0)
-        return SMEAR_OK;
-    c->bands_handed--;          /* refused: nobody will report it as sent */
-    return result;
 }
 
 /* ------------------------------------------------------------------ finishing without a filter */
@@ -430,26 +343,20 @@ static int flush_band(struct smear_context *c, int row, uint8_t *band)
 static void convert_job(void *argument, int job, int worker)
 {
     const struct row_job *r = argument;
-    struct smear_context *c = r->c;
-    const struct smear_window *w = &c->window;
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
     int32_t x0, x1;
     (void)worker;
-    job_columns(c, job, &x0, &x1);
-    for (int32_t y = row_top(c, r->row); x0 < x1 && y < row_bottom(c, r->row); y++)
-        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
-                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
+    smear_job_columns(r->c, job, &x0, &x1);
+    smear_band_convert_window(r, x0, x1);
 }
 
 static int finish_sharp(struct smear_context *c, int row)
 {
     blend_row(c, row);
-    uint32_t start = now(c);
-    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    uint32_t start = stage_start(c);
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
-    charge(c, &c->stats.time_convert, start);
-    return flush_band(c, row, job.band);
+    stage_end(c, &c->stats.time_convert, start);
+    return smear_band_flush(c, row, job.band);
 }
 
 /* ------------------------------------------------------------------ finishing with a filter */
@@ -468,22 +375,9 @@ static void reduce_job(void *argument, int column, int worker)
 static void reduce_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
-    charge(c, &c->stats.time_reduce, start);
-}
-
-/* Blended draws over one finished tile. */
-static void blend_tile(struct smear_context *c, int row, int column, uint32_t *tile)
-{
-    const struct smear_window *w = &c->window;
-    struct smear_raster_target t;
-    window_target(c, row, &t);
-    t.x0 = column << w->tile_shift;
-    t.x1 = min_i32(t.x0 + w->tile, w->width);
-    t.color = tile;
-    t.color_rows = (struct smear_plane_rows){ w->tile, 0, w->tile, t.x0 };
-    smear_raster_list(&c->raster, &t, c->blend);
+    stage_end(c, &c->stats.time_reduce, start);
 }
 
 static struct smear_row_table row_table(const struct smear_context *c, int row)
@@ -497,20 +391,15 @@ static bool is_still(const struct smear_window *w, int row, int column)
 }
 
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
-static void convert_still(struct smear_context *c, const struct row_job *r, int column)
+static void convert_still(const struct row_job *r, int column)
 {
-    const struct smear_window *w = &c->window;
+    const struct smear_window *w = &r->c->window;
     if (column > 0 && is_still(w, r->row, column - 1))
         return;
     int end = column + 1;
     while (end < w->columns && is_still(w, r->row, end))
         end++;
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(end << w->tile_shift, w->width);
-    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++)
-        smear_convert_row(r->band, stride, w->color + window_slot(w, y) * w->width + x0, x1 - x0, x0, y,
-                          row_top(c, r->row), format, (smear_dither)c->desc.dither);
+    smear_band_convert_window(r, tile_left(r->c, column), tile_right(r->c, end - 1));
 }
 
 static void tile_job(void *argument, int column, int worker)
@@ -519,7 +408,7 @@ static void tile_job(void *argument, int column, int worker)
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
     if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
-        convert_still(c, r, column);
+        convert_still(r, column);
         return;
     }
     struct smear_row_table rows = row_table(c, r->row);
@@ -532,14 +421,8 @@ static void tile_job(void *argument, int column, int worker)
     else
         c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
     if (c->blend != SMEAR_NO_TRIANGLE)
-        blend_tile(c, r->row, column, tile);
-
-    smear_format format = (smear_format)c->desc.format;
-    uint32_t stride = smear_convert_stride(w->width, format);
-    int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    for (int32_t y = row_top(c, r->row); y < row_bottom(c, r->row); y++, tile += w->tile)
-        smear_convert_row(r->band, stride, tile, x1 - x0, x0, y, row_top(c, r->row), format,
-                          (smear_dither)c->desc.dither);
+        smear_band_blend_tile(r, column, tile);
+    smear_band_convert_tile(r, column, tile);
 }
 
 static void count_tiles(struct smear_context *c, int row)
@@ -572,13 +455,13 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
         c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, w->height - 1)) * w->width);
     if (c->blends)
-        c->blend = smear_geometry_advance(&c->geometry, c->blend, row, true);
+        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
-    uint32_t start = now(c);
-    struct row_job job = { .c = c, .row = row, .band = band_buffer(c) };
+    uint32_t start = stage_start(c);
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
-    charge(c, &c->stats.time_blur, start);
-    return flush_band(c, row, job.band);
+    stage_end(c, &c->stats.time_blur, start);
+    return smear_band_flush(c, row, job.band);
 }
 
 /* ------------------------------------------------------------------ methods */
@@ -586,7 +469,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 static int render_none(struct smear_context *c)
 {
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, 0, &sharp_instant);
+        int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = finish_sharp(c, row);
@@ -618,13 +501,28 @@ static int render_reconstruct(struct smear_context *c)
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     for (int row = 0; row < c->window.rows;) {
-        int end = assemble_part(c, row, c->blends ? 1 : 0, &middle);
+        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
             if (result != SMEAR_OK)
                 return result;
         }
+    }
+    return SMEAR_OK;
+}
+
+static int render_timed(struct smear_context *c)
+{
+    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    /* With smooth tiles the row above waits, and looks at the one above it. */
+    bool waits = c->chooser.has_window;
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        int top = waits ? max_i32(row - 2, 0) : row;
+        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, &middle);
+        int result = smear_timed_rows(c, top, row, end);
+        if (result != SMEAR_OK)
+            return result;
     }
     return SMEAR_OK;
 }
@@ -677,7 +575,7 @@ static int render_accumulate(struct smear_context *c)
     for (uint32_t k = 0; k < n; k++) {
         struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
         for (int row = 0; row < c->window.rows;) {
-            int end = assemble_part(c, row, 0, &instant);
+            int top = row, end = assemble_part(c, &top, row, row, &instant);
             for (; row < end; row++) {
                 draw_row(c, row);
                 blend_row(c, row);
@@ -714,6 +612,10 @@ static void prepare(struct smear_context *c)
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
+    c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
+                                         false };
+    bool textured = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -739,8 +641,11 @@ static void prepare(struct smear_context *c)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }
+    c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
+                         && (textured || c->frame.target >= SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)
@@ -760,13 +665,14 @@ static void sum_up(struct smear_context *c)
 
 int smear_frame_render(struct smear_context *c)
 {
-    uint32_t start = now(c);
+    uint32_t start = stage_start(c);
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
-               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c) : render_reconstruct(c);
+               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
+               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
-    charge(c, &c->stats.time_total, start);
+    stage_end(c, &c->stats.time_total, start);
     return result;
 }
 

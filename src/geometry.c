@@ -12,6 +12,8 @@ void smear_geometry_reset(struct smear_geometry *g, int first, int end)
     g->row_end = end;
     for (int row = first; row < end; row++)
         g->opaque_last[row] = g->blend_last[row] = SMEAR_NO_TRIANGLE;
+    for (int row = first; g->mover_last != NULL && row < end; row++)
+        g->mover_last[row] = SMEAR_NO_TRIANGLE;
 }
 
 struct smear_segment *smear_geometry_open(struct smear_geometry *g)
@@ -24,11 +26,14 @@ struct smear_segment *smear_geometry_open(struct smear_geometry *g)
 }
 
 /* True when the triangle covers a pixel centre at or below pixel row y. */
-static bool reaches(const struct smear_geometry *g, const struct smear_triangle *t, int32_t y)
+static bool reaches(const struct smear_geometry *g, uint32_t triangle, int32_t y)
 {
+    const struct smear_triangle *t = geometry_triangle(g, triangle);
     if (t->segment == SMEAR_POINT)
         return t->y >= y;
     const struct smear_segment *s = &g->segment[t->segment];
+    if (s->path)
+        return geometry_bounds(g, triangle)->y1 > y;
     int32_t end = y * 256 + 128;
     for (int i = 0; i < 3; i++)
         if (geometry_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
@@ -36,12 +41,11 @@ static bool reaches(const struct smear_geometry *g, const struct smear_triangle 
     return false;
 }
 
-uint32_t smear_geometry_advance(const struct smear_geometry *g, uint32_t head, int row, bool blend)
+uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row)
 {
-    uint32_t last = blend ? g->blend_last[row] : g->opaque_last[row];
     uint32_t fresh = SMEAR_NO_TRIANGLE;
-    if (last != SMEAR_NO_TRIANGLE) {        /* open the ring: from here on it is a list */
-        struct smear_triangle *t = geometry_triangle(g, last);
+    if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */
+        struct smear_triangle *t = geometry_triangle(g, last[row]);
         fresh = t->next;
         t->next = SMEAR_NO_TRIANGLE;
     }
@@ -51,7 +55,7 @@ uint32_t smear_geometry_advance(const struct smear_geometry *g, uint32_t head, i
     while (head != SMEAR_NO_TRIANGLE) {
         struct smear_triangle *t = geometry_triangle(g, head);
         uint32_t after = t->next;
-        if (reaches(g, t, y)) {
+        if (reaches(g, head, y)) {
             while (fresh < head) {          /* none is the largest number */
                 *link = fresh;
                 link = &geometry_triangle(g, fresh)->next;

@@ -34,6 +34,25 @@ struct smear_triangle {
 /* In place of a segment: opaque, without motion. */
 #define SMEAR_POINT 0xffffu
 
+/* What is seen of a triangle with a path during the exposure: the entry before its own. */
+struct smear_path_bounds {
+    int16_t x0, y0, x1, y1; /* pixels whose centres may be covered, in the frame */
+    uint16_t travel;        /* longest way of a vertex from open to close, 1/16 px, saturated */
+    uint16_t bend;          /* path_bend of a vertex, at most, 1/16 px, saturated */
+    uint16_t nearest;       /* depth code that is not exceeded */
+    uint8_t flags;          /* PATH_TEXTURED ... */
+    uint8_t piece;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the k-th of
+                             * PATH_PIECES parts of the exposure, and it is there only then */
+};
+
+enum {
+    PATH_TEXTURED = 1,
+    PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
+    PATH_PIECE = 4          /* there for a piece of the exposure only */
+};
+
+enum { PATH_PIECES = 16 };
+
 enum smear_shade_mode {
     SHADE_NONE,             /* texel alone */
     SHADE_FLAT,             /* triangle.color (times texel) */
@@ -68,7 +87,8 @@ struct smear_geometry {
     uint32_t triangle_count;        /* in use, from the top */
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
-    uint32_t *opaque_last, *blend_last;     /* per tile row: last triangle of the ring, or none */
+    /* Per tile row: last triangle of each ring, or none. Movers: opaque and cut out, with a path. */
+    uint32_t *opaque_last, *blend_last, *mover_last;
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
@@ -121,8 +141,23 @@ static inline struct smear_triangle *geometry_add(struct smear_geometry *g, uint
     return t;
 }
 
+/* The same for a triangle with a path. There must be room for two entries. */
+static inline struct smear_triangle *geometry_add_path(struct smear_geometry *g, uint32_t *last_of_row,
+                                                       const struct smear_path_bounds *bounds)
+{
+    void *entry = geometry_triangle(g, g->triangle_count++);
+    *(struct smear_path_bounds *)entry = *bounds;
+    return geometry_add(g, last_of_row);
+}
+
+static inline const struct smear_path_bounds *geometry_bounds(const struct smear_geometry *g, uint32_t triangle)
+{
+    return (const struct smear_path_bounds *)(void *)geometry_triangle(g, triangle - 1);
+}
+
 /* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission order.
- * `head` is the list of the row before (or none); returns the new head; lists end with SMEAR_NO_TRIANGLE. */
-uint32_t smear_geometry_advance(const struct smear_geometry *g, uint32_t head, int row, bool blend);
+ * `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the new head; lists
+ * end with SMEAR_NO_TRIANGLE. */
+uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row);
 
 #endif

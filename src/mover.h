@@ -25,6 +25,7 @@ struct smear_moving_tile {
     uint32_t *out;                      /* finished working pixels, rows `tile` apart */
     int32_t tile;                       /* edge, pixels */
     void *work;                         /* memory of the worker's own */
+    uint32_t work_bytes;                /* timemask: 0 is what it asks for */
 };
 
 static inline bool mover_is_in(const struct smear_mover *m, int32_t column)

@@ -40,6 +40,16 @@ static inline void path_at(int32_t out[3], const int32_t *record, const struct s
         out[i] = path_value(open[i], record[i], close[i], time);
 }
 
+/* Time within the part of the exposure for which a triangle's places hold (struct smear_path_bounds.piece); false at other
+ * times. */
+static inline bool path_piece_time(int32_t *time, int piece)
+{
+    if (piece == 0)
+        return true;
+    *time = *time * PATH_PIECES - (piece - 1) * SHUTTER_CLOSE;
+    return (uint32_t)*time < SHUTTER_CLOSE;
+}
+
 /* How far the middle lies off the chord, twice, in q8 px: |open + close - 2 middle|, the larger of x and y. */
 static inline int32_t path_bend(const int32_t *record, const struct smear_segment *s)
 {

@@ -518,7 +518,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             continue;
         if (slot >= t->window_rows.ring)
             slot -= t->window_rows.ring;
-        int32_t at = slot * t->window_rows.stride + x, end = at + (x1 - x);
+        int32_t at = slot * t->window_rows.stride + x - t->window_rows.x0, end = at + (x1 - x);
         do {
             uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
@@ -636,7 +636,7 @@ static inline void draw_point(const struct smear_raster_target *target, const st
     int32_t slot = target->window_rows.slot0 + y;
     if (slot >= target->window_rows.ring)
         slot -= target->window_rows.ring;
-    int32_t at = slot * target->window_rows.stride + x;
+    int32_t at = slot * target->window_rows.stride + x - target->window_rows.x0;
     if (t->depth <= target->depth[at])
         return;
     target->depth[at] = t->depth;

@@ -27,7 +27,7 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0 || (!d->sharp && d->band_rows != d->tile))
+    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((!d->sharp || d->timed) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -48,7 +48,7 @@ static bool resolve(smear_desc *d)
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
-    return max_u32(d->max_triangles * (SMEAR_TRIANGLE_BYTES / 4), least);
+    return max_u32(d->max_triangles * ((d->timed ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
 }
 
 _Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
@@ -83,7 +83,21 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
         w->around = arena_take(a, 3 * columns, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
+    }
+    if (!d->sharp || d->timed)
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
+    if (d->timed) {
+        c->assembler.path_limit = d->max_triangles;
+        for (int i = 0; i < (d->sharp ? 1 : ROWS_LISTED); i++) {
+            c->row_movers[i].mover = arena_take(a, d->max_triangles, sizeof *c->row_movers[i].mover);
+            c->row_movers[i].load = arena_take(a, columns, sizeof *c->row_movers[i].load);
+        }
+        size_t still = d->sharp ? 0 : 2 * (size_t)d->width * (size_t)d->tile;
+        c->still_color = arena_take(a, still, 4);
+        c->still_depth = arena_take(a, still, 2);
+        c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
+        c->work_bytes = (c->work_bytes + 7u) & ~7u;
+        c->work = arena_take(a, d->workers, c->work_bytes);
     }
     c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
@@ -105,6 +119,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
+    g->mover_last = d->timed ? arena_take(a, (size_t)w->rows, sizeof *g->mover_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
@@ -171,15 +186,19 @@ static bool is_camera(const smear_camera *c)
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
     if (f->method == SMEAR_DEFAULT_METHOD)
-        f->method = c->desc.sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT;
+        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT;
     if (f->samples == 0)
-        f->samples = 8;
+        f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
+    if (f->target == 0)
+        f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method > SMEAR_RECONSTRUCT || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method > SMEAR_AUTO || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
+        return false;
+    if (f->method >= SMEAR_SUBFRAMES && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }
@@ -196,7 +215,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f))
+    if (!resolve_frame(c, &f) || !smear_shutter_make(&c->shutter, f.shutter))
         return SMEAR_ERR_ARG;
     c->camera = *frame->camera;
     c->camera_moves = true;
@@ -217,6 +236,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     c->kept_camera = *frame->camera;
     c->has_kept_camera = true;
     f.camera = f.open = f.close = NULL;
+    f.shutter = NULL;
     c->frame = f;
     c->frame_number++;
     c->draw_count = 0;

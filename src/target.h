@@ -28,6 +28,13 @@ struct smear_raster_target {
     uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
 };
 
+/* Index of column 0 of the frame in row y of a plane. */
+static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t, int32_t y)
+{
+    int32_t slot = rows->slot0 + (y - t->y0);
+    return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
+}
+
 /* What stays the same for the frame. */
 struct smear_raster_draw {          /* one per draw, indexed by smear_segment.draw */
     struct smear_sampler sampler;

@@ -5,13 +5,15 @@
 
 #include "mover.h"
 
-/* Bytes of work memory per worker for tiles of this edge. */
+/* Bytes of work memory per worker: 7.6 kB, whatever the tile. Half or a quarter of it does, too, at the cost of more set-up:
+ * tell by smear_moving_tile.work_bytes. */
 size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {
     int32_t slots;              /* 8, 16 or 32 */
     int32_t bend;               /* q8 px: a chord may miss a path by this much; else the shutter is split */
-    int32_t tap;                /* q8 px of travel per texel taken along it */
+    int32_t edge;               /* what an edge may err where it turns: 2^-edge px of contrast squared, per px of its length */
+    int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
 };
 
 /* Opaque movers. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */

@@ -109,6 +109,16 @@ static inline void project(struct smear_screen *out, const struct smear_projecti
 void smear_project(struct smear_screen *out, const struct smear_projection *p,
                    const struct smear_homogeneous *in, const struct smear_viewport *viewport);
 
+/* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's borders. All that
+ * lies beyond one of them is not seen, also where it reaches in front of the near plane. */
+static inline int outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
+{
+    int64_t x = (int64_t)h->x * 2, y = (int64_t)h->y * 2;
+    int64_t right = (int64_t)h->w * viewport->width, bottom = (int64_t)h->w * viewport->height;
+    return (x < -right ? OUT_LEFT : 0) | (x > right ? OUT_RIGHT : 0) | (y < -bottom ? OUT_TOP : 0)
+         | (y > bottom ? OUT_BOTTOM : 0);
+}
+
 /* The sides a projected vertex lies beyond. */
 static inline int outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport)
 {

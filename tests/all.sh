@@ -73,19 +73,44 @@ else
     needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
 fi
 suite command-line sh tests/cli.sh build/smear
+suite view sh tests/view.sh build/smear
+suite build-demo-screen $make -s build/host/demo-screen
+suite view-display sh tests/view_display.sh build/host/demo-screen
+if needs tmux "tmux"; then
+    suite view-terminal sh tests/view_term.sh build/smear
+fi
+if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
+    suite build-x11-user $make -s build/host/view_x11_user
+    suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
+fi
 suite golden-host $make -s TARGET=host target-test
+suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
+if needs qemu-system-x86_64 "qemu-system-x86"; then
+    suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
+    suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
+        build/host/view_linux_init build/host/mkcpio
+fi
+suite build-sanitized $make -s SAN=1 all
+suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
     for target in cortex-m0plus cortex-m3 cortex-m4; do
         suite "target-$target" $make -s TARGET=$target target-test
+        suite "demo-$target" $make -s TARGET=$target demo-test
     done
+    suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
+        suite target-gba $make -s TARGET=gba target-test
+        suite demo-gba $make -s TARGET=gba demo-test
+    fi
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then
     suite target-s390x $make -s TARGET=s390x target-test
+    suite demo-s390x $make -s TARGET=s390x demo-test
 fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s fuzz-corpus

@@ -231,15 +231,40 @@ claim "written-out defaults" render "$plate" --size 320x240 --fps 30 --time 0 --
     --format rgb888 --dither ordered --threads 1 -o written.ppm
 claim "no options" render "$plate" -o nothing.ppm
 claim "are the same" same written.ppm nothing.ppm
-claim "--target" render $moving --target 2.5 -o target.ppm
-claim "does not change reconstruct" same target.ppm out.ppm
+claim "the target of balanced" render $moving --target 1.5 -o target.ppm
+claim "is the default" same target.ppm out.ppm
+turn="$plate $small --time 0.25 --clip spin"
+claim "what auto aims at" render $turn --method accumulate --samples 256 -o truth.ppm
+for quality in draft balanced fine; do
+    claim "--quality $quality" render $turn --quality $quality -o $quality.ppm
+    run compare truth.ppm $quality.ppm
+    eval "rmse_$quality=\$(value_of rmse)"
+done
+claim "fine is better than draft" is_true "$rmse_fine < $rmse_draft && $rmse_balanced <= $rmse_draft"
+claim "the target of fine" render $turn --target 0.5 -o target.ppm
+claim "is fine" same target.ppm fine.ppm
+claim "--target" render $moving --method reconstruct --target 0.5 -o target.ppm
+claim "without a target" render $moving --method reconstruct -o reconstruct.ppm
+claim "does not change reconstruct" same target.ppm reconstruct.ppm
 
 claim "--method none" render $moving --method none -o none.ppm
 claim "--shutter 0" render $moving --shutter 0 -o shut.ppm
 claim "is none" same none.ppm shut.ppm
+claim "--method auto" render $moving --method auto -o auto.ppm
+claim "is the default" same auto.ppm out.ppm
 claim "--method reconstruct" render $moving --method reconstruct -o reconstruct.ppm
-claim "is what auto does" same reconstruct.ppm out.ppm
 claim "it blurs" differ none.ppm reconstruct.ppm
+claim "--method subframes" render $moving --method subframes -o subframes.ppm
+claim "32 instants at most" render $moving --method subframes --samples 32 -o instants.ppm
+claim "are the default" same subframes.ppm instants.ppm
+claim "2 instants" render $moving --method subframes --samples 2 -o instants.ppm
+claim "are fewer" differ subframes.ppm instants.ppm
+claim "--method timemask" render $moving --method timemask -o timemask.ppm
+claim "32 slots" render $moving --method timemask --samples 32 -o slots.ppm
+claim "are the default" same timemask.ppm slots.ppm
+claim "32 slots of a turn" render $turn --method timemask -o turn32.ppm
+claim "8 slots" render $turn --method timemask --samples 8 -o turn8.ppm
+claim "are fewer" differ turn32.ppm turn8.ppm
 claim "--method accumulate" render $moving --method accumulate -o accumulate.ppm
 claim "it blurs, too" differ none.ppm accumulate.ppm
 claim "8 instants" render $moving --method accumulate --samples 8 -o eight.ppm
@@ -250,6 +275,15 @@ claim "64 instants" render $moving --method accumulate --samples 64 -o many.ppm
 claim "exact instants" render $moving --method accumulate --samples 64 --exact -o exact.ppm
 run compare many.ppm exact.ppm
 claim "of linear motion are as the library moves it" is_true "$(value_of rmse) < 1.5"
+for method in auto subframes timemask; do
+    claim "$method of linear motion" render $moving --method $method -o timed.ppm
+    run compare timed.ppm exact.ppm
+    claim "is near the truth" is_true "$(value_of rmse) < 1.5"
+    claim "$method with a shutter of 0" render $moving --method $method --shutter 0 -o timed.ppm
+    claim "is none" same timed.ppm none.ppm
+    claim "$method with a cut" render "$plate" $small --frames 2-2 --cut 2 --method $method -o timed.ppm
+    claim "is none" same timed.ppm none.ppm
+done
 claim "exact instants of a turn" render "$plate" $small --clip spin --time 0.5 --method accumulate \
     --samples 32 --exact -o turn.ppm
 claim "differ from the sharp frame" differ turn.ppm none.ppm
@@ -282,9 +316,9 @@ claim "the poses of the shutter" render $turning --poses shutter -o poses.ppm
 claim "are different things for what turns" differ previous.ppm poses.ppm
 
 for flag in fence corner box direction uniform fence,corner,box,direction,uniform; do
-    claim "--reconstruct $flag" render $moving --reconstruct $flag -o "flag-$flag.ppm"
+    claim "--reconstruct $flag" render $moving --method reconstruct --reconstruct $flag -o "flag-$flag.ppm"
 done
-claim "a box is no tent" differ flag-box.ppm out.ppm
+claim "a box is no tent" differ flag-box.ppm reconstruct.ppm
 
 # ------------------------------------------------------------------ what moves, what is seen
 
@@ -411,7 +445,7 @@ claim "statistics" render $moving --stats s.json -o out2.ppm
 claim "leave the picture alone" same out2.ppm out.ppm
 for key in frames frame time_s us submit raster reduce class blur merge convert total triangles in \
     drawn dropped split pixels samples tiles still uniform complex methods none accumulate \
-    reconstruct arena_bytes crc32; do
+    reconstruct smooth subframes timemask arena_bytes crc32; do
     claim "statistics have $key" grep -c "\"$key\":" s.json
 done
 claim "pixels" equals "$(stat_of s.json pixels)" 1536
@@ -468,7 +502,7 @@ claim "is all that is used" is_true "$(stat_of least.json arena_bytes) <= ${need
 run render $race --arena "$((${need:-1} - 1))" -o no.ppm
 claim "one byte less is too little" equals "$rc" 1
 parts=0
-for more in 40000 80000 120000 160000 200000 240000; do
+for more in 40000 120000 240000 280000 320000 360000; do
     render $race --arena "$((${need:-0} + more))" -o tight.ppm --stats tight.json
     [ "$(stat_of tight.json split)" -gt 0 ] && [ "$(stat_of tight.json dropped)" -eq 0 ] || continue
     parts=$((parts + 1))
@@ -477,14 +511,19 @@ done
 claim "in parts" is_true "$parts > 0"
 
 for tile in 8 16 32 64; do
-    claim "--tile $tile" render $moving --tile $tile --stats tile.json
+    claim "--tile $tile" render $moving --tile $tile --stats tile.json -o tile.ppm
+    claim "does not change what blurs in closed form" same tile.ppm out.ppm
 done
-claim "one tile of 64" equals "$(stat_of tile.json reconstruct)" 1
+for method in reconstruct subframes timemask; do
+    claim "--method $method" render $moving --tile 64 --method $method --stats tile.json
+    claim "one tile of 64" equals "$(stat_of tile.json $method)" 1
+done
+claim "no other method" equals "$(stat_of tile.json subframes)" 0
 claim "a reach in pixels" render $moving --reach 4 -o reach4.ppm
 claim "a reach of a share" render $moving --reach 12.5% -o reach12.ppm
 claim "of the height" same reach4.ppm reach12.ppm
-claim "the default reach is at most a tile" render "$plate" --size 64x240 --tile 8 -o tile8.ppm
-claim "as large as it" render "$plate" --size 64x240 --tile 8 --reach 8 -o tile88.ppm
+claim "the default reach is at most a tile" render "$plate" --size 64x240 --method reconstruct --tile 8 -o tile8.ppm
+claim "as large as it" render "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8 -o tile88.ppm
 claim "so" same tile8.ppm tile88.ppm
 claim "1x1" render "$plate" --size 1x1 -o tiny.ppm
 claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
@@ -535,13 +574,18 @@ for line in '^nodes: 5$' '1 "plate" under 0, mesh 0' '^clips: 2$' '0 "slide" 1 s
     '^cameras: 2$' '0 "front" perspective, yfov 90, near 0.5, far 20' '1 "flat" orthographic' \
     '^materials: ' '"green" opaque' '^textures: 0$' '^meshes: 2$' '2 triangles, 4 vertices' \
     '^skipped primitives: 0$' '^bounds at 0 s: -5 -1 -2 to 3 2 0$' '^triangles: 4$' \
-    '^memory at 320x240: [0-9]* bytes' '^memory at 240x240: [0-9]* bytes' '  window 112640, '; do
+    '^memory at 320x240 (' '^memory at 240x240 (' '^  auto  *[0-9]* bytes: window 112640, ' \
+    '^  auto, no window  *[0-9]* bytes: window 30720, ' '^  reconstruct  *[0-9]* bytes: window 112640, ' \
+    '^  none  *[0-9]* bytes: window 30720, '; do
     claim "has $line" out_has "$line"
 done
-need=$(sed -n 's/^memory at 240x240: \([0-9]*\) bytes.*/\1/p' "$base/out")
-claim "memory as told" render "$plate" --size 240x240 --format rgb565 --arena "${need:-1}" \
-    --stats need.json
-claim "draws in one part" equals "$(stat_of need.json split)" 0
+cp "$base/out" info.txt
+for method in auto reconstruct; do
+    need=$(sed -n "/^memory at 240x240/,\$s/^  $method  *\([0-9]*\) bytes.*/\1/p" info.txt)
+    claim "memory as told for $method" render "$plate" --size 240x240 --format rgb565 --method $method \
+        --arena "${need:-1}" --stats need.json
+    claim "draws in one part" equals "$(stat_of need.json split)" 0
+done
 run info "$base/in/points.gltf"
 claim "info counts what is skipped" out_has '^skipped primitives: 1$'
 claim "info of a textured file" works info "$base/in/card.obj"
@@ -556,7 +600,7 @@ usage b info a b
 input missing.glb info missing.glb
 input builtin:nosuch info builtin:nosuch
 
-for command in render compare info help; do
+for command in render convert compare info bench chart help; do
     claim "help $command" works help $command
     claim "names it" out_has "smear $command"
     claim "$command --help" works $command --help
@@ -571,19 +615,85 @@ for option in size fps time frames clip loop camera eye look fov filter clear sh
     dither arena threads repeat depth velocity stats; do
     claim "help knows --$option" out_has "--$option"
 done
+works help convert >/dev/null
+for option in name clip keep scale fit up texture texture-size colors filter normals influences \
+    clip-error rows fov distance max-triangles max-flash max-ram; do
+    claim "help convert knows --$option" out_has "--$option"
+done
 usage nosuch help nosuch
-usage view help view
-claim "says that it is not built" err_has "not built yet"
 usage compare help render compare
+
+# ------------------------------------------------------------------ convert
+
+claim "a header" works convert "$plate" -o plate.h
+for line in '^triangles: 4$' '^vertices: 8 of 8$' '^clips: 2$' '  0 "slide" 1 s, 1 channels, 2 keys of 2' \
+    '^flash: [0-9]* bytes (meshes ' '^ram: [0-9]* bytes an actor with 2 poses' \
+    '^largest position error: 0\.0[0-9]* px, at rest 0\.0' '^wrote plate.h$'; do
+    claim "has $line" out_has "$line"
+done
+claim "its names are the file's" grep -q '^static const smear_model plate_model = {$' plate.h
+claim "a name of one's own" works convert "$plate" --name my_plate -o other.h
+claim "is in the header" grep -q '^#define MY_PLATE_CLIP_SLIDE 0$' other.h
+claim "a blob" works convert "$plate" -o plate.smr
+claim "begins with SMR1" starts_with plate.smr "123 115 122 061"
+claim "the same again" works convert "$plate" -o again.smr
+claim "is the same" same plate.smr again.smr
+claim "one clip" works convert "$plate" --clip spin -o spin.smr
+claim "is another file" differ plate.smr spin.smr
+claim "knows one clip" out_has '^clips: 1$'
+claim "no clips" works convert "$plate" --clip none -o still.h
+claim "knows none" out_has '^clips: 0$'
+claim "nothing moves" out_has 'nodes: 0$'
+claim "kept nodes" works convert "$plate" --clip none --keep wall --keep 1 -o kept.h
+claim "are nodes" out_has 'nodes: 2$'
+claim "a texture" works convert "$base/in/card.obj" --texture-size 8 -o card.h
+claim "is shrunk" out_has '0 8x8 from 16x16, palette8, '
+claim "rgb565" works convert "$base/in/card.obj" --texture rgb565 --filter bilinear -o card.h
+claim "is said" out_has '0 16x16 from 16x16, rgb565, rms error '
+claim "baked" works convert "$base/in/card.obj" --texture baked -o card.h
+claim "has no texture" out_has '^textures: 0$'
+claim "has colours" grep -q card_face_color_0 card.h
+claim "everything at once" works convert "$plate" --scale 0.5 --up z --normals flat --influences 1 --colors 16 \
+    --clip-error 1 --rows 64 --fov 30 --distance 9 --max-triangles 4 --max-flash 99999 --max-ram 9999 -o all.h
+claim "says what a pixel is" out_has '(64 rows, 30 degrees, at 9 units)$'
+claim "to a size" works convert "$plate" --fit 3 -o fit.h
+input "$plate" convert "$plate" --max-triangles 3 -o no.h
+claim "says how many there are" err_has 'has 4 triangles, more than 3 (--max-triangles)'
+input "$plate" convert "$plate" --max-flash 100 -o no.h
+claim "says what takes it" err_has 'bytes of flash (meshes [0-9]*, textures 0, animation [0-9]*), more than 100'
+input "$plate" convert "$plate" --max-ram 100 -o no.h
+claim "says how much" err_has 'bytes of RAM with 2 poses, more than 100'
+input "$plate" convert "$plate" --scale 1e4 -o no.h
+claim "says that it is too large" err_has 'reaches .* units, more than 30000: use --scale or --fit'
+input missing.glb convert missing.glb -o no.h
+input nowhere/x.h convert "$plate" -o nowhere/x.h
+usage convert convert
+usage convert convert "$plate"
+usage -o convert "$plate" -o out.c
+usage two convert one two -o x.h
+usage --frob convert "$plate" --frob -o x.h
+usage --clip convert "$plate" --clip nosuch -o x.h
+usage --clip convert "$plate" --clip spin --clip 1 -o x.h
+usage --keep convert "$plate" --keep nosuch -o x.h
+usage --name convert "$plate" --name 3d -o x.h
+usage --name convert "$plate" --name Fox -o x.h
+for wrong in "--scale 0" "--scale -1" "--scale nan" "--fit 0" "--up x" "--texture png" "--texture-size 0" \
+    "--texture-size 5000" "--colors 1" "--colors 257" "--filter cubic" "--normals smooth" "--influences 5" \
+    "--influences 0" "--clip-error 0" "--rows 0" "--fov 180" "--distance 0" "--max-triangles 0" "--max-flash x"; do
+    usage "${wrong% *}" convert "$plate" $wrong -o x.h
+done
 
 # ------------------------------------------------------------------ bad usage
 
 usage "no command"
 usage frobnicate frobnicate
-for command in view convert bench chart; do
-    usage $command $command
-    claim "says that it is not built" err_has "not built yet"
-done
+usage --frob chart --frob
+usage nosuch chart --scenes nosuch
+usage nosuch chart --methods nosuch
+usage --jobs chart --jobs
+usage 0 chart --jobs 0
+input nosuch.csv chart --from nosuch.csv
+usage nosuch bench nosuch
 usage render render
 usage two render one two
 usage --frob render "$plate" --frob
@@ -652,7 +762,7 @@ for option in --exposure --poses --method --quality --light --filter --format --
 done
 usage --reconstruct render "$plate" --reconstruct fence,
 usage --reconstruct render "$plate" --reconstruct fence,frob
-for method in object camera pingpong half layered subframes timemask; do
+for method in object camera pingpong half layered; do
     usage --method render "$plate" --method $method
     claim "says that it is not built" err_has "not built yet"
 done
@@ -669,6 +779,7 @@ usage --exact render "$plate" --exact
 usage --exact render "$plate" --exact --method none
 usage --motion render "$plate" --exact --method accumulate --motion plate=none
 usage --reconstruct render "$plate" --method none --reconstruct box
+usage --reconstruct render "$plate" --reconstruct box
 usage --target render "$plate" --quality fine --target 1
 usage --eye render "$plate" --eye 1,2,3
 usage --look render "$plate" --look 1,2,3

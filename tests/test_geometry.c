@@ -81,8 +81,8 @@ static bool check_frame(int first, int end)
 {
     uint32_t opaque = SMEAR_NO_TRIANGLE, blend = SMEAR_NO_TRIANGLE;
     for (int row = first; row < end; row++) {
-        opaque = smear_geometry_advance(&geometry, opaque, row, false);
-        blend = smear_geometry_advance(&geometry, blend, row, true);
+        opaque = smear_geometry_advance(&geometry, geometry.opaque_last, opaque, row);
+        blend = smear_geometry_advance(&geometry, geometry.blend_last, blend, row);
         if (!check_list(opaque, row, false) || !check_list(blend, row, true))
             return false;
     }

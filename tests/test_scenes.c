@@ -82,7 +82,8 @@ static void test_every_scene_of_the_catalogue_can_be_posed_at_any_time(void)
         if (!open_scene(&s, scene_catalog[i].name))
             continue;
         CHECK(strcmp(s.scene.name, scene_catalog[i].name) == 0);
-        CHECK(s.scene.width >= 240 && s.scene.height >= 240 && s.scene.fps == 30);
+        int least = is_in(s.scene.name, "fail/") ? 16 : 240;
+        CHECK(s.scene.width >= least && s.scene.height >= least && s.scene.fps == 30);
         int draws = 0;
         for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
             CHECK(scene_pose(&s.scene, times[k], &s.now, &s.f));

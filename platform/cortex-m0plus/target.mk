@@ -9,3 +9,5 @@ include platform/cortexm/cortexm.mk
 
 SMALL_LAYOUTS    := lm3s6965evb
 RUN_lm3s6965evb  := platform/cortexm/run.sh -M lm3s6965evb -cpu cortex-m0
+
+DEMO_LOOPS := oled:6 gba:6 pico:12

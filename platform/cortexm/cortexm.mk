@@ -20,10 +20,11 @@ LDFLAGS += $(CORE) -nostdlib -Wl,--gc-sections -Lplatform/cortexm
 LDLIBS  += -lgcc
 
 PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/semihost.c \
-                platform/cortexm/platform.c platform/cortexm/memory.c
+                platform/cortexm/platform.c platform/common/memory.c
 
 RUN       := platform/cortexm/run.sh $(BOARD)
 RUN_BENCH := platform/cortexm/run.sh $(BENCH_BOARD) -icount shift=7
 
+SCRIPTS       := $(wildcard platform/cortexm/*.ld)
 TEST_LDFLAGS  := -T $(LAYOUT)
 BENCH_LDFLAGS := -T $(BENCH_LAYOUT)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* startup.c - from reset to main on any Cortex-M, without a C library. */
+#include "interrupt.h"
 #include "semihost.h"
 #include "stack.h"
 
@@ -67,9 +68,20 @@ union vector {
     void (*handler)(void);
 };
 
-/* The first sixteen are the architecture's; no interrupt of a device is used. */
+/* An interrupt without a handler is a fault. */
+#define WEAK_FAULT __attribute__((weak, alias("fault_handler")))
+WEAK_FAULT void interrupt_0(void);
+WEAK_FAULT void interrupt_1(void);
+WEAK_FAULT void interrupt_2(void);
+WEAK_FAULT void interrupt_3(void);
+WEAK_FAULT void interrupt_4(void);
+WEAK_FAULT void interrupt_5(void);
+WEAK_FAULT void interrupt_6(void);
+WEAK_FAULT void interrupt_7(void);
+
+/* The first sixteen are the architecture's. */
 __attribute__((section(".vectors"), used))
-static const union vector vectors[16] = {
+static const union vector vectors[16 + INTERRUPTS] = {
     { .stack = link_stack_top },
     { .handler = reset_handler },
     { .handler = fault_handler },       /* NMI */
@@ -81,5 +93,8 @@ static const union vector vectors[16] = {
     { .handler = fault_handler },       /* SVCall */
     { 0 }, { 0 },
     { .handler = fault_handler },       /* PendSV */
-    { .handler = fault_handler }        /* SysTick */
+    { .handler = fault_handler },       /* SysTick */
+    { .handler = interrupt_0 }, { .handler = interrupt_1 }, { .handler = interrupt_2 },
+    { .handler = interrupt_3 }, { .handler = interrupt_4 }, { .handler = interrupt_5 },
+    { .handler = interrupt_6 }, { .handler = interrupt_7 }
 };

@@ -2,10 +2,12 @@
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
  *     bench [peers] [accuracy] [methods] [threads] [memory] [targets FILE...]
+ *     bench chart [options]
  *
  * Without arguments, the first five. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
+#include "chart.h"
 #include "count.h"
 #include "groups.h"
 #include "sheet.h"
@@ -21,6 +23,8 @@ bool group_take(const char *group, int index, struct take *out)
         return peers_take(index, out);
     if (strcmp(group, "methods") == 0)
         return methods_take(index, out);
+    if (strcmp(group, "chart") == 0)
+        return chart_take(index, out);
     return strcmp(group, "threads") == 0 && threads_take(index, out);
 }
 
@@ -35,10 +39,9 @@ static const struct report reports[] = {
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 
-static int usage(void)
+static int usage(const char *what)
 {
-    fprintf(stderr, "usage: bench [--strict] [peers] [accuracy] [methods] [threads] "
-                    "[memory] [targets FILE...]\n");
+    fprintf(stderr, "smear: %s: no report of bench (smear help bench)\n", what);
     return 2;
 }
 
@@ -59,19 +62,14 @@ static bool make_folder(const char *path, struct failure *f)
 static int finish(bool ok, const char *what, const struct failure *f)
 {
     if (!ok)
-        fprintf(stderr, "bench: %s: %s\n", what, f->text);
+        fprintf(stderr, "smear: %s: %s\n", what, f->text);
     return ok ? 0 : 1;
 }
 
 static int serve(char **argument)
 {
     struct failure f = { "" };
-    char *end[2];
-    long first = strtol(argument[1], &end[0], 10), frames = strtol(argument[2], &end[1], 10);
-    if (*end[0] != '\0' || *end[1] != '\0' || first < 0 || first > 1 << 20 || frames < 1
-        || frames > COUNT_MAX_FRAMES)
-        return usage();
-    return finish(count_serve(argument[0], (int)first, (int)frames, &f), argument[0], &f);
+    return finish(count_serve(argument[0], argument[1], &f), argument[0], &f);
 }
 
 int main(int argc, char **argv)
@@ -81,16 +79,18 @@ int main(int argc, char **argv)
                            .counter = { .program = argv[0], .folder = "build/bench" } };
     bool strict = false, ok = true;
     int asked = 0;
-    if (argc == 5 && strcmp(argv[1], "--draw") == 0)
+    if (argc == 4 && strcmp(argv[1], "--draw") == 0)
         return serve(argv + 2);
+    if (argc >= 2 && strcmp(argv[1], "chart") == 0)
+        return chart_command(argv[0], argc - 2, argv + 2);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "targets") == 0) {
             if (i + 1 == argc)
-                return usage();
+                return usage("targets, and no file");
             break;
         }
         if (strcmp(argv[i], "--strict") != 0 && find_report(argv[i]) == NULL)
-            return usage();
+            return usage(argv[i]);
     }
     if (!make_folder("build", &f) || !make_folder(sheet.folder, &f))
         return finish(false, sheet.folder, &f);

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -79,19 +80,32 @@ static bool read_dumps(const char *base, int frames, uint64_t *instructions, str
     return ok;
 }
 
-bool count_takes(const struct counter *counter, const char *group, int first, int frames,
-                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+/* The numbers with commas; malloc'ed. */
+static char *list_text(const int *index, int count)
 {
-    char base[PATH_LIMIT], log[PATH_LIMIT], out[PATH_LIMIT + 64], from[16], many[16], name[32];
+    size_t room = (size_t)count * 12 + 1, at = 0;
+    char *text = malloc(room);
+    if (text != NULL)
+        text[0] = '\0';
+    for (int i = 0; i < count && text != NULL; i++)
+        at += (size_t)snprintf(text + at, room - at, i > 0 ? ",%d" : "%d", index[i]);
+    return text;
+}
+
+bool count_list(const struct counter *counter, const char *group, const int *index, int frames,
+                const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+{
+    char base[PATH_LIMIT], log[PATH_LIMIT], out[PATH_LIMIT + 64], name[64];
     char toggle[COUNT_MAX_TOGGLES][64];
     const char *argument[ARGUMENT_LIMIT];
     int n = 0;
-    snprintf(name, sizeof name, "count.%ld", (long)getpid());
-    if (!path_in(base, counter, name) || !path_in(log, counter, "valgrind.log"))
+    snprintf(name, sizeof name, "count.%ld.%d", (long)getpid(), index[0]);
+    if (!path_in(base, counter, name))
+        return fail(f, "the folder's name is too long");
+    snprintf(name, sizeof name, "valgrind.%d.log", index[0]);
+    if (!path_in(log, counter, name))
         return fail(f, "the folder's name is too long");
     snprintf(out, sizeof out, "--callgrind-out-file=%s", base);
-    snprintf(from, sizeof from, "%d", first);
-    snprintf(many, sizeof many, "%d", frames);
     argument[n++] = "valgrind";
     argument[n++] = "--tool=callgrind";
     argument[n++] = "--dump-after=bench_frame";
@@ -103,18 +117,33 @@ bool count_takes(const struct counter *counter, const char *group, int first, in
     argument[n++] = counter->program;
     argument[n++] = "--draw";
     argument[n++] = group;
-    argument[n++] = from;
-    argument[n++] = many;
+    char *list = list_text(index, frames);
+    if (list == NULL)
+        return fail(f, "out of memory");
+    argument[n++] = list;
     argument[n] = NULL;
     /* execvp takes pointers to char for history's sake and changes nothing. */
     char *plain[ARGUMENT_LIMIT];
     memcpy(plain, argument, sizeof plain);
     int status = run(plain, log);
+    free(list);
     if (status == NOT_RUN)
         return fail(f, "valgrind is not there");
     if (status != 0)
         return fail(f, "callgrind failed with status %d (see %s)", status, log);
+    remove(log);
     return read_dumps(base, frames, instructions, f);
+}
+
+bool count_takes(const struct counter *counter, const char *group, int first, int frames,
+                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+{
+    int index[COUNT_MAX_FRAMES];
+    if (frames > COUNT_MAX_FRAMES)
+        return fail(f, "too many takes at once (%d)", frames);
+    for (int i = 0; i < frames; i++)
+        index[i] = first + i;
+    return count_list(counter, group, index, frames, toggles, instructions, f);
 }
 
 /* ------------------------------------------------------------------ the other side */
@@ -126,21 +155,26 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->windowed == b->windowed && a->accumulate == b->accumulate
         && a->band_rows == b->band_rows && a->format == b->format && a->method == b->method
         && a->samples == b->samples && a->reconstruct == b->reconstruct
+        && a->timed == b->timed && a->target == b->target
         && a->shutter_poses == b->shutter_poses && a->workers == b->workers
+        && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
         && a->change == b->change;
 }
 
-bool count_serve(const char *group, int first, int frames, struct failure *f)
+bool count_serve(const char *group, const char *list, struct failure *f)
 {
     struct rig rig;
     struct take last = { 0 };
     bool is_open = false, ok = true;
-    for (int i = 0; i < frames && ok; i++) {
+    for (const char *at = list; ok && *at != '\0'; at += *at == ',') {
         struct take take;
-        if (!group_take(group, first + i, &take)) {
-            ok = fail(f, "no such take (%s %d)", group, first + i);
+        char *end;
+        long index = strtol(at, &end, 10);
+        if (end == at || index < 0 || index > INT_MAX || !group_take(group, (int)index, &take)) {
+            ok = fail(f, "no such take (%s %s)", group, at);
             break;
         }
+        at = end;
         if (is_open && same_rig(&take, &last)) {
             ok = rig_seek(&rig, take.frame, f);
         } else {

@@ -26,11 +26,16 @@ struct count_toggles {
 /* In and below bench_frame, on the thread that calls it. */
 extern const struct count_toggles count_frame;
 
-/* Draws `frames` takes of a group, from the first on, and counts each. */
+/* Draws the takes of a group that are listed (at most COUNT_MAX_FRAMES) and counts each. May run
+ * on several threads, as long as no two lists begin with the same take. */
+bool count_list(const struct counter *counter, const char *group, const int *index, int frames,
+                const struct count_toggles *toggles, uint64_t *instructions, struct failure *f);
+
+/* The same for `frames` takes from the first on. */
 bool count_takes(const struct counter *counter, const char *group, int first, int frames,
                  const struct count_toggles *toggles, uint64_t *instructions, struct failure *f);
 
-/* The other side: what this program does when it is run by count_takes. */
-bool count_serve(const char *group, int first, int frames, struct failure *f);
+/* The other side: what this program does when it is run by count_list; numbers with commas. */
+bool count_serve(const char *group, const char *list, struct failure *f);
 
 #endif

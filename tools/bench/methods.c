@@ -7,28 +7,13 @@
  * in codes against 256 exact instants. "object" is the geometric mean over the scenes in which
  * things move before a still camera, "camera" over those in which the camera moves. */
 #include "groups.h"
+#include "kinds.h"
 #include "sheet.h"
 #include "take.h"
 #include "truth.h"
 
 #include <inttypes.h>
 #include <string.h>
-
-enum kind { OBJECT, CAMERA, STILL, KINDS };
-
-static const struct {
-    const char *name;
-    enum kind kind;
-} scenes[] = {
-    { "suite/translate", OBJECT }, { "suite/propeller", OBJECT }, { "suite/cross", OBJECT },
-    { "suite/fence_obj", OBJECT }, { "suite/enter", OBJECT },     { "suite/near", OBJECT },
-    { "suite/long", OBJECT },      { "suite/skin", OBJECT },      { "suite/swarm", OBJECT },
-    { "suite/teleport", OBJECT },  { "suite/morph", OBJECT },     { "suite/cubic", OBJECT },
-    { "suite/pan", CAMERA },       { "suite/dolly", CAMERA },     { "suite/roll", CAMERA },
-    { "suite/fence_fg", CAMERA },  { "suite/textured", CAMERA },  { "suite/arena", CAMERA },
-    { "suite/subpixel", CAMERA },  { "suite/still", STILL },
-};
-enum { SCENES = sizeof scenes / sizeof *scenes };
 
 #define ALL_BUT_DIRECTION (SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM)
 
@@ -59,7 +44,8 @@ static const struct setting {
 };
 enum { SETTINGS = sizeof settings / sizeof *settings };
 
-static const double bar[KINDS] = { 6.2, 8.7, 0.0 };     /* of reconstruct 8 with its best options */
+/* Of reconstruct 8 with its best options. */
+static const double bar[GROUPS] = { 6.2, 8.7, 0.0 };
 
 struct measured {
     double instructions, rmse;
@@ -69,10 +55,10 @@ bool methods_take(int index, struct take *out)
 {
     int scene = index / SETTINGS;
     const struct setting *s = &settings[index % SETTINGS];
-    if (scene >= SCENES)
+    if (scene >= KINDS)
         return false;
     *out = (struct take){
-        .scene = scenes[scene].name, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
+        .scene = kinds[scene].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
         .accumulate = s->method == SMEAR_ACCUMULATE, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .shutter_poses = true
@@ -86,7 +72,7 @@ static bool measure_errors(int scene, const char *folder, struct measured out[SE
                            struct failure *f)
 {
     struct float_image truth;
-    bool ok = truth_of(scenes[scene].name, folder, &truth, f);
+    bool ok = truth_reference(kinds[scene].scene, folder, &truth, f);
     if (!ok)
         return false;
     for (int i = 0; i < SETTINGS && ok; i++) {
@@ -125,56 +111,57 @@ static bool measure_scene(const struct sheet *sheet, int scene, struct measured 
 
 /* Over the scenes of a kind: cost against `none`, or error. A perfect picture counts as an error of
  * 0.01, so that means stay finite. */
-static double mean_cost(struct measured all[SCENES][SETTINGS], int setting, enum kind kind)
+static double mean_cost(struct measured all[KINDS][SETTINGS], int setting, enum kind_group group)
 {
-    double ratio[SCENES];
+    double ratio[KINDS];
     int n = 0;
-    for (int s = 0; s < SCENES; s++)
-        if (scenes[s].kind == kind)
+    for (int s = 0; s < KINDS; s++)
+        if (kinds[s].group == group)
             ratio[n++] = all[s][setting].instructions / all[s][0].instructions;
     return geometric_mean(ratio, n);
 }
 
-static double mean_error(struct measured all[SCENES][SETTINGS], int setting, enum kind kind)
+static double mean_error(struct measured all[KINDS][SETTINGS], int setting, enum kind_group group)
 {
-    double error[SCENES];
+    double error[KINDS];
     int n = 0;
-    for (int s = 0; s < SCENES; s++)
-        if (scenes[s].kind == kind)
+    for (int s = 0; s < KINDS; s++)
+        if (kinds[s].group == group)
             error[n++] = all[s][setting].rmse > 0.01 ? all[s][setting].rmse : 0.01;
     return geometric_mean(error, n);
 }
 
 /* The options with the least error over a kind. */
-static int best_options(struct measured all[SCENES][SETTINGS], enum kind kind)
+static int best_options(struct measured all[KINDS][SETTINGS], enum kind_group group)
 {
     int best = -1;
     for (int i = 0; i < SETTINGS; i++)
         if (settings[i].method == SMEAR_RECONSTRUCT
-            && (best < 0 || mean_error(all, i, kind) < mean_error(all, best, kind)))
+            && (best < 0 || mean_error(all, i, group) < mean_error(all, best, group)))
             best = i;
     return best;
 }
 
-static void print_means(struct measured all[SCENES][SETTINGS])
+static void print_means(struct measured all[KINDS][SETTINGS])
 {
     printf("\nsetting                  object: cost   RMSE    camera: cost   RMSE    still: cost"
            "   worst RMSE\n");
     for (int i = 0; i < SETTINGS; i++) {
         double worst = 0.0;
-        for (int s = 0; s < SCENES; s++)
+        for (int s = 0; s < KINDS; s++)
             worst = all[s][i].rmse > worst ? all[s][i].rmse : worst;
         printf("%-24s %12.2f %6.2f  %13.2f %6.2f  %12.2f  %11.1f\n", settings[i].name,
-               mean_cost(all, i, OBJECT), mean_error(all, i, OBJECT), mean_cost(all, i, CAMERA),
-               mean_error(all, i, CAMERA), mean_cost(all, i, STILL), worst);
+               mean_cost(all, i, GROUP_OBJECT), mean_error(all, i, GROUP_OBJECT),
+               mean_cost(all, i, GROUP_CAMERA), mean_error(all, i, GROUP_CAMERA),
+               mean_cost(all, i, GROUP_STILL), worst);
     }
 }
 
-static void print_scenes(struct measured all[SCENES][SETTINGS], int best[KINDS])
+static void print_scenes(struct measured all[KINDS][SETTINGS], int best[GROUPS])
 {
     printf("\nscene            none: M  /pixel   RMSE   best options: cost   RMSE   "
            "accumulate 4: cost   RMSE\n");
-    for (int s = 0; s < SCENES; s++) {
+    for (int s = 0; s < KINDS; s++) {
         struct take take;
         struct rig rig;
         struct failure ignored = { "" };
@@ -185,24 +172,25 @@ static void print_scenes(struct measured all[SCENES][SETTINGS], int best[KINDS])
             rig_close(&rig);
         }
         const struct measured *m = all[s];
-        const struct measured *b = &m[best[scenes[s].kind == STILL ? OBJECT : scenes[s].kind]];
-        printf("%-15s %8.2f  %6.1f  %5.2f  %19.2f  %5.2f  %19.2f  %5.2f\n", scenes[s].name,
+        enum kind_group group = kinds[s].group == GROUP_STILL ? GROUP_OBJECT : kinds[s].group;
+        const struct measured *b = &m[best[group]];
+        printf("%-15s %8.2f  %6.1f  %5.2f  %19.2f  %5.2f  %19.2f  %5.2f\n", kinds[s].scene,
                m[0].instructions / 1e6, m[0].instructions / pixels, m[0].rmse,
                b->instructions / m[0].instructions, b->rmse, m[2].instructions / m[0].instructions,
                m[2].rmse);
     }
 }
 
-static bool write_csv(const char *folder, struct measured all[SCENES][SETTINGS],
+static bool write_csv(const char *folder, struct measured all[KINDS][SETTINGS],
                       struct failure *f)
 {
     static char text[1 << 16];
     char path[512];
     size_t at = (size_t)snprintf(text, sizeof text, "scene,setting,instructions,cost,rmse\n");
-    for (int s = 0; s < SCENES; s++)
+    for (int s = 0; s < KINDS; s++)
         for (int i = 0; i < SETTINGS && at < sizeof text; i++)
             at += (size_t)snprintf(text + at, sizeof text - at, "%s,%s,%.0f,%.4f,%.4f\n",
-                                   scenes[s].name,
+                                   kinds[s].scene,
                                    settings[i].name + strspn(settings[i].name, " "),
                                    all[s][i].instructions,
                                    all[s][i].instructions / all[s][0].instructions,
@@ -215,28 +203,27 @@ static bool write_csv(const char *folder, struct measured all[SCENES][SETTINGS],
 
 bool methods_report(struct sheet *sheet, struct failure *f)
 {
-    static struct measured all[SCENES][SETTINGS];
-    static const char *const kind_name[KINDS] = { "object", "camera", "still" };
-    int best[KINDS];
+    static struct measured all[KINDS][SETTINGS];
+    int best[GROUPS];
     printf("== cost and error of blur on the suite: instructions against the sharp frame (of a\n"
            "   sharp context in bands of a tile), RMSE in codes against %d exact instants;\n"
            "   encoded light, shutter poses, XRGB8888; geometric means of 12 object and 7 camera\n"
            "   scenes\n", (int)TRUTH_INSTANTS);
     fflush(stdout);
-    for (int s = 0; s < SCENES; s++)
+    for (int s = 0; s < KINDS; s++)
         if (!measure_scene(sheet, s, all[s], f))
             return false;
     print_means(all);
-    for (int kind = OBJECT; kind <= CAMERA; kind++)
-        best[kind] = best_options(all, (enum kind)kind);
+    for (int group = GROUP_OBJECT; group <= GROUP_CAMERA; group++)
+        best[group] = best_options(all, (enum kind_group)group);
     print_scenes(all, best);
     printf("\n");
-    for (int kind = OBJECT; kind <= CAMERA; kind++) {
-        double cost = mean_cost(all, best[kind], (enum kind)kind);
+    for (int group = GROUP_OBJECT; group <= GROUP_CAMERA; group++) {
+        double cost = mean_cost(all, best[group], (enum kind_group)group);
         printf("reconstruct 8 with its best options, %s (%s): %.2f of the sharp frame, "
-               "bar %.1f %s\n", kind_name[kind],
-               settings[best[kind]].name + strspn(settings[best[kind]].name, " "), cost, bar[kind],
-               sheet_most(sheet, cost, bar[kind]));
+               "bar %.1f %s\n", kind_group_name[group],
+               settings[best[group]].name + strspn(settings[best[group]].name, " "), cost,
+               bar[group], sheet_most(sheet, cost, bar[group]));
     }
     return write_csv(sheet->folder, all, f);
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SHUTTER_DEGREES = 180 };
+enum { SHUTTER_DEGREES = TAKE_SHUTTER_DEGREES, MOST_DRAWS = 512 };
 
 int bench_frame(const struct presented *frame, smear_context *ctx);
 void bench_worker(smear_context *ctx, int worker);
@@ -106,8 +106,11 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.dither = SMEAR_DITHER_NONE;
     desc.sharp = !t->windowed;
     desc.accumulate = t->accumulate;
+    desc.timed = t->timed;
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
+    if (t->instant_only)        /* other instants may show more draws */
+        desc.max_draws = MOST_DRAWS;
     desc.vertex_cache = 4096;
     desc.flush = take_band;
     desc.idle = t->workers > 1 ? bench_idle : NULL;
@@ -120,17 +123,24 @@ static bool start_library(struct rig *rig, struct failure *f)
     return result == SMEAR_OK || fail(f, "the library takes no such context (error %d)", result);
 }
 
-bool rig_seek(struct rig *rig, int frame, struct failure *f)
+bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
 {
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
-        .samples = t->samples, .reconstruct = t->reconstruct, .light = SMEAR_LIGHT_ENCODED,
-        .shutter_poses = t->shutter_poses, .clear = rig->scene.clear
+        .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
+        .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
+        .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
+        .clear = rig->scene.clear
     };
-    double time = frame < 0 ? rig->scene.time : frame / rig->scene.fps;
-    rig->frame = presenter_frame(rig->presenter, time, &options, f);
+    rig->frame = presenter_frame(rig->presenter, seconds, &options, f);
     return rig->frame != NULL;
+}
+
+bool rig_seek(struct rig *rig, int frame, struct failure *f)
+{
+    double seconds = frame < 0 ? rig->scene.time : frame / rig->scene.fps;
+    return rig_seek_time(rig, seconds + rig->take.later / rig->scene.fps, f);
 }
 
 static bool open_scene(struct rig *rig, struct failure *f)

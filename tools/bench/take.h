@@ -19,15 +19,20 @@
 struct take {
     const char *scene;          /* of the catalog */
     int frame;                  /* at the scene's rate; -1: the frame that stands for the scene */
+    double later;               /* frames after that */
     int width, height;          /* 0: the scene's */
     bool windowed;              /* a window for filters; else a context that is only sharp */
     bool accumulate;            /* room for SMEAR_ACCUMULATE */
+    bool timed;                 /* room for the methods that look at several times */
     int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
     smear_format format;        /* never dithered */
     smear_method method;
     int samples;                /* 0: the library's default */
     int reconstruct;            /* SMEAR_FENCE | ... */
+    int target;                 /* of SMEAR_AUTO */
     bool shutter_poses;
+    bool linear;                /* light; else encoded */
+    bool instant_only;          /* no other poses: nothing moves */
     int workers;                /* 0: one */
     bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
 };
@@ -45,18 +50,18 @@ struct rig {
     uint8_t *display;           /* where flush copies to, rows without padding; null: nowhere */
 };
 
-enum { CLEAR_OF_SCENE = -1 };
+enum { CLEAR_OF_SCENE = -1, TAKE_SHUTTER_DEGREES = 180 };
 
 /* The whole frame as one band: the height in rows of 8. */
 int take_whole(int height);
 
-/* On failure nothing is left to free. Light is encoded, the shutter open for 180 degrees and
- * centred. */
+/* On failure nothing is left to free. The shutter is open for 180 degrees and centred. */
 bool rig_open(struct rig *rig, const struct take *take, struct failure *f);
 void rig_close(struct rig *rig);
 
-/* Goes on to another frame of the same scene with the same settings. */
+/* Goes on to another frame, or any instant, of the same scene with the same settings. */
 bool rig_seek(struct rig *rig, int frame, struct failure *f);
+bool rig_seek_time(struct rig *rig, double seconds, struct failure *f);
 
 /* Draws. The work that is measured is in bench_frame, and in bench_worker on other threads, and
  * nowhere else: both names are looked for by the counter. */

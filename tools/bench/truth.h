@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* truth.h - what a blurred frame should look like: 256 exact instants of the exposure averaged by
- * the reference renderer. Drawn once, then kept as PFM. */
+/* truth.h - pictures of many exact instants, kept on disk. */
 #ifndef SMEAR_BENCH_TRUTH_H
 #define SMEAR_BENCH_TRUTH_H
 
@@ -9,12 +8,23 @@
 
 #include <stdbool.h>
 
-enum { TRUTH_INSTANTS = 256 };
+enum { TRUTH_INSTANTS = 256, TRUTH_EXACT_INSTANTS = 1024 };
 
 /* The frame that stands for a built-in scene at its own size, shutter 180 degrees and centred,
- * encoded light; values are code / 255, not rounded. Kept in `folder` under a name that changes
- * when the scene does. *out is allocated here. */
-bool truth_of(const char *scene, const char *folder, struct float_image *out, struct failure *f);
+ * encoded light, drawn by the reference in double precision; values are code / 255, not rounded.
+ * Kept in `folder` under a name that changes when the scene does. *out is allocated here. */
+bool truth_reference(const char *scene, const char *folder, struct float_image *out,
+                     struct failure *f);
+
+/* What blur alone is measured against: TRUTH_EXACT_INSTANTS sharp frames of the library itself,
+ * each posed and lit exactly, as `smear render --method accumulate --exact` draws them; `later`
+ * frames after the one that stands for the scene, in encoded or linear light. The name changes when
+ * what the library draws does. */
+bool truth_exact(const char *scene, bool linear, double later, const char *folder,
+                 struct float_image *out, struct failure *f);
+
+/* Rounded to codes: what the command line writes. *out is allocated here. */
+bool truth_round(const struct float_image *truth, struct image *out, struct failure *f);
 
 /* Root mean square error of a picture in codes. */
 double truth_rmse(const struct float_image *truth, const struct image *picture);

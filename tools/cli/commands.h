@@ -4,15 +4,16 @@
 #ifndef SMEAR_TOOLS_CLI_COMMANDS_H
 #define SMEAR_TOOLS_CLI_COMMANDS_H
 
-#include <stdbool.h>
-
 int command_render(int count, char **text);
+int command_convert(int count, char **text);
 int command_compare(int count, char **text);
 int command_info(int count, char **text);
+int command_view(int count, char **text);
+int command_bench(int count, char **text);
+int command_chart(int count, char **text);
 int command_help(int count, char **text);
 
-/* One that the program will have, but has not yet. */
-bool command_is_planned(const char *name);
+int view_help_print(void);
 
 /* Prints the help of a command (null: of the program) on standard output. */
 int help_print(const char *command);

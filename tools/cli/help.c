@@ -11,12 +11,16 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear view [SCENE]               in a window or terminal, with live controls\n"
+    "    smear convert MODEL -o OUT.h|OUT.smr\n"
+    "                                     a model as constant data for firmware\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
+    "    smear bench                      what frames cost, beside the bars set for them\n"
+    "    smear chart                      error against cost of every method\n"
     "    smear help [COMMAND]             this, or the options of a command\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
-    "Not built yet: view, convert, bench, chart.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
@@ -53,10 +57,13 @@ static const char *const render_help[] = {
     "  --method NAME         none         the sharp instant\n"
     "                        accumulate   the mean of sharp instants\n"
     "                        reconstruct  tile-maximum reconstruction filter\n"
-    "                        auto         reconstruct, until auto is built [auto]\n"
-    "                        not built yet: object, camera, pingpong, half, layered, subframes,\n"
-    "                        timemask\n"
-    "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]\n"
+    "                        subframes    tiles in which something moves: mean of instants\n"
+    "                        timemask     the time each triangle covers each pixel; cutouts and\n"
+    "                                     blended draws as in subframes\n"
+    "                        auto         per tile the cheapest that is good enough [auto]\n"
+    "                        not built yet: object, camera, pingpong, half, layered\n"
+    "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
+    "                        at most, slots of timemask (8, 16 or 32) [32]\n"
     "  --exact               accumulate: every instant is posed and lit by the file itself; the\n"
     "                        truth, when there are many; up to 65536 of them\n"
     "  --reconstruct LIST    departures of reconstruct from the published filter, with commas:\n"
@@ -66,7 +73,8 @@ static const char *const render_help[] = {
     "                        direction  second direction along the pixel's own motion\n"
     "                        uniform    a plain mean where all motion is alike\n"
     "  --quality draft|balanced|fine, --target CODES\n"
-    "                        error that auto aims at [balanced]; no effect on other methods\n"
+    "                        error that auto aims at: 4, 1.5 and 0.5 codes [balanced]; no effect\n"
+    "                        on other methods\n"
     "  --reach PX|PERCENT%   longest blur radius of reconstruct, in pixels or of the height; not\n"
     "                        above the tile [5%, at most a tile]\n"
     "  --tile 8|16|32|64     [the smallest not below the reach]\n"
@@ -102,6 +110,43 @@ static const char *const render_help[] = {
     NULL
 };
 
+static const char *const convert_help[] = {
+    "smear convert MODEL -o OUT.h|OUT.smr [options]\n"
+    "\n"
+    "Writes a .glb, .gltf or .obj file as constant data for firmware: int16 vertices in an order that\n"
+    "suits the vertex cache, textures, materials, and clips for the optional animation module\n"
+    "(smear_model.h). A header is C and fits every machine; a .smr blob is little-endian and is read\n"
+    "where it lies. The same model and options give the same bytes everywhere. Prints the flash and\n"
+    "RAM it takes and how many pixels vertices are off, played by the code of the device.\n"
+    "\n"
+    "  -o FILE.h|FILE.smr\n"
+    "  --name NAME           prefix of the header's names [from the file's]\n"
+    "  --clip NAME|INDEX|all|none\n"
+    "                        clips to keep; may be repeated [all]\n"
+    "  --keep NODE|all       a node that a program will move (name or index); may be repeated. Nodes\n"
+    "                        that do not move go into the vertices\n"
+    "  --scale F             world units per unit of the file [1]\n"
+    "  --fit UNITS           instead: the largest extent at rest becomes so many units\n"
+    "  --up y|z              the file's axis that points up; it becomes +Y [y]\n"
+    "\n",
+    "  --texture palette8|rgb565|rgb8888|baked|none\n"
+    "                        baked: no texture, its mean colour goes to each vertex, or to each face\n"
+    "                        of flat meshes. rgb565 has no alpha: pictures that need it stay\n"
+    "                        palette8 [palette8]\n"
+    "  --texture-size N      pictures are halved until no edge is longer [128]\n"
+    "  --colors N            of a palette, 2 to 256 [256]\n"
+    "  --filter nearest|bilinear\n"
+    "                        [nearest]\n"
+    "  --normals keep|flat   flat: normals are left out [keep]\n"
+    "  --influences N        joints per vertex at most, 1 to 4 [4]\n"
+    "  --clip-error PX       what the keys of a clip may be off by [0.1]\n"
+    "  --rows N, --fov DEG, --distance UNITS\n"
+    "                        what a pixel is [240 rows, 45 degrees, where the whole model is seen]\n"
+    "  --max-triangles N, --max-flash BYTES, --max-ram BYTES\n"
+    "                        exit status 1 when it takes more; nothing is simplified\n",
+    NULL
+};
+
 static const char *const compare_help[] = {
     "smear compare A B [options]\n"
     "\n"
@@ -121,30 +166,63 @@ static const char *const info_help[] = {
     "\n"
     "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
     "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
-    "start (t = 0; of built-in scenes, at the time that stands for them): with the smallest list\n"
-    "of triangles that draws it in one part.\n"
+    "start (t = 0; of built-in scenes, at the time that stands for them), by method: with the\n"
+    "smallest list of triangles that draws it in one part.\n"
     "\n"
     "smear info builtin: lists the built-in scenes.\n",
     NULL
 };
 
+static const char *const bench_help[] = {
+    "smear bench [REPORT...]\n"
+    "\n"
+    "Instructions per frame (counted by valgrind), picture quality and memory, beside the bars\n"
+    "set for them. Reports: peers, accuracy, methods, threads, memory; all without a name.\n"
+    "`make bench` adds what frames cost on Cortex-M.\n"
+    "\n"
+    "  --strict              exit status 1 when a bar is missed\n",
+    NULL
+};
+
+static const char *const chart_help[] = {
+    "smear chart [options]\n"
+    "\n"
+    "Every method at several settings on the 20 scenes of the suite: error (RMSE, FLIP, SSIM,\n"
+    "flicker against 1024 exact instants), instructions (counted by valgrind) and time against\n"
+    "the sharp frame. Writes chart.csv, tables.md and pictures (object, camera, both, all and\n"
+    "scenes.svg) into build/chart and prints means and bars. What is measured is kept until the\n"
+    "program changes.\n"
+    "\n"
+    "  --scenes A,B          only these scenes; files go to build/chart/part\n"
+    "  --methods A,B         only settings whose names begin so, and none; likewise\n"
+    "  --quick               encoded light, poses at the shutter, no times; likewise\n"
+    "  --from FILE           measures nothing and reports what a chart.csv says\n"
+    "  --out FOLDER          where files go\n"
+    "  --jobs N              processes at a time, 1 to 8 [2]\n"
+    "  --strict              exit status 1 when a bar is missed or not measured\n",
+    NULL
+};
+
 static const char *const help_help[] = {
-    "smear help [render|compare|info]\n",
+    "smear help [render|view|convert|compare|info|bench|chart]\n",
     NULL
 };
 
 int help_print(const char *command)
 {
-    static const char *const names[] = { "render", "compare", "info", "help", NULL };
-    static const char *const *const texts[] = { render_help, compare_help, info_help, help_help };
+    static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
+                                         "help", NULL };
+    static const char *const *const texts[] = { render_help, convert_help, compare_help, info_help,
+                                               bench_help, chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {
         fputs(program_help, stdout);
         return STATUS_OK;
     }
+    if (strcmp(command, "view") == 0)
+        return view_help_print();
     if (found < 0)
-        return say_bad_usage(command, command_is_planned(command) ? "not built yet"
-                                                                  : "unknown command (smear help)");
+        return say_bad_usage(command, "unknown command (smear help)");
     for (const char *const *text = texts[found]; *text != NULL; text++)
         fputs(*text, stdout);
     return STATUS_OK;

@@ -167,14 +167,22 @@ static bool find_bounds(const struct scene_instant *instant, double low[3], doub
     return low[0] <= high[0];
 }
 
-static void print_memory(const struct memory_need *need, int width, int height)
+static bool print_memory(const struct presented *presented, int width, int height, struct failure *f)
 {
-    printf("memory at %dx%d: %zu bytes (rgb565, reach %d, tile %d, %u draws, %u triangles)\n",
-           width, height, need->total, need->reach, need->tile, (unsigned)need->draws,
-           (unsigned)need->triangles);
-    printf("  triangles drawn: %u\n", (unsigned)need->triangles_drawn);
-    printf("  window %zu, band %zu, draws %zu, triangles %zu, rest %zu\n", need->window, need->band,
-           need->draw_bytes, need->triangle_bytes, need->rest);
+    static const char *const names[MEMORY_SETUPS] = { "auto", "auto, no window", "reconstruct",
+                                                      "none" };
+    for (int i = 0; i < MEMORY_SETUPS; i++) {
+        struct memory_need need;
+        if (!memory_measure(presented, width, height, (enum memory_setup)i, &need, f))
+            return false;
+        if (i == 0)
+            printf("memory at %dx%d (rgb565, reach %d, tile %d, %u draws):\n", width, height,
+                   need.reach, need.tile, (unsigned)need.draws);
+        printf("  %-16s %zu bytes: window %zu, bands %zu, draws %zu, %u triangles %zu, rest %zu\n",
+               names[i], need.total, need.window, need.bands, need.draw_bytes,
+               (unsigned)need.triangles, need.triangle_bytes, need.rest);
+    }
+    return true;
 }
 
 static int print_frame(struct source *source, double time)
@@ -199,12 +207,8 @@ static int print_frame(struct source *source, double time)
         printf("draws: %d\ntriangles: %u\n", presented->draw_count,
                (unsigned)presented->triangle_count);
     ok = presented != NULL;
-    for (int i = 0; i < 2 && ok; i++) {
-        struct memory_need need;
-        ok = memory_measure(presented, size[i][0], size[i][1], &need, &f);
-        if (ok)
-            print_memory(&need, size[i][0], size[i][1]);
-    }
+    for (int i = 0; i < 2 && ok; i++)
+        ok = print_memory(presented, size[i][0], size[i][1], &f);
     presenter_free(presenter);
     return ok ? STATUS_OK : say_bad_input(source->name, &f);
 }

@@ -12,29 +12,24 @@ static const struct {
     const char *name;
     int (*run)(int count, char **text);
 } commands[] = {
+    { "convert", command_convert },
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
+    { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
 };
-
-bool command_is_planned(const char *name)
-{
-    static const char *const planned[] = { "view", "convert", "bench", "chart", NULL };
-    return read_name(name, planned) >= 0;
-}
 
 static int run_command(const char *name, int count, char **text)
 {
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(count, text);
-    return say_bad_usage(name, command_is_planned(name) ? "not built yet"
-                                                        : "unknown command (smear help)");
+    return say_bad_usage(name, "unknown command (smear help)");
 }
 
 int main(int argc, char **argv)
 {
     if (argc < 2)
-        return say_bad_usage("no command", "render, compare, info or help (smear help)");
+        return say_bad_usage("no command", "render, view, convert, compare, info or help (smear help)");
     int status = run_command(argv[1], argc - 2, argv + 2);
     if (fflush(stdout) != 0 && status == STATUS_OK) {
         struct failure f = { "" };

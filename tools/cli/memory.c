@@ -43,7 +43,7 @@ static bool find_smallest(struct device *device, const struct presented *present
     return true;
 }
 
-/* Bytes that `units` of something cost, from what twice and once as many cost. */
+/* What the arena is made of. Of some parts: what twice as many would cost more. */
 static void split_up(struct memory_need *need, const smear_desc *desc)
 {
     smear_desc twice = *desc;
@@ -53,22 +53,25 @@ static void split_up(struct memory_need *need, const smear_desc *desc)
     twice = *desc;
     twice.max_draws = (uint16_t)(desc->max_draws * 2);
     need->draw_bytes = smear_memory_size(&twice) - need->total;
-    twice = *desc;
-    twice.bands = 2;
-    need->band = smear_memory_size(&twice) - need->total;
-    size_t bytes_per_pixel = need->reach <= 15 ? 8 : 10;
-    need->window = (size_t)desc->width * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel;
-    need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->band - need->window;
+    size_t row = (size_t)desc->width, bytes_per_pixel = need->reach <= 15 ? 8 : 10;
+    bool holds_back = desc->timed && !desc->sharp;      /* a band waits for the row below */
+    need->bands = row * 2 * (size_t)need->tile * (holds_back ? 2 : 1);
+    need->window = desc->sharp ? row * (size_t)need->tile * 6
+                               : row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel;
+    need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->bands - need->window;
 }
 
 bool memory_measure(const struct presented *presented, int width, int height,
-                    struct memory_need *need, struct failure *f)
+                    enum memory_setup which, struct memory_need *need, struct failure *f)
 {
+    static const uint8_t methods[MEMORY_SETUPS] = { SMEAR_AUTO, SMEAR_AUTO, SMEAR_RECONSTRUCT, SMEAR_NONE };
     struct device device;
     struct device_setup setup = { .width = width, .height = height, .threads = 1,
                                   .format = SMEAR_RGB565 };
     struct presented drawn = *presented;
-    drawn.frame.method = SMEAR_RECONSTRUCT;
+    drawn.frame.method = methods[which];
+    setup.timed = methods[which] == SMEAR_AUTO;
+    setup.sharp = which == MEMORY_AUTO_SHARP || which == MEMORY_NONE;
     setup.reach = height / 20 > 0 ? height / 20 : 1;
     setup.tile = setup.reach <= 8 ? 8 : setup.reach <= 16 ? 16 : setup.reach <= 32 ? 32 : 64;
     *need = (struct memory_need){ .reach = setup.reach, .tile = setup.tile };

@@ -125,12 +125,12 @@ static const struct {
     bool is_built;
     smear_method method;
 } methods[] = {
-    { "auto", true, SMEAR_DEFAULT_METHOD },     { "none", true, SMEAR_NONE },
+    { "auto", true, SMEAR_AUTO },               { "none", true, SMEAR_NONE },
     { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
+    { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
     { "object", false, SMEAR_DEFAULT_METHOD },  { "camera", false, SMEAR_DEFAULT_METHOD },
     { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
-    { "layered", false, SMEAR_DEFAULT_METHOD }, { "subframes", false, SMEAR_DEFAULT_METHOD },
-    { "timemask", false, SMEAR_DEFAULT_METHOD },
+    { "layered", false, SMEAR_DEFAULT_METHOD },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -153,7 +153,7 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate or reconstruct";
+    return "needs auto, none, accumulate, reconstruct, subframes or timemask";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -197,15 +197,25 @@ static const char *read_reconstruct(void *to, const char *value)
 static const char *read_quality(void *to, const char *value)
 {
     static const char *const names[] = { "draft", "balanced", "fine", NULL };
-    ((struct render_options *)to)->has_quality = true;
-    return read_name(value, names) >= 0 ? NULL : "needs draft, balanced or fine";
+    static const int target[] = { SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
+    struct render_options *o = to;
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs draft, balanced or fine";
+    o->has_quality = true;
+    o->target = target[found];
+    return NULL;
 }
 
 static const char *read_target(void *to, const char *value)
 {
+    struct render_options *o = to;
     double codes;
-    ((struct render_options *)to)->has_target = true;
-    return read_number(value, 1e-6, 255.0, &codes) ? NULL : "needs codes above 0, up to 255";
+    if (!read_number(value, 1e-6, 255.0, &codes))
+        return "needs codes above 0, up to 255";
+    o->has_target = true;
+    o->target = codes * 64 < 1.0 ? 1 : (int)(codes * 64 + 0.5);
+    return NULL;
 }
 
 static const char *read_reach(void *to, const char *value)
@@ -449,7 +459,7 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (!o->exact && o->samples > MAX_SAMPLES)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
-    if (o->reconstruct != 0 && (o->method == SMEAR_NONE || o->method == SMEAR_ACCUMULATE))
+    if (o->reconstruct != 0 && o->method != SMEAR_RECONSTRUCT)
         return say_bad_usage("--reconstruct", "goes with --method reconstruct");
     if (o->has_quality && o->has_target)
         return say_bad_usage("--target", "contradicts --quality");
@@ -485,7 +495,7 @@ static int check_outputs(struct render_options *o)
 
 int options_read_seen(struct render_options *o, int count, char **text, bool *wants_help)
 {
-    *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1,
+    *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1, .method = SMEAR_AUTO,
                                   .shutter_degrees = 180, .view = { .fov_degrees = 45.0 } };
     int status = arguments_read(count, text, table, o, &o->scene, 1, wants_help);
     if (status != STATUS_OK || *wants_help)

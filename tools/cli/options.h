@@ -28,6 +28,7 @@ struct render_options {
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;
     int reconstruct;            /* SMEAR_FENCE | ... */
+    int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;
     unsigned clear;
 

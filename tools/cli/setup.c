@@ -8,7 +8,13 @@
 
 static bool is_sharp_method(const struct render_options *o)
 {
-    return o->shutter_degrees == 0 || o->method == SMEAR_NONE || o->method == SMEAR_ACCUMULATE;
+    return o->shutter_degrees == 0
+        || (o->method != SMEAR_RECONSTRUCT && o->method != SMEAR_AUTO);
+}
+
+static bool is_timed_method(const struct render_options *o)
+{
+    return o->shutter_degrees > 0 && o->method >= SMEAR_SUBFRAMES;
 }
 
 static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
@@ -45,7 +51,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .shutter_poses = o->shutter_poses, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
-        .reconstruct = o->reconstruct,
+        .reconstruct = o->reconstruct, .target = o->target,
         .motion = out->present.motion, .motion_count = out->present.motion_count,
     };
     return options_reach(o, out->height, &out->reach, &out->tile);
@@ -69,6 +75,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
     return (struct device_setup){
         .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
+        .timed = is_timed_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
         .threads = o->threads, .arena = o->arena,
     };

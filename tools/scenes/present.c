@@ -435,7 +435,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
                             .cut = o->cut || o->instant_only,
                             .reconstruct = (uint8_t)o->reconstruct,
-                            .samples = (uint16_t)o->samples, .shutter_degrees = (uint16_t)degrees,
+                            .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
+                            .shutter_degrees = (uint16_t)degrees,
                             .clear = o->clear };
     return true;
 }
@@ -444,16 +445,18 @@ static bool pose_all(struct presenter *p, double time, const struct present_opti
                      struct failure *f)
 {
     const smear_frame *frame = &p->out.frame;
-    if (!scene_pose(p->scene, time, &p->instant[NOW], f))
+    struct present_options whole = *o;
+    double open, close;
+    whole.shutter_degrees = frame->shutter_degrees;
+    present_exposure(time, &whole, &open, &close);
+    /* With poses of the shutter, what is "now" for a blur is the middle of the exposure. */
+    bool middle = frame->shutter_poses && frame->method != SMEAR_NONE;
+    if (!scene_pose(p->scene, middle ? (open + close) / 2 : time, &p->instant[NOW], f))
         return false;
     if (o->instant_only)
         return true;
     if (!frame->shutter_poses)
         return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f);
-    struct present_options whole = *o;
-    double open, close;
-    whole.shutter_degrees = frame->shutter_degrees;
-    present_exposure(time, &whole, &open, &close);
     return scene_pose(p->scene, open, &p->instant[OPEN], f) &&
            scene_pose(p->scene, close, &p->instant[CLOSE], f);
 }

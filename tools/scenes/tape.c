@@ -382,6 +382,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *d)
     add_field(&text, "sharp", d->sharp);
     add_field(&text, "crc", d->crc);
     add_field(&text, "accumulate", d->accumulate);
+    add_field(&text, "timed", d->timed);
     add_field(&text, "band_rows", d->band_rows);
     add_field(&text, "max_draws", d->max_draws);
     add_field(&text, "max_triangles", d->max_triangles);

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+/* demo.c - the demo on every machine: a racing car and a drone, blurred.
+ *
+ *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
+ *     demo check [SCREEN [STEP]]   the CRC of every frame of the loop, or of every STEPth
+ *     demo cost [SCREEN]           what the loop's frames cost, in the units of platform.h's clock
+ *
+ * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
+ * and right a shorter or longer shutter; start stops and goes on. */
+#include "demo_player.h"
+#include "display.h"
+#include "platform.h"
+
+#include "../tests/target_print.h"
+
+#include <stdbool.h>
+
+#ifndef DEMO_SCREEN
+#define DEMO_SCREEN "pico"
+#endif
+
+enum { COLUMN = 10 };
+
+static struct demo_player player;
+
+static int failed(const char *what, int result)
+{
+    platform_print("demo: ");
+    platform_print(what);
+    platform_print(" (error ");
+    print_signed(result);
+    platform_print(")\n");
+    return 1;
+}
+
+static bool is_word(const char *text, const char *word)
+{
+    while (*text != '\0' && *text == *word)
+        text++, word++;
+    return *text == *word;
+}
+
+static uint32_t read_number(const char *text)
+{
+    uint32_t value = 0;
+    for (; *text >= '0' && *text <= '9'; text++)
+        value = value * 10 + (uint32_t)(*text - '0');
+    return value;
+}
+
+/* Exactly as much memory as the library asks for, from the arena's start. */
+static int start(const struct demo_screen *screen, const smear_desc *desc)
+{
+    size_t room, need = smear_memory_size(desc);
+    void *arena = platform_arena(&room);
+    if (need > room)
+        return SMEAR_ERR_MEMORY;
+    return demo_player_start(&player, screen, desc, arena, need);
+}
+
+/* ------------------------------------------------------------------ measuring */
+
+static int swallow(void *user, const smear_band *band)
+{
+    (void)user;
+    (void)band;
+    smear_band_done(player.ctx);
+    return 0;
+}
+
+static uint32_t read_clock(void *user)
+{
+    (void)user;
+    return platform_clock();
+}
+
+static int check(const struct demo_screen *screen, uint32_t step)
+{
+    smear_desc desc = screen->desc;
+    smear_stats stats;
+    desc.flush = swallow;
+    desc.crc = 1;
+    int result = start(screen, &desc);
+    for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
+        result = demo_player_frame(&player, i, i % step == 0);
+        if (result != SMEAR_OK || i % step != 0)
+            continue;
+        smear_get_stats(player.ctx, &stats);
+        print_decimal(i);
+        platform_print(" ");
+        print_hex(stats.crc32);
+        platform_print("\n");
+    }
+    return result == SMEAR_OK ? 0 : failed("frame", result);
+}
+
+static void print_row(const char *name, uint32_t count, uint32_t pixels)
+{
+    uint32_t per_frame = (count + DEMO_LOOP / 2) / DEMO_LOOP;
+    platform_print(name);
+    print_decimal(per_frame);
+    platform_print(" per frame, ");
+    print_decimal(per_frame / pixels);
+    platform_print(".");
+    print_decimal(per_frame % pixels * 10 / pixels);
+    platform_print(" per pixel\n");
+}
+
+/* Means over the loop. Posing the scene is the application's part and counted on its own line. */
+static int cost(const struct demo_screen *screen)
+{
+    smear_desc desc = screen->desc;
+    smear_stats stats;
+    uint32_t total = 0, submit = 0, raster = 0, blur = 0, convert = 0, worst = 0;
+    uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0;
+    desc.flush = swallow;
+    desc.clock = read_clock;
+    platform_clock_start();
+    int result = start(screen, &desc);
+    for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
+        uint32_t before = platform_clock();
+        result = demo_player_frame(&player, i, true);
+        uint32_t count = platform_clock_count(platform_clock() - before);
+        smear_get_stats(player.ctx, &stats);
+        total += count;
+        worst = count > worst ? count : worst;
+        submit += platform_clock_count(stats.time_submit);
+        raster += platform_clock_count(stats.time_raster);
+        blur += platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce);
+        convert += platform_clock_count(stats.time_convert);
+        moving += stats.tiles_uniform + stats.tiles_complex;
+        tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
+        triangles = stats.triangles_in;
+        drawn += stats.triangles_drawn;
+        split += stats.triangles_split;
+    }
+    if (result != SMEAR_OK)
+        return failed("frame", result);
+    uint32_t pixels = (uint32_t)desc.width * (uint32_t)desc.height;
+    platform_print(screen->name);
+    platform_print(": ");
+    platform_print(platform_clock_unit);
+    platform_print(", means over the loop\n");
+    print_row("total    ", total, pixels);
+    print_row(" submit  ", submit, pixels);
+    print_row(" raster  ", raster, pixels);
+    print_row(" blur    ", blur, pixels);
+    print_row(" convert ", convert, pixels);
+    platform_print("worst    ");
+    print_decimal(worst);
+    platform_print("\ntiles moving ");
+    print_decimal(moving * 100 / tiles);
+    platform_print(" %, triangles ");
+    print_decimal(triangles);
+    platform_print(", drawn ");
+    print_decimal(drawn / DEMO_LOOP);
+    platform_print(", frames in parts ");
+    print_decimal(split);
+    platform_print("\nmemory ");
+    print_decimal((uint32_t)smear_memory_size(&desc));
+    platform_print(", scene ");
+    print_decimal(sizeof player);
+    platform_print(", stack ");
+    print_decimal(platform_stack_used());
+    platform_print("\n");
+    return 0;
+}
+
+/* ------------------------------------------------------------------ showing */
+
+struct controls {
+    unsigned held;                  /* at the last look */
+    bool is_paused;
+};
+
+/* Does what the keys pressed since the last look ask for; true when that changes the picture. */
+static bool obey(struct controls *controls)
+{
+    unsigned held = display_keys(), pressed = held & ~controls->held;
+    uint16_t before = player.shutter_degrees;
+    controls->held = held;
+    if (pressed & KEY_A)
+        player.shutter_degrees = player.shutter_degrees == 0 ? 180 : 0;
+    if ((pressed & KEY_LEFT) && player.shutter_degrees > 90)
+        player.shutter_degrees -= 90;
+    if ((pressed & KEY_RIGHT) && player.shutter_degrees < 720)
+        player.shutter_degrees += 90;
+    if (pressed & KEY_START)
+        controls->is_paused = !controls->is_paused;
+    return player.shutter_degrees != before;
+}
+
+/* One frame, with the motion it has in the loop, again whenever keys change it. */
+static int hold(uint32_t frame, struct controls *controls)
+{
+    int result;
+    do {
+        result = demo_player_frame(&player, (frame + DEMO_LOOP - 1) % DEMO_LOOP, false);
+        if (result == SMEAR_OK)
+            result = demo_player_frame(&player, frame, true);
+        if (result != SMEAR_OK)
+            return failed("frame", result);
+        display_show();
+        platform_print("shown\n");
+        do {
+            if (!display_wait())
+                return 0;
+        } while (!obey(controls));
+    } while (true);
+}
+
+static int show(const struct demo_screen *screen, const char *frame)
+{
+    smear_desc desc = screen->desc;
+    if (!display_open(&desc))
+        return failed("there is no display for this screen", 0);
+    int result = start(screen, &desc);
+    if (result != SMEAR_OK)
+        return failed("start", result);
+    display_attach(player.ctx);
+    struct controls controls = { .held = display_keys() };
+    if (frame != NULL)
+        return hold(read_number(frame) % DEMO_LOOP, &controls);
+    for (uint32_t i = 0; result == SMEAR_OK; i = (i + !controls.is_paused) % DEMO_LOOP) {
+        obey(&controls);
+        result = demo_player_frame(&player, i, true);
+        if (result == SMEAR_OK)
+            display_show();
+    }
+    return failed("frame", result);
+}
+
+int main(int argc, char **argv)
+{
+    const char *command = argc > 1 ? argv[1] : "show", *name = argc > 2 ? argv[2] : DEMO_SCREEN;
+    uint32_t step = argc > 3 ? read_number(argv[3]) : 0;
+    const struct demo_screen *screen = demo_screen_find(name);
+    if (screen == NULL)
+        return failed("no screen of this name", 0);
+    if (is_word(command, "show"))
+        return show(screen, argc > 3 ? argv[3] : NULL);
+    if (is_word(command, "check"))
+        return check(screen, step > 0 ? step : 1);
+    if (is_word(command, "cost"))
+        return cost(screen);
+    return failed("usage: demo [show | check | cost [SCREEN [NUMBER]]]", 0);
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* demo_player.c - see demo_player.h. */
+#include "demo_player.h"
+
+#include "../tests/play.h"
+
+#define DAY 0xa9d6efu
+
+/* Triangle lists have room for every frame of the loop: nothing is drawn in parts. */
+const struct demo_screen demo_screens[] = {
+    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
+                .max_draws = DEMO_DRAWS, .max_triangles = 300 }, SMEAR_LIGHT_ENCODED, 0, "night" },
+    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
+               .max_draws = DEMO_DRAWS, .max_triangles = 300 }, SMEAR_LIGHT_ENCODED, DAY, "small" },
+    { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
+                    .max_draws = DEMO_DRAWS, .max_triangles = 310 },
+      SMEAR_LIGHT_ENCODED, DAY, "small" },
+    { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED,
+                .bands = 2, .max_draws = DEMO_DRAWS, .max_triangles = 520 },
+      SMEAR_LIGHT_ENCODED, DAY, "large" },
+    { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
+                 .max_draws = DEMO_DRAWS, .max_triangles = 530 }, SMEAR_LIGHT_LINEAR, DAY, "large" },
+};
+
+const int demo_screen_count = sizeof demo_screens / sizeof *demo_screens;
+
+static int same(const char *a, const char *b)
+{
+    while (*a != '\0' && *a == *b)
+        a++, b++;
+    return *a == *b;
+}
+
+const struct demo_screen *demo_screen_find(const char *name)
+{
+    for (int i = 0; i < demo_screen_count; i++)
+        if (same(demo_screens[i].name, name))
+            return &demo_screens[i];
+    return NULL;
+}
+
+/* The props are the only frame of the tape that is called like the level. */
+static const smear_draw *find_props(const char *level)
+{
+    for (int i = 0; i < tape_count; i++)
+        if (same(tape_list[i]->name, level))
+            return tape_list[i]->frame[0].draw;
+    return NULL;
+}
+
+int demo_player_start(struct demo_player *player, const struct demo_screen *screen,
+                      const smear_desc *desc, void *memory, size_t bytes)
+{
+    player->screen = screen;
+    player->props = find_props(screen->level);
+    player->shutter_degrees = 180;
+    if (player->props == NULL)
+        return SMEAR_ERR_ARG;
+    return smear_init(&player->ctx, desc, memory, bytes);
+}
+
+int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
+{
+    struct demo_scene *scene = &player->scene;
+    demo_scene_pose(scene, player->props, frame);
+    const smear_frame how = {
+        .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
+        .method = player->shutter_degrees == 0 ? SMEAR_NONE : SMEAR_RECONSTRUCT,
+        .reconstruct = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
+        .light = player->screen->light, .shutter_degrees = player->shutter_degrees
+    };
+    int result = smear_begin(player->ctx, &how);
+    for (int i = 0; i < scene->draw_count && result == SMEAR_OK; i++)
+        result = smear_submit(player->ctx, &scene->draw[i]);
+    return result == SMEAR_OK && draw ? smear_render(player->ctx) : result;
+}

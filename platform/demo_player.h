@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* demo_player.h - draws frames of the demo: the screens it knows, and how it uses the library. */
+#ifndef SMEAR_DEMO_PLAYER_H
+#define SMEAR_DEMO_PLAYER_H
+
+#include "demo_scene.h"
+
+struct demo_screen {
+    const char *name;
+    smear_desc desc;                /* without callbacks */
+    uint8_t light;                  /* smear_light */
+    uint32_t sky;                   /* 0xRRGGBB */
+    const char *level;              /* of detail, in demo_props.c */
+};
+
+extern const struct demo_screen demo_screens[];
+extern const int demo_screen_count;
+
+/* Null when there is none of this name. */
+const struct demo_screen *demo_screen_find(const char *name);
+
+struct demo_player {
+    smear_context *ctx;
+    const struct demo_screen *screen;
+    const smear_draw *props;
+    uint16_t shutter_degrees;       /* 0: sharp; what keys change */
+    struct demo_scene scene;
+};
+
+/* Starts the library in `memory`. `desc` is the screen's with callbacks, and perhaps of another
+ * size. Returns a smear_result. */
+int demo_player_start(struct demo_player *player, const struct demo_screen *screen,
+                      const smear_desc *desc, void *memory, size_t bytes);
+
+/* Poses frame `frame` and submits it; with `draw`, renders it, too. Frames come in order: the
+ * library remembers where everything was. Returns a smear_result. */
+int demo_player_frame(struct demo_player *player, uint32_t frame, int draw);
+
+#endif

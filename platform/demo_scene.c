@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+/* demo_scene.c - see demo_scene.h. Two shots: the camera drives ahead of the car and looks back;
+ * then it stands beside the road, where a drone hovers and the car rushes by. */
+#include "demo_scene.h"
+
+#define METRES(x) ((int32_t)((x) * 65536.0))    /* of constants only */
+#define DEGREES(x) ((int32_t)((x) * 65536.0 / 360.0))
+
+/* Angles: 1/65536 turn. */
+enum {
+    WHEEL_STEP = 13107,             /* per frame: a fifth of a turn */
+    CAR_STEP = 37060,               /* per frame: as much of the wheel's girth, 2 pi 0.45 m */
+    ROTOR_STEP = 14500,
+    CHASE = 20, ROADSIDE = DEMO_LOOP - CHASE    /* frames of the two shots */
+};
+
+/* ------------------------------------------------------------------ angles */
+
+/* Sine of an angle, q24. On the first quadrant x - x^3/3! + ... - x^11/11!, by Horner's rule in
+ * q30; the error stays within two steps of q24. */
+static int32_t sine(int32_t angle)
+{
+    static const int32_t inverse[5] = {     /* q30: 1/(2*3), 1/(4*5), 1/(6*7), 1/(8*9), 1/(10*11) */
+        178956971, 53687091, 25565282, 14913081, 9761289
+    };
+    uint32_t turn = (uint32_t)angle & 0xffffu, in = turn & 0x3fffu;
+    if (turn & 0x4000u)
+        in = 0x4000u - in;
+    int64_t x = (int64_t)in * 421657428 >> 12;      /* pi/2 in q28 / 2^14, then q30 */
+    int64_t square = x * x >> 30, sum = 1 << 30;
+    for (int i = 4; i >= 0; i--)
+        sum = (1 << 30) - ((square * inverse[i] >> 30) * sum >> 30);
+    int32_t result = (int32_t)((x * sum >> 30) + 32) >> 6;
+    return turn & 0x8000u ? -result : result;
+}
+
+static int32_t cosine(int32_t angle)
+{
+    return sine(angle + 0x4000);
+}
+
+/* a x b, b in q24. */
+static int32_t scaled(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 24);
+}
+
+/* ------------------------------------------------------------------ poses */
+
+static const smear_transform identity = SMEAR_IDENTITY;
+
+/* Goes on from the pose along its own axes. */
+static void move(smear_transform *pose, int32_t x, int32_t y, int32_t z)
+{
+    for (int row = 0; row < 3; row++) {
+        const int32_t *basis = pose->basis + 3 * row;
+        pose->origin[row] += scaled(x, basis[0]) + scaled(y, basis[1]) + scaled(z, basis[2]);
+    }
+}
+
+/* Turns the pose about its own axis x, y or z (0, 1, 2), counter-clockwise seen from its tip. */
+static void turn(smear_transform *pose, int axis, int32_t angle)
+{
+    int32_t s = sine(angle), c = cosine(angle);
+    int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    for (int row = 0; row < 3; row++) {
+        int32_t *basis = pose->basis + 3 * row, u = basis[first], v = basis[second];
+        basis[first] = scaled(u, c) + scaled(v, s);
+        basis[second] = scaled(v, c) - scaled(u, s);
+    }
+}
+
+static smear_transform moved(int32_t x, int32_t y, int32_t z)
+{
+    smear_transform pose = identity;
+    move(&pose, x, y, z);
+    return pose;
+}
+
+/* ------------------------------------------------------------------ props */
+
+static void add(struct demo_scene *out, const smear_draw *props, enum demo_prop prop,
+                const smear_transform *pose)
+{
+    int i = out->draw_count++;
+    out->pose[i] = *pose;
+    out->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = props[prop].mesh,
+                                 .material = props[prop].material, .now = &out->pose[i] };
+}
+
+static void add_car(struct demo_scene *out, const smear_draw *props, const smear_transform *car,
+                    int32_t frame, int32_t steer)
+{
+    static const int32_t hub[4][2] = {
+        { METRES(1.38), METRES(0.80) }, { METRES(1.38), METRES(-0.80) },
+        { METRES(-1.32), METRES(0.80) }, { METRES(-1.32), METRES(-0.80) },
+    };
+    add(out, props, PROP_CAR, car);
+    for (int i = 0; i < 4; i++) {
+        smear_transform wheel = *car;
+        move(&wheel, hub[i][0], METRES(0.45), hub[i][1]);
+        if (i < 2)
+            turn(&wheel, 1, steer);
+        turn(&wheel, 2, -frame * WHEEL_STEP);
+        turn(&wheel, 0, hub[i][1] > 0 ? DEGREES(90) : DEGREES(-90));
+        add(out, props, PROP_WHEEL, &wheel);
+    }
+    smear_transform shadow = *car;
+    shadow.origin[1] = METRES(0.015);
+    add(out, props, PROP_SHADOW, &shadow);
+}
+
+static void add_drone(struct demo_scene *out, const smear_draw *props,
+                      const smear_transform *drone, int32_t frame)
+{
+    add(out, props, PROP_DRONE, drone);
+    for (int i = 0; i < 4; i++) {
+        smear_transform rotor = *drone;
+        turn(&rotor, 1, DEGREES(45) + i * DEGREES(90));
+        move(&rotor, METRES(0.70), METRES(0.10), 0);
+        turn(&rotor, 1, i % 2 == 0 ? frame * ROTOR_STEP : -frame * ROTOR_STEP);
+        add(out, props, PROP_ROTOR, &rotor);
+    }
+}
+
+/* What stands still; the hills stay around the eye. */
+static void add_land(struct demo_scene *out, const smear_draw *props)
+{
+    static const uint8_t land[] = { PROP_BOARDS, PROP_KERBS, PROP_ROAD, PROP_TREES, PROP_GRASS };
+    for (unsigned i = 0; i < sizeof land / sizeof *land; i++)
+        add(out, props, (enum demo_prop)land[i], &identity);
+    smear_transform hills = moved(out->camera.pose.origin[0], 0, out->camera.pose.origin[2]);
+    add(out, props, PROP_HILLS, &hills);
+}
+
+static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_t yaw,
+                 int32_t pitch)
+{
+    out->camera = (smear_camera){ .pose = SMEAR_IDENTITY, .focal = METRES(2.4),
+                                  .near_plane = METRES(0.3), .far_plane = METRES(150) };
+    move(&out->camera.pose, x, y, z);
+    turn(&out->camera.pose, 1, yaw);
+    turn(&out->camera.pose, 0, pitch);
+}
+
+/* ------------------------------------------------------------------ shots */
+
+static void chase(struct demo_scene *out, const smear_draw *props, int32_t frame)
+{
+    int32_t phase = frame * 65536 / CHASE;
+    int32_t x = METRES(-6) + frame * CAR_STEP, sway = sine(phase);
+    look(out, x + METRES(3.7) + scaled(METRES(0.12), sway), METRES(1.5), METRES(4.6), DEGREES(42),
+         DEGREES(-2.5));
+
+    int32_t yaw = scaled(DEGREES(2), cosine(phase));
+    smear_transform car = moved(x, 0, METRES(-0.2) - scaled(METRES(0.12), sway));
+    turn(&car, 1, yaw);
+    add_car(out, props, &car, frame, 2 * yaw);
+
+    smear_transform drone = moved(x - METRES(1.9) + scaled(METRES(0.3), cosine(phase)),
+                                  METRES(2.5) + scaled(METRES(0.16), sine(2 * phase)),
+                                  METRES(0.3) + scaled(METRES(0.6), sway));
+    turn(&drone, 0, DEGREES(18));
+    turn(&drone, 2, DEGREES(-20));
+    add_drone(out, props, &drone, frame);
+    add_land(out, props);
+}
+
+static void roadside(struct demo_scene *out, const smear_draw *props, int32_t frame)
+{
+    int32_t phase = frame * 65536 / ROADSIDE, swing = sine(phase);
+    look(out, METRES(1.2), METRES(1.6), METRES(5.2), DEGREES(16.7), DEGREES(2));
+
+    smear_transform drone = moved(METRES(-0.25) + scaled(METRES(1.1), swing),
+                                  METRES(2.6) + scaled(METRES(0.2), sine(2 * phase)),
+                                  METRES(0.6) - scaled(METRES(0.4), cosine(phase)));
+    turn(&drone, 0, DEGREES(24));
+    turn(&drone, 2, scaled(DEGREES(17), swing));
+    add_drone(out, props, &drone, frame);
+
+    smear_transform car = moved((frame - ROADSIDE / 2) * CAR_STEP, 0, METRES(-1.6));
+    add_car(out, props, &car, frame, 0);
+    add_land(out, props);
+}
+
+void demo_scene_pose(struct demo_scene *out, const smear_draw *props, uint32_t frame)
+{
+    int32_t at = (int32_t)(frame % DEMO_LOOP);
+    out->cut = at == 0 || at == CHASE;
+    out->draw_count = 0;
+    if (at < CHASE)
+        chase(out, props, at);
+    else
+        roadside(out, props, at - CHASE);
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/* display.c - display.h on a Game Boy Advance, 15 bits per pixel.
+ *
+ * Frames up to 160x128 go to mode 5, which has two pages: the next frame is written to the hidden
+ * one, and the interrupt at the start of the vertical blank shows it. A frame of half the screen's
+ * size fills the screen, every pixel 2x2. Frames of the screen's own size go to mode 3, which has
+ * room for one page only. */
+#include "../display.h"
+#include "gba.h"
+
+enum {
+    SCREEN_WIDTH = 240, SCREEN_HEIGHT = 160, PAGE_WIDTH = 160, PAGE_HEIGHT = 128,
+    PAGE_BYTES = 0xa000,
+    SHOW_LAYER = 0x0400, SHOW_PAGE_1 = 0x0010,  /* GBA_DISPLAY_CONTROL; its lowest bits: mode */
+    VERTICAL_BLANK = 1
+};
+
+static struct {
+    bool is_paged;
+    uint32_t row_bytes;             /* from row to row in video memory */
+    uint32_t hidden;                /* page that is written to */
+    volatile bool is_waiting;       /* for the blank that shows the last frame */
+} screen;
+
+static GBA_FAST void interrupt(void)
+{
+    if (screen.is_waiting) {
+        GBA_DISPLAY_CONTROL = (uint16_t)(GBA_DISPLAY_CONTROL ^ SHOW_PAGE_1);
+        screen.is_waiting = false;
+    }
+    GBA_INTERRUPT_FLAGS = VERTICAL_BLANK;
+    GBA_BIOS_FLAGS |= VERTICAL_BLANK;
+}
+
+/* The processor stands still while DMA copies, two cycles per pixel and the time of the memory. */
+static int flush(void *user, const smear_band *band)
+{
+    (void)user;
+    while (screen.is_waiting) {
+    }
+    uint32_t from = (uint32_t)band->pixels, halfwords = (uint32_t)band->width;
+    uint32_t to = GBA_VIDEO_MEMORY + screen.hidden * PAGE_BYTES +
+                  (uint32_t)band->y * screen.row_bytes;
+    for (int y = 0; y < band->height; y++) {
+        GBA_DMA3_FROM = from;
+        GBA_DMA3_TO = to;
+        GBA_DMA3_CONTROL = 0x80000000u | halfwords;
+        from += band->stride;
+        to += screen.row_bytes;
+    }
+    return 0;
+}
+
+bool display_open(smear_desc *desc)
+{
+    bool is_half = 2 * desc->width == SCREEN_WIDTH && 2 * desc->height == SCREEN_HEIGHT;
+    bool is_whole = desc->width == SCREEN_WIDTH && desc->height == SCREEN_HEIGHT;
+    if (desc->format != SMEAR_RGB555 || (!is_half && !is_whole))
+        return false;
+    desc->bands = 1;
+    desc->flush = flush;
+    screen.is_paged = is_half;
+    screen.hidden = is_half;
+    screen.row_bytes = is_half ? PAGE_WIDTH * 2 : SCREEN_WIDTH * 2;
+    GBA_DISPLAY_CONTROL = SHOW_LAYER | (is_half ? 5 : 3);
+    GBA_BG2_XX = GBA_BG2_YY = is_half ? 0x80 : 0x100;
+    GBA_HANDLER = interrupt;
+    GBA_DISPLAY_STATUS = 8;         /* wants the vertical blank's interrupt */
+    GBA_INTERRUPT_ENABLE = VERTICAL_BLANK;
+    GBA_INTERRUPT_MASTER = 1;
+    return true;
+}
+
+void display_attach(smear_context *ctx)
+{
+    (void)ctx;
+}
+
+/* Does not wait: the next frame's first band will, if it comes before the blank. */
+void display_show(void)
+{
+    if (!screen.is_paged)
+        return;
+    screen.hidden ^= 1;
+    screen.is_waiting = true;
+}
+
+/* Until the next vertical blank. */
+bool display_wait(void)
+{
+    while (GBA_LINE >= SCREEN_HEIGHT) {
+    }
+    while (GBA_LINE < SCREEN_HEIGHT) {
+    }
+    return true;
+}
+
+unsigned display_keys(void)
+{
+    unsigned held = ~GBA_KEYS;      /* A B select start right left up down */
+    return (held & 1 ? KEY_A : 0u) | (held & 8 ? KEY_START : 0u) | (held & 16 ? KEY_RIGHT : 0u) |
+           (held & 32 ? KEY_LEFT : 0u) | (held & 64 ? KEY_UP : 0u) | (held & 128 ? KEY_DOWN : 0u);
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* platform.c - platform.h on a Game Boy Advance.
+ *
+ * Text goes to mGBA's debug port, line by line; on a console nobody hears it. The clock is timers 0
+ * and 1, cascaded: 32 bits of processor cycles. */
+#include "../platform.h"
+#include "gba.h"
+
+#include <stdbool.h>
+
+#define STACK_PAINT 0x5ac35ac3u     /* start.S, too */
+
+enum { LINE_BYTES = 200, MAX_ARGUMENTS = 8, COMMAND_LINE_BYTES = 128 };
+
+extern uint64_t link_arena_start[], link_arena_end[];
+extern uint32_t link_stack_top[], link_stack_limit[];
+extern const char gba_command_line[];
+
+int main(int argc, char **argv);
+void gba_main(void);
+
+const char platform_clock_unit[] = "cycles";
+
+/* What the compiler calls for a memory barrier: one core that does everything in order needs none. */
+void gba_barrier(void) __asm("__sync_synchronize");
+void gba_barrier(void)
+{
+}
+
+static void send_line(const char *text)
+{
+    volatile char *port = (volatile char *)0x04fff600u;
+    GBA_REG16(0x04fff780u) = 0xc0de;
+    if (GBA_REG16(0x04fff780u) != 0x1dea)
+        return;
+    do
+        *port++ = *text;
+    while (*text++ != '\0');
+    GBA_REG16(0x04fff700u) = 0x100 | 3;
+}
+
+void platform_print(const char *text)
+{
+    static char line[LINE_BYTES];
+    static uint32_t length;
+    for (; *text != '\0'; text++) {
+        bool ends = *text == '\n';
+        if (!ends)
+            line[length++] = *text;
+        if (ends || length == LINE_BYTES - 1) {
+            line[length] = '\0';
+            send_line(line);
+            length = 0;
+        }
+    }
+}
+
+void *platform_arena(size_t *bytes)
+{
+    *bytes = (size_t)((uintptr_t)link_arena_end - (uintptr_t)link_arena_start);
+    return link_arena_start;
+}
+
+uint32_t platform_stack_used(void)
+{
+    const uint32_t *lowest = link_stack_limit;
+    while (lowest < link_stack_top && *lowest == STACK_PAINT)
+        lowest++;
+    if (lowest == link_stack_limit)
+        return UINT32_MAX;
+    return (uint32_t)((uintptr_t)link_stack_top - (uintptr_t)lowest);
+}
+
+void platform_clock_start(void)
+{
+    GBA_TIMER0_CONTROL = 0;
+    GBA_TIMER1_CONTROL = 0;
+    GBA_TIMER0 = 0;
+    GBA_TIMER1 = 0;
+    GBA_TIMER1_CONTROL = 0x84;      /* counts overflows of timer 0 */
+    GBA_TIMER0_CONTROL = 0x80;
+}
+
+uint32_t platform_clock(void)
+{
+    uint32_t high, low, again;
+    do {
+        high = GBA_TIMER1;
+        low = GBA_TIMER0;
+        again = GBA_TIMER1;
+    } while (high != again);
+    return high << 16 | low;
+}
+
+uint32_t platform_clock_count(uint32_t ticks)
+{
+    return ticks;
+}
+
+/* The status goes to gbarun; on a console, all stands still. */
+static void leave(int status)
+{
+    char text[] = "#exit 000\n";
+    uint32_t value = (uint32_t)status & 0xffu;
+    for (int i = 8; i >= 6; i--, value /= 10)
+        text[i] = (char)('0' + value % 10);
+    platform_print(text);
+    for (;;) {
+    }
+}
+
+/* Splits the command line at spaces. */
+void gba_main(void)
+{
+    static char line[COMMAND_LINE_BYTES];
+    static char *argument[MAX_ARGUMENTS + 1];
+    char *at = line;
+    int count = 0;
+    for (int i = 0; i < COMMAND_LINE_BYTES - 1; i++)
+        line[i] = ((const volatile char *)gba_command_line)[i];
+    argument[count++] = at;         /* the program's name: none */
+    while (*at != '\0' && count < MAX_ARGUMENTS) {
+        while (*at == ' ')
+            *at++ = '\0';
+        if (*at == '\0')
+            break;
+        argument[count++] = at;
+        while (*at != '\0' && *at != ' ')
+            at++;
+    }
+    leave(main(count, argument));
+}

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# Stellaris LM3S6965 evaluation board: Cortex-M3, 256 kB of flash, 64 kB of RAM, an OLED panel of
+# 128x64 pixels in 16 greys. Programs are held to 48 kB of RAM: 16 kB are left to the application.
+CORE           := -mcpu=cortex-m3 -mthumb
+BOARD          := -M lm3s6965evb
+LAYOUT         := lm3s6965evb-48k.ld
+include platform/cortexm/cortexm.mk
+
+DISPLAY_SRC := platform/lm3s6965evb/display.c
+DEMO_SCREEN := oled
+
+DEMO_LOOPS  := oled:1
+export SHOT        := platform/lm3s6965evb/shot.sh
+export SHOT_SCREEN := oled
+export SHOT_FRAMES := 8 45
+export SHOT_ZOOM   := 4
+export SHOT_KEY    := ctrl

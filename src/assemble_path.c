@@ -1,0 +1,493 @@
+/* SPDX-License-Identifier: MIT */
+/* assemble_path.c - the loop over a moving draw's triangles: as assemble.c, at three instants at once.
+ *
+ * A triangle is kept if it may be seen at any time of the exposure. It is listed under the first tile row it may touch,
+ * together with the bounds of its way (struct smear_path_bounds): all that a tile needs to choose its method. */
+#include "assemble_path.h"
+
+#include "clip.h"
+#include "path.h"
+
+enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
+
+/* A vertex at all three instants, remembered under its index: direct mapped, in the memory of the other cache. */
+struct path_vertex {
+    uint32_t tag, stored;               /* as struct smear_cached_vertex */
+    struct smear_screen screen[KEYS];
+    uint8_t outcode[KEYS];
+};
+
+_Static_assert(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
+
+static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
+{
+    return key == MIDDLE ? &d->at : &d->key[key];
+}
+
+static void find_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d,
+                        uint32_t tag)
+{
+    struct smear_homogeneous h;
+    v->tag = tag;
+    v->stored = 0;
+    for (int key = 0; key < KEYS; key++)
+        v->outcode[key] = (uint8_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
+                                                     &a->viewport);
+}
+
+/* ------------------------------------------------------------------ bounds */
+
+static uint16_t sixteenths(int32_t q8)
+{
+    return (uint16_t)min_i32((q8 + 15) >> 4, 65535);
+}
+
+/* Nearest depth code of units q11, rounded up. */
+static uint16_t code_above(int32_t depth)
+{
+    uint32_t units = ((uint32_t)depth >> 11) + 1u;
+    return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65535u));
+}
+
+/* False when no pixel of the part of the frame that is being filled can be covered. */
+static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a, const struct smear_assembly *d,
+                        const struct smear_screen *const corner[3])
+{
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, travel = 0, bend = 0;
+    for (int i = 0; i < 3; i++) {
+        const struct smear_screen *p = corner[i];
+        for (int key = 0; key < KEYS; key++) {
+            x0 = min_i32(x0, p[key].x);
+            x1 = max_i32(x1, p[key].x);
+            y0 = min_i32(y0, p[key].y);
+            y1 = max_i32(y1, p[key].y);
+            depth = max_i32(depth, p[key].depth);
+        }
+        int32_t dx = abs_i32(p[CLOSE].x - p[OPEN].x), dy = abs_i32(p[CLOSE].y - p[OPEN].y);
+        travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
+        bend = max_i32(bend, abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x));
+        bend = max_i32(bend, abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
+    }
+    /* A parabola leaves the box of its three places by at most an eighth of the bend. */
+    int32_t margin = bend >> 3;
+    struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
+                       (y1 + margin + 128 + 127) >> 8 };
+    box_cut(&box, a);
+    if (box_is_empty(&box))
+        return false;
+    *b = (struct smear_path_bounds){
+        .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
+        .travel = sixteenths(travel), .bend = sixteenths(bend), .nearest = code_above(depth),
+        .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
+                            | (d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
+    };
+    return true;
+}
+
+/* ------------------------------------------------------------------ records */
+
+static void store_path(uint32_t *record, const struct smear_segment *s, const struct smear_screen screen[KEYS])
+{
+    store_place(record, &screen[MIDDLE]);
+    store_place(record + s->motion, &screen[OPEN]);
+    store_place(record + s->motion + PATH_POSE_WORDS, &screen[CLOSE]);
+}
+
+/* A draw on its way. */
+struct path_batch {
+    struct smear_assembler *a;
+    const struct smear_assembly *d;
+    struct smear_segment *segment;
+    bool shares;                        /* vertices are the same for all faces */
+};
+
+static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
+{
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    bool shares = b->shares && (!back || s->color == 0);
+    if (shares && v->stored > s->base)
+        return v->stored - 1;
+    struct smear_geometry *g = b->a->geometry;
+    uint32_t word = g->vertex_words, index = v->tag & 0xffffu;
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_path(record, s, v->screen);
+    if (s->uv != 0)
+        store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
+    if (s->color != 0) {
+        struct smear_color color;
+        struct smear_face face = smear_face_of(d, triangle, back);
+        smear_record_shade(&color, d, index, face.color, face.cosine, back);
+        store_color(record + s->color, color.channel);
+    }
+    if (shares)
+        v->stored = word + 1;
+    return word;
+}
+
+/* The list of a triangle: what does not move by a 32nd of a pixel is still. */
+static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
+{
+    struct smear_geometry *g = b->a->geometry;
+    uint32_t *list = is_blend(b->d) ? g->blend_last
+                   : bounds->travel + bounds->bend == 0 ? g->opaque_last : g->mover_last;
+    return &list[geometry_row(g, bounds->y0)];
+}
+
+static bool has_room(struct path_batch *b)
+{
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2);
+    if (s == NULL || b->a->path_count == b->a->path_limit)
+        return false;
+    b->segment = s;
+    return true;
+}
+
+/* Three vertices, clockwise on the screen where the triangle is seen from the side that is drawn. */
+static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1, struct path_vertex *v2,
+                         uint32_t triangle, bool back)
+{
+    const struct smear_screen *const corner[3] = { v0->screen, v1->screen, v2->screen };
+    struct smear_path_bounds bounds;
+    if (!find_bounds(&bounds, b->a, b->d, corner))
+        return true;
+    if (!has_room(b))
+        return false;
+    uint32_t base = b->segment->base;
+    uint16_t offset0 = (uint16_t)(store_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(store_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(store_vertex(b, v2, triangle, back) - base);
+    struct smear_triangle *t = geometry_add_path(b->a->geometry, list_of(b, &bounds), &bounds);
+    struct smear_face face = smear_face_of(b->d, triangle, back);
+    t->vertex[0] = offset0;
+    t->vertex[1] = offset1;
+    t->vertex[2] = offset2;
+    t->segment = (uint16_t)(b->segment - b->a->geometry->segment);
+    t->color = smear_face_color(b->d, b->segment, &face);
+    b->a->path_count++;
+    b->a->triangles_drawn++;
+    return true;
+}
+
+/* ------------------------------------------------------------------ clipped */
+
+/* What a triangle is cut against: the exposure, or one of PATH_PIECES parts of it. */
+struct cut {
+    struct smear_projection projection[KEYS];
+    int codes[KEYS];
+    uint8_t piece;          /* as in struct smear_path_bounds */
+};
+
+/* Brings another pose into the place that is clipped, or back. */
+static void exchange(struct smear_clip_vertex *v, int count, int key)
+{
+    for (int i = 0; i < count; i++) {
+        struct smear_homogeneous h = v[i].now;
+        v[i].now = v[i].pose[key];
+        v[i].pose[key] = h;
+    }
+}
+
+/* Leaves what is in front of the near plane and within the guard band at all three instants. */
+static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
+{
+    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    for (int key = OPEN; key <= CLOSE && count != 0; key++) {
+        exchange(polygon, count, key);
+        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        exchange(polygon, count, key);
+    }
+    return count;
+}
+
+static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
+                           const struct cut *cut, const struct smear_viewport *viewport)
+{
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    int32_t cx = viewport->width << 7, cy = viewport->height << 7;
+    for (int key = 0; key < KEYS; key++) {
+        smear_project(&screen[key], &cut->projection[key], key == MIDDLE ? &v->now : &v->pose[key], viewport);
+        screen[key].x = clamp_i32(screen[key].x, cx - guard, cx + guard);
+        screen[key].y = clamp_i32(screen[key].y, cy - guard, cy + guard);
+    }
+}
+
+static int64_t area_at(const struct smear_screen (*corner)[KEYS], int i, int k, int key)
+{
+    return area_of(&corner[0][key], &corner[i][key], &corner[k][key]);
+}
+
+/* One triangle of the fan, in the order that is clockwise when seen from its side. */
+static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygon, uint8_t piece,
+                    const struct smear_screen (*screen)[KEYS], const int fan[3], const struct smear_face *face)
+{
+    const struct smear_screen *const corner[3] = { screen[fan[0]], screen[fan[1]], screen[fan[2]] };
+    struct smear_path_bounds bounds;
+    if (!find_bounds(&bounds, b->a, b->d, corner))
+        return true;
+    if (!has_room(b))
+        return false;
+    bounds.piece = piece;
+    if (piece != 0) {
+        bounds.flags |= PATH_PIECE;
+        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);      /* of the whole exposure */
+    }
+    const struct smear_segment *s = b->segment;
+    struct smear_geometry *g = b->a->geometry;
+    uint16_t offset[3];
+    for (int k = 0; k < 3; k++) {
+        const struct smear_clip_vertex *v = &polygon[fan[k]];
+        uint32_t *record = g->pool + g->vertex_words;
+        offset[k] = (uint16_t)(g->vertex_words - s->base);
+        g->vertex_words += s->stride;
+        store_path(record, s, screen[fan[k]]);
+        if (s->uv != 0)
+            store_uv(record + s->uv, v->uv[0], v->uv[1]);
+        if (s->color != 0) {
+            const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
+                                          (uint16_t)v->color[3] };
+            store_color(record + s->color, channel);
+        }
+    }
+    struct smear_triangle *t = geometry_add_path(g, list_of(b, &bounds), &bounds);
+    b->a->path_count++;
+    b->a->triangles_drawn++;
+    t->segment = (uint16_t)(s - g->segment);
+    t->color = smear_face_color(b->d, s, face);
+    for (int k = 0; k < 3; k++)
+        t->vertex[k] = offset[k];
+    return true;
+}
+
+/* Adds what is left of a triangle, if it is seen from the side that is drawn (`back`: counter-clockwise) at some
+ * instant. */
+static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
+                    const struct smear_face *face)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
+    for (int i = 0; i < 3; i++)
+        polygon[i] = corner[i];
+    int count = clip_all(polygon, cut);
+    for (int i = 0; i < count; i++)
+        project_corner(screen[i], &polygon[i], cut, &b->a->viewport);
+    bool seen = false;
+    for (int key = 0; key < KEYS && !seen; key++) {
+        int64_t area = 0;
+        for (int i = 2; i < count; i++)
+            area += area_at((const struct smear_screen (*)[KEYS])screen, i - 1, i, key);
+        seen = ((area > 0) != d->mirrored) == face->back && area != 0;
+    }
+    if (!seen)
+        return true;
+    bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
+    for (int i = 2; i < count; i++) {
+        const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
+        if (!add_fan(b, polygon, cut->piece, (const struct smear_screen (*)[KEYS])screen, fan, face))
+            return false;
+    }
+    return true;
+}
+
+/* Brings a projection to fewer bits of scale, as its vertices are. */
+static void lower_scale(struct smear_projection *p, int scale)
+{
+    int down = p->scale - scale;
+    p->scale = (int16_t)scale;
+    p->distance_scale = (int16_t)(p->distance_scale - down);
+    p->depth_shift = (int16_t)(p->depth_shift - down);
+    p->near_distance = max_i32(scale_sat(p->near_distance, -down), 1);
+    if (p->far_distance != INT32_MAX)
+        p->far_distance = scale_sat(p->far_distance, -down);
+}
+
+/* Coordinate at time u (q16, -1 .. 1) of the way from open over middle to close. */
+static int32_t on_way(int64_t open, int64_t middle, int64_t close, int32_t u)
+{
+    int64_t along = (close - open) + ((open + close - 2 * middle) * u >> 16);
+    return (int32_t)(middle + (along * u >> 17));
+}
+
+static void place_on_way(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
+{
+    out->x = on_way(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
+    out->y = on_way(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
+    out->w = on_way(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
+    out->distance = out->w;
+}
+
+static void scale_homogeneous(struct smear_homogeneous *h, int down)
+{
+    h->x = scale_sat(h->x, -down);
+    h->y = scale_sat(h->y, -down);
+    h->w = scale_sat(h->w, -down);
+}
+
+/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout would be too
+ * little. In short parts of the exposure it is about what is in front in the middle; at their ends a little of that may
+ * lie behind, though not behind the eye. */
+static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_clip_vertex corner[3],
+                                      struct cut *cut, const struct smear_face *face)
+{
+    /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
+    int scale = min_i32(cut->projection[MIDDLE].scale,
+                        min_i32(cut->projection[OPEN].scale, cut->projection[CLOSE].scale)) - 2;
+    struct smear_homogeneous at[3][KEYS];
+    for (int i = 0; i < 3; i++) {
+        at[i][MIDDLE] = corner[i].now;
+        at[i][OPEN] = corner[i].pose[OPEN];
+        at[i][CLOSE] = corner[i].pose[CLOSE];
+        for (int k = 0; k < KEYS; k++)
+            scale_homogeneous(&at[i][k], cut->projection[k].scale - scale);
+    }
+    lower_scale(&cut->projection[MIDDLE], scale);
+    cut->projection[OPEN] = cut->projection[CLOSE] = cut->projection[MIDDLE];
+    for (int key = OPEN; key <= CLOSE; key++)
+        cut->projection[key].near_distance = max_i32(cut->projection[MIDDLE].near_distance >> 2, 1);
+    for (int k = 0; k < KEYS; k++)
+        cut->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
+    const int32_t step = 131072 / PATH_PIECES;
+    for (int piece = 0; piece < PATH_PIECES; piece++) {
+        struct smear_clip_vertex part[3];
+        int32_t begin = piece * step - 65536;
+        for (int i = 0; i < 3; i++) {
+            part[i] = corner[i];
+            place_on_way(&part[i].pose[OPEN], at[i], begin);
+            place_on_way(&part[i].now, at[i], begin + step / 2);
+            place_on_way(&part[i].pose[CLOSE], at[i], begin + step);
+        }
+        cut->piece = (uint8_t)(piece + 1);
+        if (!add_cut(b, part, cut, face))
+            return false;
+    }
+    return true;
+}
+
+/* `corner` as the mesh has them: counter-clockwise in front. */
+static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3], uint32_t triangle,
+                                       const int codes[KEYS], bool back)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_clip_vertex corner[3];
+    struct smear_face face = smear_face_of(d, triangle, back);
+    struct cut cut = { .piece = 0 };
+    if (b->segment == NULL)
+        b->segment = smear_record_segment(b->a, d);
+    if (b->segment == NULL)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        struct smear_clip_vertex *v = &corner[i];
+        uint32_t index = vertex[i]->tag & 0xffffu;
+        placement_transform(&v->now, &d->at, index);
+        for (int key = OPEN; key <= CLOSE; key++)
+            placement_transform(&v->pose[key], &d->key[key], index);
+        v->uv[0] = d->mesh->uv != NULL ? d->mesh->uv[2 * index] : 0;
+        v->uv[1] = d->mesh->uv != NULL ? d->mesh->uv[2 * index + 1] : 0;
+        struct smear_color color = { { 0, 0, 0, 0 } };
+        if (b->segment->color != 0)
+            smear_record_shade(&color, d, index, face.color, face.cosine, back);
+        for (int c = 0; c < 4; c++)
+            v->color[c] = color.channel[c];
+    }
+    int near_codes = 0;
+    for (int key = 0; key < KEYS; key++) {
+        cut.codes[key] = codes[key];
+        cut.projection[key] = placement_of(d, key)->now;
+        near_codes |= codes[key] & OUT_NEAR;
+    }
+    return near_codes != 0 && !d->at.now.orthographic ? add_pieces(b, corner, &cut, &face)
+                                                      : add_cut(b, corner, &cut, &face);
+}
+
+/* ------------------------------------------------------------------ the loop */
+
+/* The two caches share memory: what the other wrote is no vertex of ours. */
+static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
+{
+    struct path_vertex *cache = (struct path_vertex *)(void *)a->cache;
+    *mask = a->cache_mask >> 1;
+    if (!a->cache_has_paths || a->serial == 0xffffu) {
+        for (uint32_t i = 0; i <= *mask; i++)
+            cache[i].tag = 0;
+        a->serial = 0;
+        a->cache_has_paths = true;
+    }
+    return cache;
+}
+
+static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
+                                   const struct smear_assembly *d, uint32_t tag, const struct path_vertex *in_use1,
+                                   const struct path_vertex *in_use2, struct path_vertex *spare)
+{
+    struct path_vertex *v = &cache[tag & mask];
+    if (v->tag == tag)
+        return v;
+    if ((tag & 0xffffu) >= d->mesh->vertex_count) {
+        for (int key = 0; key < KEYS; key++)
+            spare->outcode[key] = OUT_UNKNOWN;
+        return spare;
+    }
+    if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
+        v = spare;
+    find_vertex(v, a, d, tag);
+    return v;
+}
+
+static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint32_t triangle)
+{
+    const struct smear_assembly *d = b->d;
+    int codes[KEYS], any = 0, all = OUT_REJECT;
+    for (int key = 0; key < KEYS; key++) {
+        codes[key] = v[0]->outcode[key] | v[1]->outcode[key] | v[2]->outcode[key];
+        any |= codes[key];
+        all &= v[0]->outcode[key] & v[1]->outcode[key] & v[2]->outcode[key];
+    }
+    if (all != 0)
+        return true;
+    if (any & OUT_UNKNOWN) {
+        b->a->triangles_dropped++;
+        return true;
+    }
+    if (any & OUT_CLIP)
+        return add_clipped(b, v, triangle, codes, false)
+            && (!d->material->double_sided || add_clipped(b, v, triangle, codes, true));
+    bool front = false, behind = false;
+    struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
+    for (int key = 0; key < KEYS; key++) {
+        int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);
+        front = front || area > 0;
+        behind = behind || area < 0;
+    }
+    return (!front || add_triangle(b, v[0], v1, v2, triangle, false))
+        && (!behind || !d->material->double_sided || add_triangle(b, v[0], v2, v1, triangle, true));
+}
+
+bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+{
+    struct path_batch b = { a, d, smear_record_segment(a, d), false };
+    if (b.segment == NULL) {
+        if (drop)
+            a->triangles_dropped += d->mesh->triangle_count;
+        return drop;
+    }
+    b.shares = shares_vertices(d, b.segment);
+    uint32_t mask;
+    struct path_vertex *cache = open_cache(a, &mask), spare[3];
+    uint32_t tag = ++a->serial << 16;
+    const uint16_t *index = d->mesh->index;
+    bool added = true;
+    for (uint32_t i = 0; i < d->mesh->triangle_count && added; i++, index += 3) {
+        struct path_vertex *v[3];
+        v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
+        v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);
+        v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2]);
+        added = add_seen(&b, v, i);
+        if (!added && drop) {
+            a->triangles_dropped++;
+            added = true;
+        }
+    }
+    return added;
+}

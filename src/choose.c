@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* choose.c - the rules by which a tile gets its method. */
+#include "choose.h"
+
+#include "smear.h"
+
+#include "fixmath.h"
+
+/* Few instants cost less than a time mask: its closed forms pay from `most` on. Measured on the scenes of the quality
+ * suite (make chart). */
+struct preset {
+    int32_t target;             /* from this error on, 1/64 codes */
+    int32_t step;               /* travel from one instant to the next, 1/16 px */
+    int32_t least, most;        /* instants, however short the way; and up to which they are taken */
+    int32_t pieces;             /* instants at most where triangles are there for pieces of the exposure */
+    int32_t slots, edge, tap;   /* as in struct smear_timemask_settings */
+};
+
+enum { INSTANTS_MAX = 64 };
+
+static const struct preset *preset_of(int32_t target)
+{
+    static const struct preset preset[] = {
+        { SMEAR_DRAFT, 80, 2, 6, 4, 8, 2, 768 },
+        { SMEAR_BALANCED, 40, 3, 6, 11, 16, 4, 512 },
+        { 0, 12, 6, 8, 20, 32, 6, 256 }
+    };
+    const struct preset *p = preset;
+    while (target < p->target)
+        p++;
+    return p;
+}
+
+/* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
+static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
+{
+    return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
+}
+
+static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap)
+{
+    choice->method = TILE_TIMEMASK;
+    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap };
+}
+
+/* Means along the ways of pixels of the sharp picture take over its aliasing: edges and thin things come out a fraction of
+ * a pixel wrong. Over texels that is nothing new, and taps along the way of a texture are dear for every other method. */
+static bool wants_smooth(const struct smear_chooser *chooser, const struct smear_tile_load *load)
+{
+    return chooser->target >= SMEAR_DRAFT || (load->flags & PATH_TEXTURED) != 0;
+}
+
+void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
+                  const struct smear_tile_load *load)
+{
+    bool closed_form = (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0;
+    if (load->count == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
+        choice->method = TILE_COPY;
+    } else if (chooser->method == SMEAR_SUBFRAMES) {
+        choice->method = TILE_SUBFRAMES;
+        choice->instants = instants_for(load, chooser->samples);
+    } else if (chooser->method == SMEAR_TIMEMASK) {
+        if (closed_form) {
+            choose_timemask(choice, chooser->samples, 16, 6, 256);
+        } else {
+            choice->method = TILE_SUBFRAMES;
+            choice->instants = instants_for(load, chooser->samples);
+        }
+    } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0
+               && load->travel >= 8 * 16 && wants_smooth(chooser, load)) {
+        choice->method = TILE_SMOOTH;
+        choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);
+        choice->taps = max_i32(load->travel >> 4, 8);
+    } else {
+        const struct preset *p = preset_of(chooser->target);
+        int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
+        if (load->flags & PATH_PIECE)       /* a closed form for each piece of the exposure costs as much as an instant */
+            instants = min_i32(instants, p->pieces);
+        if (closed_form && instants > p->most && (load->flags & PATH_PIECE) == 0) {
+            choose_timemask(choice, p->slots, min_i32(chooser->target, 64), p->edge, p->tap);
+        } else {
+            choice->method = TILE_SUBFRAMES;
+            choice->instants = min_i32(instants, INSTANTS_MAX);
+        }
+    }
+}

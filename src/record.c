@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/* record.c - layouts of vertex records, and the colours of vertices and faces. */
+#include "record.h"
+
+#include "path.h"
+
+struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d)
+{
+    struct smear_segment *s = smear_geometry_open(a->geometry);
+    if (s == NULL)
+        return NULL;
+    const smear_mesh *mesh = d->mesh;
+    bool textured = d->material->texture != NULL && mesh->uv != NULL;
+    bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
+    int at = VERTEX_BASE_WORDS;
+    s->draw = d->draw;
+    s->uv = s->color = s->motion = 0;
+    if (textured)
+        s->uv = (uint8_t)at++;
+    if (per_vertex) {
+        s->color = (uint8_t)at;
+        at += 2;
+    }
+    s->moves = a->keep_motion && !is_blend(d) ? d->moves : 0;
+    if (s->moves != 0) {
+        s->motion = (uint8_t)at;
+        at += s->moves * MOTION_WORDS;
+    }
+    s->path = 0;
+    if (d->path) {
+        s->path = 1;
+        s->motion = (uint8_t)at;
+        at += PATH_WORDS;
+    }
+    s->shade = per_vertex ? SHADE_GOURAUD
+             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
+    s->flat_depth = d->at.now.orthographic;
+    s->stride = (uint8_t)at;
+    return s;
+}
+
+void smear_record_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                         const uint8_t *face_color, uint32_t face_cosine, bool flip)
+{
+    const smear_mesh *mesh = d->mesh;
+    uint32_t cosine = face_cosine;
+    if (d->shading.lit && mesh->normal != NULL) {
+        const int8_t *n = mesh->normal + 3 * index;
+        if (flip) {
+            const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
+                                     (int8_t)-max_i32(n[2], -127) };
+            cosine = smear_light_normal(&d->shading, back);
+        } else {
+            cosine = smear_light_normal(&d->shading, n);
+        }
+    }
+    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
+                cosine);
+}
+
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
+                              const struct smear_face *face)
+{
+    if (s->shade != SHADE_FLAT)
+        return 0xffffffffu;
+    struct smear_color color;
+    smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
+    return smear_color_pack(&color, d->shading.linear);
+}
+
+struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
+{
+    struct smear_face face = { back, NULL, 65536u };
+    if (d->mesh->face_color != NULL)
+        face.color = d->mesh->face_color + 4 * triangle;
+    if (d->shading.lit && d->mesh->normal == NULL) {
+        const int16_t *p = d->at.position;
+        const uint16_t *index = d->mesh->index + 3 * triangle;
+        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
+                                       p + 3 * index[back ? 1 : 2]);
+    }
+    return face;
+}

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT */
+/* record.h - what both assemblers share: a draw on its way into the store, its vertex records, its faces. */
+#ifndef SMEAR_RECORD_H
+#define SMEAR_RECORD_H
+
+#include "fixmath.h"
+#include "geometry.h"
+#include "light.h"
+#include "transform.h"
+
+/* ------------------------------------------------------------------ a draw */
+
+/* A transformed vertex, remembered under its index: direct mapped. */
+struct smear_cached_vertex {
+    uint32_t tag;                   /* draw serial << 16 | vertex index */
+    uint32_t stored;                /* its record in the pool: word + 1, or 0 */
+    struct smear_homogeneous now;
+    struct smear_screen screen;
+    int32_t outcode;
+};
+
+struct smear_assembler {
+    struct smear_viewport viewport;
+    struct smear_geometry *geometry;
+    struct smear_cached_vertex *cache;
+    uint32_t cache_mask;
+    uint32_t serial;                /* of the draw within the context's life; tags of older draws never match */
+    bool cache_has_paths;           /* it holds vertices of assemble_path.c */
+    bool keep_motion;               /* the method reads velocities */
+    bool keep_paths;                /* the method looks at several instants */
+    uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
+    uint32_t triangles_drawn, triangles_dropped;
+};
+
+/* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh) where poses of a
+ * mesh that deforms are mixed. */
+struct smear_placement {
+    struct smear_projection now;
+    const int16_t *position;
+    int extra_count;                    /* further terms */
+    struct smear_projection extra[2];
+    const int16_t *extra_position[2];
+};
+
+/* One draw with everything that does not change from triangle to triangle. */
+struct smear_assembly {
+    const smear_mesh *mesh;
+    const smear_material *material;     /* never null */
+    uint16_t draw;                      /* its index, for the raster */
+    bool mirrored;                      /* negative determinant: the winding flips */
+    bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    uint8_t moves;                      /* as smear_segment.moves */
+    struct smear_placement at;          /* the instant that is drawn */
+    struct smear_projection pose[2];    /* velocity is measured between these (one: and the drawn instant) */
+    const int16_t *pose_position[2];
+    struct smear_placement key[2];      /* shutter open and close */
+    struct smear_shading shading;
+};
+
+static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
+{
+    smear_transform_vertex(h, &p->now, p->position + 3 * index);
+    for (int i = 0; i < p->extra_count; i++) {
+        struct smear_homogeneous term;
+        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
+        h->x += term.x;
+        h->y += term.y;
+        h->w += term.w;
+        h->distance += term.distance;
+    }
+}
+
+/* Transforms and projects; returns the outcode. Nothing is projected before the near plane. */
+static inline int placement_project(struct smear_screen *screen, struct smear_homogeneous *h,
+                                    const struct smear_placement *p, uint32_t index,
+                                    const struct smear_viewport *viewport)
+{
+    placement_transform(h, p, index);
+    if (h->distance < p->now.near_distance)
+        return OUT_NEAR | outcode_behind(h, viewport);
+    project(screen, &p->now, h, viewport);
+    int code = outcode_sides(screen, viewport);
+    return h->distance > p->now.far_distance ? code | OUT_FAR : code;
+}
+
+/* ------------------------------------------------------------------ records */
+
+static inline uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
+{
+    record[VERTEX_X] = (uint32_t)screen->x;
+    record[VERTEX_Y] = (uint32_t)screen->y;
+    record[VERTEX_DEPTH] = (uint32_t)screen->depth;
+    return record;
+}
+
+static inline void store_color(uint32_t *record, const uint16_t channel[4])
+{
+    record[0] = (uint32_t)channel[0] | (uint32_t)channel[1] << 16;
+    record[1] = (uint32_t)channel[2] | (uint32_t)channel[3] << 16;
+}
+
+static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
+{
+    *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
+}
+
+/* Starts a segment for more records of this draw; null when the table is full. */
+struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d);
+
+/* Light and colour of a vertex. `flip`: seen from behind. */
+void smear_record_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                        const uint8_t *face_color, uint32_t face_cosine, bool flip);
+
+/* ------------------------------------------------------------------ faces */
+
+/* What a triangle has in common. */
+struct smear_face {
+    bool back;                  /* seen from behind: double-sided */
+    const uint8_t *color;
+    uint32_t cosine;            /* flat light */
+};
+
+struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back);
+
+/* 0xAARRGGBB of segments with SHADE_FLAT; others: white. */
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
+                          const struct smear_face *face);
+
+/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when clockwise on the
+ * screen (y down). */
+static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
+{
+#if !SMEAR_HAS_MUL64
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small)
+         | ((uint32_t)y2 + small)) < 2 * small)
+        return x1 * y2 - x2 * y1;
+#endif
+    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
+}
+
+static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
+                       const struct smear_screen *c)
+{
+    return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
+}
+
+/* Pixels whose centres may be covered. */
+struct box {
+    int32_t x0, y0, x1, y1;
+};
+
+static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
+                                const struct smear_screen *c)
+{
+    struct box box;
+    box.x0 = (min_i32(a->x, min_i32(b->x, c->x)) + 127) >> 8;
+    box.x1 = (max_i32(a->x, max_i32(b->x, c->x)) + 127) >> 8;
+    box.y0 = (min_i32(a->y, min_i32(b->y, c->y)) + 127) >> 8;
+    box.y1 = (max_i32(a->y, max_i32(b->y, c->y)) + 127) >> 8;
+    return box;
+}
+
+/* Cuts a box to the part of the frame that is being filled. */
+static inline void box_cut(struct box *box, const struct smear_assembler *a)
+{
+    const struct smear_geometry *g = a->geometry;
+    box->x0 = max_i32(box->x0, 0);
+    box->x1 = min_i32(box->x1, a->viewport.width);
+    box->y0 = max_i32(box->y0, g->row_first * g->row_px);
+    box->y1 = min_i32(box->y1, min_i32(a->viewport.height, g->row_end * g->row_px));
+}
+
+static inline bool box_is_empty(const struct box *box)
+{
+    return box->x0 >= box->x1 || box->y0 >= box->y1;
+}
+
+static inline bool is_blend(const struct smear_assembly *d)
+{
+    return d->material->alpha == SMEAR_BLEND;
+}
+
+/* Vertices cannot be shared when a face's own light or colour goes into them. */
+static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
+{
+    return s->color == 0
+        || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
+}
+
+/* Room for one more triangle with three new vertices; opens a new segment where offsets run out. */
+static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
+                                              struct smear_segment *s, uint32_t entries)
+{
+    struct smear_geometry *g = a->geometry;
+    if (s == NULL || g->vertex_words + 3u * s->stride - s->base > 65536u) {
+        s = smear_record_segment(a, d);
+        if (s == NULL)
+            return NULL;
+    }
+    return geometry_has_room(g, 3u * s->stride, entries) ? s : NULL;
+}
+
+static inline uint32_t *row_list(struct smear_geometry *g, const struct smear_assembly *d, int row)
+{
+    return is_blend(d) ? &g->blend_last[row] : &g->opaque_last[row];
+}
+
+#endif

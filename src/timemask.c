@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: MIT */
+/* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of the exposure,
+ * into time slots over the still scene; then their mean. */
+#include "timemask.h"
+
+#include "shutter.h"
+#include "timemask_cover.h"
+#include "timemask_shade.h"
+#include "timemask_slots.h"
+#include "transform.h"
+
+/* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
+enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
+
+enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3, PIECES_LOG2 = 4 };
+
+enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
+
+/* What the blocks of a tile share. */
+struct job {
+    const struct smear_moving_tile *tile;
+    const struct smear_timemask_settings *settings;
+    struct timemask_slots slots;
+    uint32_t *list;                             /* depth code, then place in the tile's list from `first` on */
+    uint32_t listed, first, next;
+    int32_t segments_log2;
+    int32_t slots_log2;                         /* of a segment */
+    int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
+    int32_t x, y, width, height;                /* the block */
+    bool even;                                  /* slots are */
+    uint32_t fragments;
+};
+
+/* A moving triangle, looked up. */
+struct mover {
+    const struct smear_path_bounds *bounds;
+    const struct smear_triangle *triangle;
+    const struct smear_segment *segment;
+    const int32_t *record[3];
+};
+
+static void mover_take(struct mover *m, const struct job *j, uint32_t i)
+{
+    const struct smear_geometry *g = j->tile->frame->geometry;
+    uint32_t triangle = j->tile->mover[i].triangle;
+    m->bounds = geometry_bounds(g, triangle);
+    m->triangle = geometry_triangle(g, triangle);
+    m->segment = &g->segment[m->triangle->segment];
+    for (int k = 0; k < 3; k++)
+        m->record[k] = geometry_vertex(g, m->segment, m->triangle->vertex[k]);
+}
+
+/* ------------------------------------------------------------------ order */
+
+/* Shell sort, greatest first. */
+static void sort_down(uint32_t *a, uint32_t n)
+{
+    static const uint8_t gaps[] = { 57, 23, 10, 4, 1 };
+    for (uint32_t k = 0; k < sizeof gaps; k++) {
+        uint32_t gap = gaps[k];
+        for (uint32_t i = gap; i < n; i++) {
+            uint32_t key = a[i], at = i;
+            for (; at >= gap && a[at - gap] < key; at -= gap)
+                a[at] = a[at - gap];
+            a[at] = key;
+        }
+    }
+}
+
+/* Lists the tile's movers from `next` on, as many as there is room for, the nearest first. What is merged in a pixel is
+ * hardly ever hidden by what comes later then. */
+static void list_movers(struct job *j)
+{
+    const struct smear_moving_tile *t = j->tile;
+    j->first = j->next;
+    j->listed = 0;
+    for (; j->next < t->mover_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
+        if (mover_is_in(&t->mover[j->next], t->column))
+            j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16 | (65535u - (j->next - j->first));
+    sort_down(j->list, j->listed);
+}
+
+static inline uint32_t listed_mover(const struct job *j, uint32_t i)
+{
+    return j->first + 65535u - (j->list[i] & 0xffffu);
+}
+
+/* ------------------------------------------------------------------ segments */
+
+/* How far the shutter's slots lie off an even course within one of 2^log2 segments, q16 of the exposure. */
+static int32_t shutter_bend(const struct smear_shutter *s, int log2)
+{
+    int step = SHUTTER_SLOTS >> log2;
+    int32_t worst = 0;
+    for (int first = 0; first < SHUTTER_SLOTS; first += step) {
+        int32_t from = s->time[first], length = s->time[first + step] - from;
+        for (int i = 1; i < step; i++)
+            worst = max_i32(worst, abs_i32(s->time[first + i] - from - (length * i >> (5 - log2))));
+    }
+    return worst;
+}
+
+/* The fewest segments that do for all triangles of the tile, of the whole exposure. */
+static void choose_segments(struct job *j)
+{
+    const struct smear_moving_tile *t = j->tile;
+    int32_t bend = 0, travel = 0;               /* q8 px */
+    for (uint32_t i = 0; i < t->mover_count; i++) {
+        const struct smear_path_bounds *b = geometry_bounds(t->frame->geometry, t->mover[i].triangle);
+        if (mover_is_in(&t->mover[i], t->column) && b->piece == 0) {
+            travel = max_i32(travel, b->travel << 4);
+            bend = max_i32(bend, b->bend << 3);
+        }
+    }
+    bend >>= 2;                                 /* what edges that follow parabolas leave of it */
+    int log2 = 0;
+    while (log2 < SEGMENTS_LOG2_MAX
+           && (bend >> (2 * log2) > j->settings->bend
+               || (!j->even && (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend)))
+        log2++;
+    j->segments_log2 = log2;
+    j->slots_log2 = j->slots.slots_log2 - log2;
+    for (int i = 0; i <= 1 << log2; i++)
+        j->time[i] = t->shutter->time[i * (SHUTTER_SLOTS >> log2)];
+}
+
+/* ------------------------------------------------------------------ triangles */
+
+static void pose_at(struct timemask_pose *p, const struct job *j, const struct mover *m, int32_t time)
+{
+    int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
+    for (int i = 0; i < 3; i++) {
+        int32_t place[3];
+        path_at(place, m->record[i], m->segment, time);
+        p->x[i] = place[0] - x;
+        p->y[i] = place[1] - y;
+        p->depth[i] = clamp_i32(place[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);      /* a parabola overshoots */
+    }
+}
+
+/* Rows of the still scene. */
+static inline uint32_t still_at(const struct smear_plane_rows *r, const struct smear_raster_target *t, int32_t x, int32_t y)
+{
+    int32_t slot = r->slot0 + (y - t->y0);
+    if (slot >= r->ring)
+        slot -= r->ring;
+    return (uint32_t)(slot * r->stride + x - r->x0);
+}
+
+/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much nearer it is
+ * in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
+static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, int32_t from, int32_t count)
+{
+    int32_t end = begin + 2 * slope * (count - 1);
+    if (begin > 0 && end > 0)
+        return UINT32_MAX >> (32 - count) << from;
+    if (begin <= 0 && end <= 0)
+        return 0;
+    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
+    return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
+}
+
+/* What fragments of a triangle in a segment share. */
+struct painter {
+    struct job *j;
+    const struct timemask_shade *shade;
+    uint32_t kept[2];           /* slopes of depth codes as they are kept, below and from code 32768 */
+    int32_t slope[2];
+    int32_t first;              /* slot */
+    int32_t last_slot;          /* of the exposure, less 2 `first` */
+    int32_t time_shift;         /* from twice a slot to time */
+};
+
+/* The fragments of a row of runs. */
+SMEAR_INLINE void paint_row(const struct painter *p, int32_t y, const uint32_t *run, int32_t n, const uint16_t *still,
+                            bool plain)
+{
+    const struct timemask_shade *s = p->shade;
+    struct timemask_slots *slots = &p->j->slots;
+    const struct timemask_here row = timemask_here(&s->depth, 0, y);
+    for (int32_t i = 0; i < n; i++) {
+        int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
+        const struct timemask_here here = { add_wrap(row.at, mul_wrap(s->depth.dx, x)),
+                                            add_wrap(row.change, mul_wrap(s->depth.change_dx, x)) };
+        int32_t time = ((from + to) << p->time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
+        int32_t code = timemask_code(clamp_i32(timemask_value(&s->depth, &here, time), s->depth_low, s->depth_high));
+        int32_t high = code >> 15, slope = p->slope[high], reach = abs_i32(slope) * (to - from - 1) >> 5;
+        struct timemask_fragment f;
+        f.high = code + reach;
+        if (f.high <= still[x])
+            continue;
+        f.low = max_i32(code - reach, 0);
+        f.mask = UINT32_MAX >> (32 - (to - from)) << (p->first + from);
+        if (f.low <= still[x]) {
+            f.mask = slots_before_still((code - still[x]) * 32 - slope * (to - from - 1), slope, p->first + from, to - from);
+            if (f.mask == 0)
+                continue;
+        }
+        /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
+        f.depth = code + (slope * (p->last_slot - (from + to - 1)) >> 5);
+        f.slope = slope;
+        f.color = p->kept[high];
+        if ((uint32_t)f.depth > 65535u) {
+            f.depth = code;
+            f.slope = 0;
+            f.color = 0;
+        }
+        f.color |= plain ? s->color : smear_timemask_color(s, y, run[i]);
+        timemask_slots_add(slots, (uint32_t)(y * TIMEMASK_WIDTH + x), &f);
+        p->j->fragments++;
+    }
+}
+
+/* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
+static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3], int32_t first,
+                         int32_t slots_log2)
+{
+    const struct smear_raster_target *still = &j->tile->still;
+    struct timemask_cover c;
+    struct timemask_shade s;
+    uint32_t run[TIMEMASK_RUNS];
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
+        return;
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
+    struct painter p = { .j = j, .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
+                         .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
+    for (int i = 0; i < 2; i++) {
+        p.kept[i] = smear_timemask_slope(s.slope[i]) << 24;
+        p.slope[i] = timemask_slope_of(p.kept[i]);
+    }
+    const bool plain = !s.gouraud && s.sampler == NULL;
+    for (int32_t y = c.y0; y < c.y1; y++) {
+        int32_t n = smear_timemask_row(&c, y, run);
+        const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
+        if (plain)
+            paint_row(&p, y, run, n, depth, true);
+        else
+            paint_row(&p, y, run, n, depth, false);
+    }
+}
+
+static void draw_whole(struct job *j, const struct mover *m)
+{
+    struct timemask_pose pose[3];
+    pose_at(&pose[0], j, m, j->time[0]);
+    for (int i = 0; i < 1 << j->segments_log2; i++) {
+        const struct timemask_pose *poses[3] = { &pose[i & 1 ? 2 : 0], &pose[1], &pose[i & 1 ? 0 : 2] };
+        pose_at(&pose[1], j, m, (j->time[i] + j->time[i + 1]) >> 1);
+        pose_at(&pose[i & 1 ? 0 : 2], j, m, j->time[i + 1]);
+        draw_segment(j, m, poses, i << j->slots_log2, j->slots_log2);
+    }
+}
+
+/* One that is there for a piece of the exposure: a segment of its slots, where slots are even and there is one at least;
+ * else as it is in the middle of each slot. */
+static void draw_piece(struct job *j, const struct mover *m)
+{
+    struct timemask_pose pose[3];
+    const struct timemask_pose *poses[3] = { &pose[0], &pose[1], &pose[2] };
+    int32_t slots = 1 << j->slots.slots_log2;
+    if (slots >= PATH_PIECES && j->even) {
+        for (int i = 0; i < 3; i++)
+            pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
+        draw_segment(j, m, poses, (m->bounds->piece - 1) * (slots / PATH_PIECES), j->slots.slots_log2 - PIECES_LOG2);
+        return;
+    }
+    poses[1] = poses[2] = &pose[0];
+    for (int32_t slot = 0; slot < slots; slot++) {
+        int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
+        if (!path_piece_time(&time, m->bounds->piece))
+            continue;
+        pose_at(&pose[0], j, m, time);
+        draw_segment(j, m, poses, slot, 0);
+    }
+}
+
+static void draw_mover(struct job *j, uint32_t i)
+{
+    struct mover m;
+    mover_take(&m, j, i);
+    const struct smear_path_bounds *b = m.bounds;
+    if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
+        return;
+    if (b->piece == 0)
+        draw_whole(j, &m);
+    else
+        draw_piece(j, &m);
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+static void finish_block(const struct job *j)
+{
+    const struct smear_moving_tile *t = j->tile;
+    const struct smear_raster_target *still = &t->still;
+    for (int32_t y = 0; y < j->height; y++) {
+        const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
+        uint32_t *out = t->out + (j->y + y - still->y0) * t->tile + (j->x - still->x0);
+        for (int32_t x = 0; x < j->width; x++) {
+            uint32_t at = (uint32_t)(y * TIMEMASK_WIDTH + x);
+            out[x] = j->slots.count[at] == 0 ? color[x] : smear_timemask_slots_mean(&j->slots, at, color[x]);
+        }
+    }
+}
+
+/* Log2 of the rows of a block that the memory is enough for. */
+static int height_log2(uint32_t work_bytes)
+{
+    int log2 = HEIGHT_LOG2;
+    while (work_bytes != 0 && log2 > 0
+           && timemask_slots_bytes((uint32_t)TIMEMASK_WIDTH << log2) + LISTED * sizeof(uint32_t) > work_bytes)
+        log2--;
+    return log2;
+}
+
+size_t smear_timemask_work(int32_t tile)
+{
+    (void)tile;
+    return timemask_slots_bytes(TIMEMASK_WIDTH * TIMEMASK_HEIGHT) + LISTED * sizeof(uint32_t);
+}
+
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
+{
+    const int log2 = height_log2(t->work_bytes), height = 1 << log2;
+    struct job j = { .tile = t, .settings = settings, .list = t->work };
+    smear_timemask_slots_place(&j.slots, j.list + LISTED, WIDTH_LOG2 + log2,
+                               31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
+    j.even = smear_shutter_is_box(t->shutter);
+    choose_segments(&j);
+    list_movers(&j);
+    for (j.y = t->still.y0; j.y < t->still.y1; j.y += height)
+        for (j.x = t->still.x0; j.x < t->still.x1; j.x += TIMEMASK_WIDTH) {
+            j.width = min_i32(t->still.x1 - j.x, TIMEMASK_WIDTH);
+            j.height = min_i32(t->still.y1 - j.y, height);
+            smear_timemask_slots_clear(&j.slots);
+            if (j.first != 0) {         /* did not fit at once: from the start */
+                j.next = 0;
+                list_movers(&j);
+            }
+            for (;;) {
+                for (uint32_t i = 0; i < j.listed; i++)
+                    draw_mover(&j, listed_mover(&j, i));
+                if (j.next == t->mover_count)
+                    break;
+                list_movers(&j);
+            }
+            finish_block(&j);
+        }
+    return j.fragments;
+}

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT */
+/* chart.h - speed against accuracy: every setting of every method on every scene of the suite.
+ *
+ *     chart_settings.c   what is measured, one line per setting
+ *     chart_measure.c    measures it
+ *     chart_csv.c        chart.csv, written and read
+ *     chart_means.c      means over groups of scenes; which points lie on the frontier
+ *     chart_bars.c       the bars, met or missed
+ *     chart_tables.c     tables for the terminal and in Markdown
+ *     chart_plot.c       pictures, made of chart_panel.c (svg.c draws, labels.c finds room)
+ *     chart_command.c    options and progress
+ *
+ * Cost is instructions per frame relative to the sharp frame (`none`) of the same scene under the
+ * same condition: one thread, nothing kept between frames. Error is measured against 1024 exact
+ * instants (truth.h) at the frame that stands for the scene; flicker is the RMS of
+ * E(t + 1/8 frame) - E(t), where E = picture - truth. Shutter 180 degrees, centred. */
+#ifndef SMEAR_BENCH_CHART_H
+#define SMEAR_BENCH_CHART_H
+
+#include "../failure.h"
+#include "count.h"
+#include "kinds.h"
+#include "take.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* ------------------------------------------------------------------ what is measured */
+
+struct chart_condition {
+    const char *light, *poses;  /* as options of the command line */
+    bool linear, previous;
+    const char *what;
+};
+
+enum { CHART_CONDITIONS = 3, CHART_MAIN = 0 };
+extern const struct chart_condition chart_conditions[CHART_CONDITIONS];
+
+/* Settings of one method that differ in one number are joined by a line. */
+enum chart_mark { MARK_CIRCLE, MARK_SQUARE, MARK_TRIANGLE, MARK_DIAMOND, MARK_CROSS, MARK_STAR };
+
+struct chart_curve {
+    const char *name;           /* as a stranger should read it */
+    const char *method;         /* where there is little room */
+    const char *color;
+    enum chart_mark mark;
+    bool bold;
+};
+
+extern const struct chart_curve chart_curves[];
+extern const int chart_curve_count;
+
+struct chart_setting {
+    int curve;                  /* index, see chart_settings.c */
+    const char *name;           /* starts with the method's name */
+    const char *label;          /* beside its mark; null: the mark is small */
+    smear_method method;
+    int samples, reconstruct, target;
+    bool everywhere;            /* under all conditions; else under the main one only */
+};
+
+enum { CHART_MAX_SETTINGS = 64 };
+extern const struct chart_setting chart_settings[];
+extern const int chart_setting_count;
+extern const int chart_none;    /* the setting that cost is relative to */
+
+/* -1 when there is none. */
+int chart_find_setting(const char *name);
+int chart_find_condition(const char *light, const char *poses);
+
+/* The number of a take in the group "chart", and the other way round. */
+int chart_index(int condition, int kind, int setting);
+bool chart_take(int index, struct take *out);
+
+/* ------------------------------------------------------------------ what came out */
+
+struct chart_value {
+    bool known;
+    double pixels, instructions;
+    double rmse, flip, ssim;    /* against the truth rounded to 8 bits, as `smear compare` says */
+    double rmse_mean;           /* against the truth as it is */
+    double flicker;             /* likewise, codes */
+    double ms;                  /* wall clock; 0: not measured */
+    uint32_t crc;               /* of the picture */
+    double arena;               /* bytes of the context */
+};
+
+struct chart {
+    struct chart_value value[CHART_CONDITIONS][KINDS][CHART_MAX_SETTINGS];
+};
+
+/* ------------------------------------------------------------------ measuring */
+
+struct chart_choice {
+    bool condition[CHART_CONDITIONS], kind[KINDS], setting[CHART_MAX_SETTINGS];
+};
+
+/* Measured under its conditions, and chosen. */
+bool chart_is_wanted(const struct chart_choice *choice, int condition, int kind, int setting);
+
+struct chart_measuring {
+    struct counter counter;
+    const char *folder;         /* of truths */
+    int jobs;                   /* processes at a time */
+    bool time;                  /* the clock on the wall, too */
+    /* Called after each scene, never twice at once; false ends the run. */
+    bool (*progress)(void *user, int done, int all, const char *what, struct failure *f);
+    void *user;
+};
+
+/* Fills in what is chosen and not known yet. */
+bool chart_measure(struct chart *chart, const struct chart_choice *choice,
+                   const struct chart_measuring *how, struct failure *f);
+
+/* ------------------------------------------------------------------ files */
+
+/* `program` is a number that stands for the program that measured. Reading skips lines of other
+ * programs unless it is null; a file that is not there is empty. */
+bool chart_write_csv(const struct chart *chart, const struct chart_choice *choice,
+                     uint32_t program, const char *path, struct failure *f);
+bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *path,
+                    struct failure *f);
+
+/* ------------------------------------------------------------------ means and frontiers */
+
+/* Scenes over which means are taken. Geometric, but for SSIM; errors below 0.01 count as 0.01. */
+enum chart_set { SET_OBJECT, SET_CAMERA, SET_MOVING, SET_STILL, CHART_SETS };
+
+struct chart_mean {
+    bool known;                 /* on every scene of the set */
+    int scenes;
+    double cost, rmse, rmse_mean, flip, ssim, flicker;
+    double time;                /* relative to `none`; 0: not measured */
+    double worst;               /* rmse */
+    int worst_kind;
+};
+
+bool chart_set_has(enum chart_set set, int kind);
+struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum chart_set set,
+                                int setting);
+
+/* Relative to `none`; 0 when either is not known. */
+double chart_cost(const struct chart *chart, int condition, int kind, int setting);
+double chart_time(const struct chart *chart, int condition, int kind, int setting);
+
+/* A point of a plane of cost and error; `setting` is its setting. */
+struct chart_point {
+    int setting;
+    double cost, error;
+    bool on_frontier;           /* none is as cheap and as good, and better in one of both */
+};
+
+/* All that is known of one scene, or of the means of a set; returns how many. */
+int chart_points_of_kind(const struct chart *chart, int condition, int kind,
+                         struct chart_point out[CHART_MAX_SETTINGS]);
+int chart_points_of_set(const struct chart *chart, int condition, enum chart_set set,
+                        struct chart_point out[CHART_MAX_SETTINGS]);
+
+/* ------------------------------------------------------------------ reports */
+
+struct chart_verdict {
+    int met, missed, unknown;
+};
+
+void chart_print_means(FILE *out, const struct chart *chart, int condition);
+void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
+/* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
+void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
+                      struct chart_verdict *verdict);
+bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
+
+/* object.svg, camera.svg, all.svg: means; both.svg: the first two side by side; scenes.svg: each
+ * scene for itself. Those for which nothing is known are left out. */
+bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
+
+/* The command `chart`, arguments behind its name. */
+int chart_command(const char *program, int count, char **text);
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* chart_means.c - means over groups of scenes, and frontiers. */
+#include "chart.h"
+
+#include "sheet.h"
+
+static const double least_error = 0.01;     /* so that geometric means stay finite */
+
+bool chart_set_has(enum chart_set set, int kind)
+{
+    switch (set) {
+    case SET_OBJECT: return kinds[kind].group == GROUP_OBJECT;
+    case SET_CAMERA: return kinds[kind].group == GROUP_CAMERA;
+    case SET_MOVING: return kinds[kind].group != GROUP_STILL;
+    default:         return kinds[kind].group == GROUP_STILL;
+    }
+}
+
+double chart_cost(const struct chart *chart, int condition, int kind, int setting)
+{
+    const struct chart_value *value = chart->value[condition][kind];
+    if (!value[setting].known || !value[chart_none].known)
+        return 0.0;
+    return value[setting].instructions / value[chart_none].instructions;
+}
+
+double chart_time(const struct chart *chart, int condition, int kind, int setting)
+{
+    const struct chart_value *value = chart->value[condition][kind];
+    return value[chart_none].ms > 0.0 ? value[setting].ms / value[chart_none].ms : 0.0;
+}
+
+static double least(double error)
+{
+    return error > least_error ? error : least_error;
+}
+
+struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum chart_set set,
+                                int setting)
+{
+    struct chart_mean mean = { .known = true };
+    double cost[KINDS], rmse[KINDS], rmse_mean[KINDS], flip[KINDS], flicker[KINDS], time[KINDS];
+    bool timed = true;
+    int n = 0;
+    for (int k = 0; k < KINDS; k++) {
+        const struct chart_value *v = &chart->value[condition][k][setting];
+        if (!chart_set_has(set, k))
+            continue;
+        cost[n] = chart_cost(chart, condition, k, setting);
+        if (cost[n] == 0.0)
+            return (struct chart_mean){ .known = false };
+        rmse[n] = least(v->rmse);
+        rmse_mean[n] = least(v->rmse_mean);
+        flip[n] = least(100.0 * v->flip) / 100.0;
+        flicker[n] = least(v->flicker);
+        time[n] = chart_time(chart, condition, k, setting);
+        timed = timed && time[n] > 0.0;
+        mean.ssim += v->ssim;
+        if (v->rmse >= mean.worst) {
+            mean.worst = v->rmse;
+            mean.worst_kind = k;
+        }
+        n++;
+    }
+    mean.scenes = n;
+    mean.cost = geometric_mean(cost, n);
+    mean.rmse = geometric_mean(rmse, n);
+    mean.rmse_mean = geometric_mean(rmse_mean, n);
+    mean.flip = geometric_mean(flip, n);
+    mean.flicker = geometric_mean(flicker, n);
+    mean.time = timed ? geometric_mean(time, n) : 0.0;
+    mean.ssim /= n;
+    return mean;
+}
+
+/* ------------------------------------------------------------------ frontiers */
+
+static bool beats(const struct chart_point *a, const struct chart_point *b)
+{
+    return a->cost <= b->cost && a->error <= b->error
+        && (a->cost < b->cost || a->error < b->error);
+}
+
+static void mark_frontier(struct chart_point *point, int count)
+{
+    for (int i = 0; i < count; i++) {
+        point[i].on_frontier = true;
+        for (int j = 0; j < count; j++)
+            if (beats(&point[j], &point[i]))
+                point[i].on_frontier = false;
+    }
+}
+
+int chart_points_of_kind(const struct chart *chart, int condition, int kind,
+                         struct chart_point out[CHART_MAX_SETTINGS])
+{
+    int n = 0;
+    for (int s = 0; s < chart_setting_count; s++) {
+        double cost = chart_cost(chart, condition, kind, s);
+        if (cost > 0.0)
+            out[n++] = (struct chart_point){ s, cost, chart->value[condition][kind][s].rmse,
+                                             false };
+    }
+    mark_frontier(out, n);
+    return n;
+}
+
+int chart_points_of_set(const struct chart *chart, int condition, enum chart_set set,
+                        struct chart_point out[CHART_MAX_SETTINGS])
+{
+    int n = 0;
+    for (int s = 0; s < chart_setting_count; s++) {
+        struct chart_mean mean = chart_mean_of(chart, condition, set, s);
+        if (mean.known)
+            out[n++] = (struct chart_point){ s, mean.cost, mean.rmse, false };
+    }
+    mark_frontier(out, n);
+    return n;
+}

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+/* chart_panel.c - see chart_panel.h. Drawn from the ground up: shade, grid, frontier, curves,
+ * labels. */
+#include "chart_panel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char grid[] = "#e5e7eb", shade[] = "#f6f7f9", edge[] = "#9ca3af";
+
+/* ------------------------------------------------------------------ scales */
+
+static double at(const struct axis *axis, double value)
+{
+    return axis->from + (axis->to - axis->from) * log(value / axis->low)
+                      / log(axis->high / axis->low);
+}
+
+static const double ticks[] = { 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50,
+                                100, 200 };
+enum { TICKS = sizeof ticks / sizeof *ticks };
+
+/* Powers of ten, twos and fives always; the others where there is room. */
+static bool is_labelled(const struct axis *axis, int tick, double room)
+{
+    double digit = ticks[tick] / pow(10.0, floor(log10(ticks[tick] * 1.001)));
+    bool main = fabs(digit - 1.0) < 0.1 || fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1;
+    if (main)
+        return true;
+    double before = fabs(at(axis, ticks[tick]) - at(axis, ticks[tick - 1]));
+    double after = fabs(at(axis, ticks[tick + 1]) - at(axis, ticks[tick]));
+    return fmin(before, after) >= room;
+}
+
+static bool is_on(const struct axis *axis, double value)
+{
+    return value >= axis->low * 0.999 && value <= axis->high * 1.001;
+}
+
+static void include(double *low, double *high, double value)
+{
+    *low = fmin(*low, value);
+    *high = fmax(*high, value);
+}
+
+void panel_fit(struct panel *panel, int panels)
+{
+    double x[2] = { INFINITY, 0.0 }, y[2] = { INFINITY, 0.0 };
+    for (int i = 0; i < panels; i++)
+        for (int k = 0; k < panel[i].points; k++) {
+            include(&x[0], &x[1], panel[i].point[k].cost);
+            include(&y[0], &y[1], panel[i].point[k].error);
+        }
+    for (int i = 0; i < panels; i++) {
+        const struct box *box = &panel[i].box;
+        panel[i].x = (struct axis){ x[0] / 1.12, x[1] * 1.15, box->x, box->x + box->width };
+        panel[i].y = (struct axis){ y[0] / 1.25, y[1] * 1.25, box->y + box->height, box->y };
+    }
+}
+
+static void draw_grid(struct svg *svg, const struct panel *p)
+{
+    const struct svg_style style = { grid, 1.0, NULL, 0.0 };
+    const struct svg_font font = { .size = p->tick_size, .color = PANEL_INK };
+    const struct box *b = &p->box;
+    char text[32];
+    for (int i = 0; i < TICKS; i++) {
+        if (is_on(&p->x, ticks[i])) {
+            double x = at(&p->x, ticks[i]);
+            svg_line(svg, x, b->y, x, b->y + b->height, style);
+            snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
+            if (is_labelled(&p->x, i, 2.6 * p->tick_size))
+                svg_text(svg, x, b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
+        }
+        if (is_on(&p->y, ticks[i])) {
+            double y = at(&p->y, ticks[i]);
+            svg_line(svg, b->x, y, b->x + b->width, y, style);
+            snprintf(text, sizeof text, "%g", ticks[i]);
+            if (is_labelled(&p->y, i, 1.4 * p->tick_size))
+                svg_text(svg, b->x - 6.0, y + 0.35 * p->tick_size, ANCHOR_END, font, text);
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ frontier */
+
+static int compare_cost(const void *a, const void *b)
+{
+    const struct chart_point *p = a, *q = b;
+    return p->cost != q->cost ? (p->cost > q->cost) - (p->cost < q->cost)
+                              : (p->error < q->error) - (p->error > q->error);
+}
+
+/* A staircase from the top edge to the right one; all above it is beaten. */
+static int staircase(const struct panel *p, double *x, double *y)
+{
+    struct chart_point point[CHART_MAX_SETTINGS];
+    int steps = 0, n = 0;
+    for (int i = 0; i < p->points; i++)
+        if (p->point[i].on_frontier)
+            point[steps++] = p->point[i];
+    qsort(point, (size_t)steps, sizeof *point, compare_cost);
+    for (int i = 0; i < steps; i++) {
+        x[n] = at(&p->x, point[i].cost);
+        y[n] = i > 0 ? at(&p->y, point[i - 1].error) : p->box.y;
+        n++;
+        x[n] = at(&p->x, point[i].cost);
+        y[n++] = at(&p->y, point[i].error);
+    }
+    x[n] = p->box.x + p->box.width;
+    y[n] = y[n - 1];
+    return n + 1;
+}
+
+static void draw_frontier(struct svg *svg, const struct panel *p, bool area)
+{
+    double x[2 * CHART_MAX_SETTINGS + 2], y[2 * CHART_MAX_SETTINGS + 2];
+    int n = staircase(p, x, y);
+    if (area) {
+        x[n] = p->box.x + p->box.width;
+        y[n] = p->box.y;
+        svg_area(svg, x, y, n + 1, shade);
+    } else {
+        bool large = p->name_size > 0.0;
+        svg_polyline(svg, x, y, n, (struct svg_style){ edge, large ? 1.6 : 1.0,
+                                                       large ? "5,4" : "3,2", 0.0 });
+    }
+}
+
+/* ------------------------------------------------------------------ curves */
+
+/* The points of a curve, dearer ones last; pixels. */
+static int curve_points(const struct panel *p, int curve, double *x, double *y)
+{
+    struct chart_point point[CHART_MAX_SETTINGS];
+    int n = 0;
+    for (int i = 0; i < p->points; i++)
+        if (chart_settings[p->point[i].setting].curve == curve)
+            point[n++] = p->point[i];
+    qsort(point, (size_t)n, sizeof *point, compare_cost);
+    for (int i = 0; i < n; i++) {
+        x[i] = at(&p->x, point[i].cost);
+        y[i] = at(&p->y, point[i].error);
+    }
+    return n;
+}
+
+static double mark_size(const struct panel *p, const struct chart_point *point)
+{
+    const struct chart_setting *setting = &chart_settings[point->setting];
+    double size = setting->label != NULL ? p->mark : 0.45 * p->mark;
+    return chart_curves[setting->curve].bold && setting->label != NULL && p->name_size > 0.0
+             ? 1.25 * size : size;
+}
+
+/* Bold curves last, so that they lie on top. */
+static void draw_curves(struct svg *svg, const struct panel *p)
+{
+    double x[CHART_MAX_SETTINGS], y[CHART_MAX_SETTINGS];
+    for (int bold = 0; bold < 2; bold++)
+        for (int c = 0; c < chart_curve_count; c++) {
+            const struct chart_curve *curve = &chart_curves[c];
+            if (curve->bold != (bold == 1))
+                continue;
+            int n = curve_points(p, c, x, y);
+            if (n > 1)
+                svg_polyline(svg, x, y, n, (struct svg_style){
+                    curve->color, (curve->bold ? 0.5 : 0.28) * p->mark, NULL, 0.0 });
+            for (int i = 0; i < p->points; i++)
+                if (chart_settings[p->point[i].setting].curve == c)
+                    svg_mark(svg, curve->mark, at(&p->x, p->point[i].cost),
+                             at(&p->y, p->point[i].error), mark_size(p, &p->point[i]),
+                             curve->color, p->point[i].on_frontier || p->mark < 3.0
+                                 || chart_settings[p->point[i].setting].label == NULL);
+        }
+}
+
+/* ------------------------------------------------------------------ labels */
+
+enum { MOST_OBSTACLES = 8192, MOST_LABELS = 2 * CHART_MAX_SETTINGS };
+
+struct lettering {
+    struct obstacle obstacle[MOST_OBSTACLES];
+    int obstacles;
+    struct label label[MOST_LABELS];
+    struct svg_font font[MOST_LABELS];
+    const char *text[MOST_LABELS];
+    int labels;
+};
+
+static void add_obstacle(struct lettering *l, double x, double y, double half, double weight)
+{
+    if (l->obstacles < MOST_OBSTACLES)
+        l->obstacle[l->obstacles++] = (struct obstacle){
+            { x - half, y - half, 2.0 * half, 2.0 * half }, weight };
+}
+
+/* Small squares along a line. */
+static void add_line(struct lettering *l, const double *x, const double *y, int count,
+                     double weight)
+{
+    const double step = 3.0;
+    for (int i = 0; i + 1 < count; i++) {
+        double length = hypot(x[i + 1] - x[i], y[i + 1] - y[i]);
+        for (double d = 0.0; d < length; d += step)
+            add_obstacle(l, x[i] + (x[i + 1] - x[i]) * d / length,
+                         y[i] + (y[i + 1] - y[i]) * d / length, step / 2.0, weight);
+    }
+}
+
+static void add_obstacles(struct lettering *l, const struct panel *p)
+{
+    double x[2 * CHART_MAX_SETTINGS + 2], y[2 * CHART_MAX_SETTINGS + 2];
+    for (int c = 0; c < chart_curve_count; c++)
+        add_line(l, x, y, curve_points(p, c, x, y), 3.0);
+    add_line(l, x, y, staircase(p, x, y), 1.0);
+    for (int i = 0; i < p->points; i++)
+        add_obstacle(l, at(&p->x, p->point[i].cost), at(&p->y, p->point[i].error),
+                     1.2 * mark_size(p, &p->point[i]), 4.0);
+}
+
+static struct label *add_label(struct lettering *l, struct svg_font font, double gap,
+                               const char *text)
+{
+    int i = l->labels++;
+    l->font[i] = font;
+    l->text[i] = text;
+    l->label[i] = (struct label){ .width = svg_text_width(font, text) + 4.0,
+                                  .height = 1.15 * font.size, .gap = gap };
+    return &l->label[i];
+}
+
+static void add_anchor(struct label *label, double x, double y)
+{
+    if (label->anchors < LABEL_ANCHORS) {
+        label->anchor_x[label->anchors] = x;
+        label->anchor_y[label->anchors++] = y;
+    }
+}
+
+/* Beside any point of the curve or the middle of any of its lines, ends first. */
+static void add_names(struct lettering *l, const struct panel *p)
+{
+    double x[CHART_MAX_SETTINGS], y[CHART_MAX_SETTINGS];
+    for (int c = 0; c < chart_curve_count; c++) {
+        int n = curve_points(p, c, x, y);
+        if (n == 0)
+            continue;
+        struct label *label = add_label(l, (struct svg_font){
+            .size = p->name_size + (chart_curves[c].bold ? 1.5 : 0.0),
+            .color = chart_curves[c].color, .bold = true, .halo = true },
+            1.8 * p->mark, p->short_names ? chart_curves[c].method : chart_curves[c].name);
+        add_anchor(label, x[n - 1], y[n - 1]);
+        add_anchor(label, x[0], y[0]);
+        for (int i = 0; i + 1 < n; i++) {
+            add_anchor(label, (x[i] + x[i + 1]) / 2.0, (y[i] + y[i + 1]) / 2.0);
+            if (i > 0)
+                add_anchor(label, x[i], y[i]);
+        }
+    }
+}
+
+static void add_point_labels(struct lettering *l, const struct panel *p)
+{
+    for (int i = 0; i < p->points; i++) {
+        const struct chart_setting *s = &chart_settings[p->point[i].setting];
+        const struct chart_curve *curve = &chart_curves[s->curve];
+        if (s->label == NULL || s->label[0] == '\0')
+            continue;
+        struct label *label = add_label(l, (struct svg_font){
+            .size = p->name_size - (curve->bold ? 0.0 : 1.0), .color = curve->color,
+            .bold = curve->bold,
+            .halo = true }, 1.4 * p->mark, s->label);
+        add_anchor(label, at(&p->x, p->point[i].cost), at(&p->y, p->point[i].error));
+    }
+}
+
+static bool draw_labels(struct svg *svg, const struct panel *p, struct failure *f)
+{
+    struct lettering *l = calloc(1, sizeof *l);
+    const struct box *b = &p->box;
+    if (l == NULL)
+        return fail(f, "out of memory");
+    add_obstacles(l, p);
+    add_point_labels(l, p);
+    add_names(l, p);
+    struct box inside = { b->x + 3.0, b->y + 3.0, b->width - 6.0, b->height - 6.0 };
+    labels_place(l->label, l->labels, l->obstacle, l->obstacles, inside);
+    for (int i = 0; i < l->labels; i++) {
+        const struct label *label = &l->label[i];
+        double x = label->x + label->width / 2.0, y = label->y + label->height / 2.0;
+        if (label->distance > label->gap + 9.0)
+            svg_line(svg, label->anchor_x[label->anchor], label->anchor_y[label->anchor],
+                     fmin(fmax(label->anchor_x[label->anchor], label->x), label->x + label->width),
+                     fmin(fmax(label->anchor_y[label->anchor], label->y),
+                          label->y + label->height),
+                     (struct svg_style){ l->font[i].color, 0.8, NULL, 0.6 });
+        svg_text(svg, x, y + 0.36 * l->font[i].size, ANCHOR_MIDDLE, l->font[i], l->text[i]);
+    }
+    free(l);
+    return true;
+}
+
+bool panel_draw(struct svg *svg, const struct panel *p, struct failure *f)
+{
+    const struct box *b = &p->box;
+    draw_frontier(svg, p, true);
+    draw_grid(svg, p);
+    svg_rectangle(svg, b->x, b->y, b->width, b->height, "none", edge);
+    draw_frontier(svg, p, false);
+    draw_curves(svg, p);
+    return p->name_size == 0.0 || draw_labels(svg, p, f);
+}

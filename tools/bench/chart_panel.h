@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* chart_panel.h - one plane of error against cost, both on logarithmic scales, with the
+ * frontier. */
+#ifndef SMEAR_BENCH_CHART_PANEL_H
+#define SMEAR_BENCH_CHART_PANEL_H
+
+#include "chart.h"
+#include "labels.h"
+#include "svg.h"
+
+#define PANEL_INK "#1f2937"
+#define PANEL_PALE "#6b7280"
+
+struct axis {
+    double low, high;           /* values */
+    double from, to;            /* pixels */
+};
+
+struct panel {
+    struct box box;             /* of the plane itself */
+    struct chart_point point[CHART_MAX_SETTINGS];
+    int points;
+    struct axis x, y;
+    double mark;                /* size of marks */
+    double tick_size;           /* of fonts */
+    double name_size;           /* 0: neither names nor labels */
+    bool short_names;
+};
+
+/* Gives some panels one scale, which shows all of their points. */
+void panel_fit(struct panel *panel, int panels);
+
+bool panel_draw(struct svg *svg, const struct panel *panel, struct failure *f);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* chart_settings.c - what is measured. A new setting is a line here and nothing else. */
+#include "chart.h"
+
+#include <string.h>
+
+const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
+    { "encoded", "shutter", false, false, "encoded light, poses at shutter open and close" },
+    { "linear", "shutter", true, false, "linear light, poses at shutter open and close" },
+    { "encoded", "previous", false, true, "encoded light, poses of this frame and the last" },
+};
+
+/* Colours that people with colour-blindness tell apart, each with a mark of its own. */
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, SUBFRAMES, TIMEMASK, AUTO };
+
+const struct chart_curve chart_curves[] = {
+    [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
+    [ACCUMULATE] = { "accumulate: N whole frames", "accumulate", "#6b7280", MARK_SQUARE, false },
+    [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
+                    MARK_TRIANGLE, false },
+    [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
+    [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
+    [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
+    [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
+};
+const int chart_curve_count = sizeof chart_curves / sizeof *chart_curves;
+
+#define MEND (SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM)
+
+/* Codes, in the unit of smear_frame.target. */
+#define CODES(codes) ((int)((codes) * 64))
+
+const struct chart_setting chart_settings[] = {
+    { NONE, "none", "", SMEAR_NONE, .everywhere = true },
+
+    { ACCUMULATE, "accumulate 2", "2", SMEAR_ACCUMULATE, .samples = 2 },
+    { ACCUMULATE, "accumulate 4", "4", SMEAR_ACCUMULATE, .samples = 4, .everywhere = true },
+    { ACCUMULATE, "accumulate 8", "8", SMEAR_ACCUMULATE, .samples = 8, .everywhere = true },
+    { ACCUMULATE, "accumulate 16", "16", SMEAR_ACCUMULATE, .samples = 16, .everywhere = true },
+    { ACCUMULATE, "accumulate 32", "32", SMEAR_ACCUMULATE, .samples = 32 },
+
+    { PUBLISHED, "reconstruct 2", "2", SMEAR_RECONSTRUCT, .samples = 2 },
+    { PUBLISHED, "reconstruct 4", "4", SMEAR_RECONSTRUCT, .samples = 4 },
+    { PUBLISHED, "reconstruct 8", "8", SMEAR_RECONSTRUCT, .samples = 8, .everywhere = true },
+    { PUBLISHED, "reconstruct 16", "16", SMEAR_RECONSTRUCT, .samples = 16 },
+    { MENDED, "reconstruct 2 mended", "2", SMEAR_RECONSTRUCT, .samples = 2, .reconstruct = MEND },
+    { MENDED, "reconstruct 4 mended", "4", SMEAR_RECONSTRUCT, .samples = 4, .reconstruct = MEND },
+    { MENDED, "reconstruct 8 mended", "8", SMEAR_RECONSTRUCT, .samples = 8, .reconstruct = MEND,
+      .everywhere = true },
+    { MENDED, "reconstruct 16 mended", "16", SMEAR_RECONSTRUCT, .samples = 16,
+      .reconstruct = MEND },
+
+    { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
+    { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },
+    { SUBFRAMES, "subframes 16", "16", SMEAR_SUBFRAMES, .samples = 16 },
+    { SUBFRAMES, "subframes 32", "32", SMEAR_SUBFRAMES, .samples = 32, .everywhere = true },
+
+    { TIMEMASK, "timemask 8", "8", SMEAR_TIMEMASK, .samples = 8 },
+    { TIMEMASK, "timemask 16", "16", SMEAR_TIMEMASK, .samples = 16 },
+    { TIMEMASK, "timemask 32", "32", SMEAR_TIMEMASK, .samples = 32, .everywhere = true },
+
+    { AUTO, "auto 8", NULL, SMEAR_AUTO, .target = CODES(8) },
+    { AUTO, "auto 5.6", NULL, SMEAR_AUTO, .target = CODES(5.6) },
+    { AUTO, "auto draft", "draft", SMEAR_AUTO, .target = SMEAR_DRAFT, .everywhere = true },
+    { AUTO, "auto 2.8", NULL, SMEAR_AUTO, .target = CODES(2.8) },
+    { AUTO, "auto 2", NULL, SMEAR_AUTO, .target = CODES(2) },
+    { AUTO, "auto balanced", "balanced", SMEAR_AUTO, .target = SMEAR_BALANCED,
+      .everywhere = true },
+    { AUTO, "auto 1", NULL, SMEAR_AUTO, .target = CODES(1) },
+    { AUTO, "auto 0.7", NULL, SMEAR_AUTO, .target = CODES(0.7) },
+    { AUTO, "auto fine", "fine", SMEAR_AUTO, .target = SMEAR_FINE, .everywhere = true },
+    { AUTO, "auto 0.35", NULL, SMEAR_AUTO, .target = CODES(0.35) },
+    { AUTO, "auto 0.25", NULL, SMEAR_AUTO, .target = CODES(0.25) },
+};
+const int chart_setting_count = sizeof chart_settings / sizeof *chart_settings;
+const int chart_none = 0;
+
+_Static_assert(sizeof chart_settings / sizeof *chart_settings <= CHART_MAX_SETTINGS,
+               "more settings than a chart holds");
+
+int chart_find_setting(const char *name)
+{
+    for (int i = 0; i < chart_setting_count; i++)
+        if (strcmp(chart_settings[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+int chart_find_condition(const char *light, const char *poses)
+{
+    for (int i = 0; i < CHART_CONDITIONS; i++)
+        if (strcmp(chart_conditions[i].light, light) == 0
+            && strcmp(chart_conditions[i].poses, poses) == 0)
+            return i;
+    return -1;
+}
+
+int chart_index(int condition, int kind, int setting)
+{
+    return (condition * KINDS + kind) * chart_setting_count + setting;
+}
+
+bool chart_take(int index, struct take *out)
+{
+    int setting = index % chart_setting_count, kind = index / chart_setting_count % KINDS;
+    int condition = index / chart_setting_count / KINDS;
+    if (index < 0 || condition >= CHART_CONDITIONS)
+        return false;
+    const struct chart_setting *s = &chart_settings[setting];
+    *out = (struct take){
+        .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
+        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES,
+        .target = s->target, .format = SMEAR_XRGB8888,
+        .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
+        .linear = chart_conditions[condition].linear,
+        .shutter_poses = !chart_conditions[condition].previous
+    };
+    return true;
+}
+
+bool chart_is_wanted(const struct chart_choice *choice, int condition, int kind, int setting)
+{
+    return choice->condition[condition] && choice->kind[kind] && choice->setting[setting]
+        && (condition == CHART_MAIN || chart_settings[setting].everywhere);
+}

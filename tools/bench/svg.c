@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT */
+/* svg.c - writes SVG into memory, then into a file. */
+#include "svg.h"
+
+#include "../image/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void put_escaped(FILE *out, const char *text)
+{
+    for (; *text != '\0'; text++) {
+        if (*text == '&')
+            fputs("&amp;", out);
+        else if (*text == '<')
+            fputs("&lt;", out);
+        else if (*text == '>')
+            fputs("&gt;", out);
+        else
+            fputc(*text, out);
+    }
+}
+
+bool svg_begin(struct svg *svg, int width, int height, const char *title, struct failure *f)
+{
+    *svg = (struct svg){ NULL, NULL, 0 };
+    svg->out = open_memstream(&svg->text, &svg->size);
+    if (svg->out == NULL)
+        return fail(f, "out of memory");
+    fprintf(svg->out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+            "viewBox=\"0 0 %d %d\" role=\"img\" font-family=\"Helvetica, Arial, 'Liberation "
+            "Sans', sans-serif\">\n<title>", width, height, width, height);
+    put_escaped(svg->out, title);
+    fprintf(svg->out, "</title>\n<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n", width,
+            height);
+    return true;
+}
+
+bool svg_end(struct svg *svg, const char *path, struct failure *f)
+{
+    fprintf(svg->out, "</svg>\n");
+    bool ok = fclose(svg->out) == 0 || fail(f, "out of memory");
+    ok = ok && file_write(path, (const uint8_t *)svg->text, svg->size, f);
+    free(svg->text);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ lines */
+
+static void put_style(struct svg *svg, struct svg_style style)
+{
+    fprintf(svg->out, " fill=\"none\" stroke=\"%s\" stroke-width=\"%.4g\"", style.color,
+            style.width);
+    if (style.dash != NULL)
+        fprintf(svg->out, " stroke-dasharray=\"%s\"", style.dash);
+    if (style.opacity > 0.0)
+        fprintf(svg->out, " stroke-opacity=\"%.4g\"", style.opacity);
+}
+
+void svg_line(struct svg *svg, double x0, double y0, double x1, double y1, struct svg_style style)
+{
+    const double x[] = { x0, x1 }, y[] = { y0, y1 };
+    svg_polyline(svg, x, y, 2, style);
+}
+
+static void put_points(struct svg *svg, const double *x, const double *y, int count)
+{
+    for (int i = 0; i < count; i++)
+        fprintf(svg->out, "%s%.1f,%.1f", i > 0 ? " " : "", x[i], y[i]);
+}
+
+void svg_polyline(struct svg *svg, const double *x, const double *y, int count,
+                  struct svg_style style)
+{
+    fprintf(svg->out, "<polyline points=\"");
+    put_points(svg, x, y, count);
+    fprintf(svg->out, "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+    put_style(svg, style);
+    fprintf(svg->out, "/>\n");
+}
+
+void svg_area(struct svg *svg, const double *x, const double *y, int count, const char *fill)
+{
+    fprintf(svg->out, "<polygon points=\"");
+    put_points(svg, x, y, count);
+    fprintf(svg->out, "\" fill=\"%s\"/>\n", fill);
+}
+
+void svg_rectangle(struct svg *svg, double x, double y, double width, double height,
+                   const char *fill, const char *stroke)
+{
+    fprintf(svg->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
+            "stroke=\"%s\"/>\n", x, y, width, height, fill, stroke);
+}
+
+/* ------------------------------------------------------------------ marks */
+
+enum { MOST_CORNERS = 10 };
+
+static const double turn = 6.283185307179586;
+
+/* Corners on a circle; every second one of a star lies further in. */
+static int corners(enum chart_mark mark, double x, double y, double size, double *px, double *py)
+{
+    int count = mark == MARK_TRIANGLE ? 3 : mark == MARK_STAR ? 10 : 4;
+    double radius = size * (mark == MARK_TRIANGLE ? 1.25 : mark == MARK_STAR ? 1.45 : 1.3);
+    double start = mark == MARK_SQUARE ? turn / 8.0 : turn / 4.0;
+    for (int i = 0; i < count; i++) {
+        double angle = start + turn * i / count;
+        double r = mark == MARK_STAR && i % 2 == 1 ? 0.5 * radius : radius;
+        px[i] = x + r * cos(angle);
+        py[i] = y - r * sin(angle);
+    }
+    return count;
+}
+
+void svg_mark(struct svg *svg, enum chart_mark mark, double x, double y, double size,
+              const char *color, bool filled)
+{
+    double px[MOST_CORNERS], py[MOST_CORNERS];
+    const char *fill = filled ? color : "#ffffff";
+    if (mark == MARK_CIRCLE) {
+        fprintf(svg->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.2f\" fill=\"%s\" stroke=\"%s\" "
+                "stroke-width=\"1.6\"/>\n", x, y, size, fill, color);
+        return;
+    }
+    int count = corners(mark == MARK_CROSS ? MARK_SQUARE : mark, x, y, size, px, py);
+    if (mark == MARK_CROSS) {
+        const struct svg_style style = { color, 2.4, NULL, 0.0 };
+        svg_line(svg, px[0], py[0], px[2], py[2], style);
+        svg_line(svg, px[1], py[1], px[3], py[3], style);
+        return;
+    }
+    fprintf(svg->out, "<polygon points=\"");
+    put_points(svg, px, py, count);
+    fprintf(svg->out, "\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.6\" "
+            "stroke-linejoin=\"round\"/>\n", fill, color);
+}
+
+/* ------------------------------------------------------------------ text */
+
+/* Thousandths of the size, from space on. */
+static const unsigned short advance[95] = {
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584
+};
+
+double svg_text_width(struct svg_font font, const char *text)
+{
+    double sum = 0.0;
+    for (const unsigned char *p = (const unsigned char *)text; *p != '\0'; p++) {
+        if (*p >= 32 && *p < 127)
+            sum += advance[*p - 32];
+        else if (*p >= 192)     /* first byte of a longer character */
+            sum += 584;
+    }
+    return sum * font.size / 1000.0 * (font.bold ? 1.08 : 1.0);
+}
+
+static void put_font(struct svg *svg, struct svg_font font)
+{
+    fprintf(svg->out, " font-size=\"%.4g\" fill=\"%s\"", font.size, font.color);
+    if (font.bold)
+        fprintf(svg->out, " font-weight=\"bold\"");
+    if (font.italic)
+        fprintf(svg->out, " font-style=\"italic\"");
+    if (font.halo)
+        fprintf(svg->out, " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
+                "paint-order=\"stroke\"");
+}
+
+void svg_text(struct svg *svg, double x, double y, enum svg_anchor anchor, struct svg_font font,
+              const char *text)
+{
+    static const char *const anchors[] = { "start", "middle", "end" };
+    fprintf(svg->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"", x, y, anchors[anchor]);
+    put_font(svg, font);
+    fprintf(svg->out, ">");
+    put_escaped(svg->out, text);
+    fprintf(svg->out, "</text>\n");
+}
+
+void svg_text_up(struct svg *svg, double x, double y, struct svg_font font, const char *text)
+{
+    fprintf(svg->out, "<text transform=\"translate(%.1f,%.1f) rotate(-90)\" "
+            "text-anchor=\"middle\"", x, y);
+    put_font(svg, font);
+    fprintf(svg->out, ">");
+    put_escaped(svg->out, text);
+    fprintf(svg->out, "</text>\n");
+}

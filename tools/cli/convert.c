@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: MIT */
+/* convert.c - `smear convert`: a model as constant data for firmware. */
+#include "commands.h"
+
+#include "../convert/convert.h"
+#include "../image/image.h"
+#include "arguments.h"
+#include "say.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_CHOICES = 64 };
+
+struct convert_command {
+    const char *output, *name;
+    const char *clip[MAX_CHOICES], *keep[MAX_CHOICES];
+    int clip_count, keep_count;
+    long max_triangles, max_flash, max_ram;     /* 0: no limit */
+    struct convert_options options;
+};
+
+/* ------------------------------------------------------------------ options */
+
+static const char *read_output(void *to, const char *value)
+{
+    ((struct convert_command *)to)->output = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_identifier(void *to, const char *value)
+{
+    size_t length = strlen(value);
+    ((struct convert_command *)to)->name = value;
+    if (length == 0 || length > 60 || (value[0] >= '0' && value[0] <= '9')
+        || strspn(value, "abcdefghijklmnopqrstuvwxyz0123456789_") != length)
+        return "needs small letters, digits and underscores";
+    return NULL;
+}
+
+static const char *read_clips(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    if (c->clip_count == MAX_CHOICES)
+        return "at most 64 times";
+    c->clip[c->clip_count++] = value;
+    return NULL;
+}
+
+static const char *read_keep(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    if (c->keep_count == MAX_CHOICES)
+        return "at most 64 times";
+    c->keep[c->keep_count++] = value;
+    return NULL;
+}
+
+static const char *read_scale(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 1e-9, 1e9, &c->options.scale) ? NULL : "needs a factor above zero";
+}
+
+static const char *read_fit(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 1e-3, 20000, &c->options.fit) ? NULL : "needs units from 0.001 to 20000";
+}
+
+static const char *read_up(void *to, const char *value)
+{
+    static const char *const names[] = { "y", "z", NULL };
+    int found = read_name(value, names);
+    ((struct convert_command *)to)->options.z_up = found == 1;
+    return found >= 0 ? NULL : "needs y or z";
+}
+
+static const char *read_texture(void *to, const char *value)
+{
+    static const char *const names[] = { "palette8", "rgb565", "rgb8888", "baked", "none", NULL };
+    int found = read_name(value, names);
+    ((struct convert_command *)to)->options.texture = (enum convert_texture)found;
+    return found >= 0 ? NULL : "needs palette8, rgb565, rgb8888, baked or none";
+}
+
+static const char *read_whole(const char *value, long low, long high, int *out, const char *wrong)
+{
+    long number;
+    if (!read_integer(value, low, high, &number))
+        return wrong;
+    *out = (int)number;
+    return NULL;
+}
+
+static const char *read_texture_size(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_whole(value, 1, 4096, &c->options.texture_edge, "needs pixels from 1 to 4096");
+}
+
+static const char *read_colors(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_whole(value, 2, 256, &c->options.colors, "needs a number from 2 to 256");
+}
+
+static const char *read_texels(void *to, const char *value)
+{
+    static const char *const names[] = { "nearest", "bilinear", NULL };
+    int found = read_name(value, names);
+    ((struct convert_command *)to)->options.bilinear = found == 1;
+    return found >= 0 ? NULL : "needs nearest or bilinear";
+}
+
+static const char *read_normals(void *to, const char *value)
+{
+    static const char *const names[] = { "keep", "flat", NULL };
+    int found = read_name(value, names);
+    ((struct convert_command *)to)->options.flat = found == 1;
+    return found >= 0 ? NULL : "needs keep or flat";
+}
+
+static const char *read_influences(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_whole(value, 1, 4, &c->options.influences, "needs a number from 1 to 4");
+}
+
+static const char *read_clip_error(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 1e-3, 100, &c->options.clip_error_px) ? NULL : "needs pixels from 0.001 to 100";
+}
+
+static const char *read_distance(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 1e-6, 1e9, &c->options.distance) ? NULL : "needs units above zero";
+}
+
+static const char *read_rows(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 1, 2048, &c->options.rows) ? NULL : "needs rows from 1 to 2048";
+}
+
+static const char *read_view_angle(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    return read_number(value, 0.01, 179, &c->options.fov_degrees) ? NULL : "needs degrees from 0.01 to 179";
+}
+
+static const char *read_limit(const char *value, long *out)
+{
+    return read_integer(value, 1, 1L << 30, out) ? NULL : "needs a number above zero";
+}
+
+static const char *read_max_triangles(void *to, const char *value)
+{
+    return read_limit(value, &((struct convert_command *)to)->max_triangles);
+}
+
+static const char *read_max_flash(void *to, const char *value)
+{
+    return read_limit(value, &((struct convert_command *)to)->max_flash);
+}
+
+static const char *read_max_ram(void *to, const char *value)
+{
+    return read_limit(value, &((struct convert_command *)to)->max_ram);
+}
+
+static const struct option table[] = {
+    { "-o", true, read_output },                { "--name", true, read_identifier },
+    { "--clip", true, read_clips },             { "--keep", true, read_keep },
+    { "--scale", true, read_scale },            { "--fit", true, read_fit },
+    { "--up", true, read_up },                  { "--texture", true, read_texture },
+    { "--texture-size", true, read_texture_size }, { "--colors", true, read_colors },
+    { "--filter", true, read_texels },          { "--normals", true, read_normals },
+    { "--influences", true, read_influences },  { "--clip-error", true, read_clip_error },
+    { "--distance", true, read_distance },      { "--rows", true, read_rows },
+    { "--fov", true, read_view_angle },         { "--max-triangles", true, read_max_triangles },
+    { "--max-flash", true, read_max_flash },    { "--max-ram", true, read_max_ram },
+    { NULL, false, NULL },
+};
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), tail = strlen(end);
+    return length > tail && strcmp(text + length - tail, end) == 0;
+}
+
+/* ------------------------------------------------------------------ what of the model */
+
+static int choose_clips(const struct convert_command *c, const struct model *model, int *clip, int *count)
+{
+    *count = 0;
+    if (c->clip_count == 0 || (c->clip_count == 1 && strcmp(c->clip[0], "all") == 0
+                               && model_find_clip(model, "all") < 0)) {
+        for (int i = 0; i < model->clip_count; i++)
+            clip[(*count)++] = i;
+        return STATUS_OK;
+    }
+    for (int i = 0; i < c->clip_count; i++) {
+        int found = model_find_clip(model, c->clip[i]);
+        if (found < 0 && strcmp(c->clip[i], "none") == 0 && c->clip_count == 1)
+            return STATUS_OK;
+        if (found < 0)
+            return say_bad_usage("--clip", "the file has no such clip (\"%s\")", c->clip[i]);
+        for (int k = 0; k < *count; k++)
+            if (clip[k] == found)
+                return say_bad_usage("--clip", "given twice (\"%s\")", c->clip[i]);
+        clip[(*count)++] = found;
+    }
+    return STATUS_OK;
+}
+
+static int choose_kept_nodes(const struct convert_command *c, const struct model *model, uint8_t *keep)
+{
+    for (int i = 0; i < c->keep_count; i++) {
+        int found = model_find_node(model, c->keep[i]);
+        long index;
+        if (found < 0 && strcmp(c->keep[i], "all") == 0) {
+            memset(keep, 1, (size_t)model->node_count);
+            continue;
+        }
+        if (found < 0 && read_integer(c->keep[i], 0, model->node_count - 1, &index))
+            found = (int)index;
+        if (found < 0)
+            return say_bad_usage("--keep", "the file has no such node (\"%s\")", c->keep[i]);
+        keep[found] = 1;
+    }
+    return STATUS_OK;
+}
+
+/* ------------------------------------------------------------------ what came out */
+
+static void print_quoted(const char *name)
+{
+    putchar('"');
+    for (; *name != '\0'; name++)
+        putchar((unsigned char)*name < 32 || *name == 127 ? '?' : *name);
+    putchar('"');
+}
+
+static void print_textures(const struct conversion *c)
+{
+    static const char *const format[] = { "rgb8888", "rgb565", "palette8" };
+    printf("textures: %d\n", c->texture_count);
+    for (int i = 0; i < c->texture_count; i++) {
+        const struct convert_texture_report *t = &c->texture_report[i];
+        printf("  %d %dx%d from %dx%d, %s", i, t->width, t->height, t->from_width, t->from_height,
+               format[c->texture[i].format]);
+        if (t->colors > 0)
+            printf(", %d colours", t->colors);
+        if (c->same_texels[i] != i)
+            printf(", texels of %d\n", c->same_texels[i]);
+        else
+            printf(", rms error %.2f codes\n", t->rms);
+    }
+}
+
+static void print_result(const struct conversion *c, const struct convert_options *o)
+{
+    const smear_model *m = &c->model;
+    size_t flash = c->bytes.meshes + c->bytes.textures + c->bytes.animation;
+    printf("triangles: %d", c->triangles);
+    if (c->triangles != c->triangles_in_file)
+        printf(" of %d", c->triangles_in_file);
+    printf("\nvertices: %d of %d\n", c->vertices, c->vertices_in_file);
+    printf("draws: %u, materials: %u, nodes: %u\n", m->draw_count, m->material_count, m->node_count);
+    if (c->invisible > 0)
+        printf("left out: %d draws that let nothing be seen\n", c->invisible);
+    if (c->triangles > 0)
+        printf("vertices transformed per triangle: %.2f, in the file's order %.2f\n",
+               (double)c->transformed / c->triangles, (double)c->transformed_in_file / c->triangles_in_file);
+    print_textures(c);
+    printf("clips: %u\n", m->clip_count);
+    for (int i = 0; i < m->clip_count; i++) {
+        const struct convert_clip_report *r = &c->clip_report[i];
+        printf("  %d ", i);
+        print_quoted(m->text + m->clip[i].name);
+        printf(" %.6g s, %u channels, %d keys of %d, position error %.3f px at %.3f s\n",
+               m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
+               r->error_time);
+    }
+    printf("flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash, c->bytes.meshes,
+           c->bytes.textures, c->bytes.animation);
+    printf("ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",
+           c->bytes.actor[1], c->bytes.actor[0], c->bytes.actor[2], c->bytes.open);
+    printf("largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n", c->error_px,
+           c->rest_error_px, o->rows, o->fov_degrees, c->distance);
+}
+
+static int check_limits(const struct convert_command *command, const char *path, const struct conversion *c)
+{
+    struct failure f = { "" };
+    size_t flash = c->bytes.meshes + c->bytes.textures + c->bytes.animation;
+    if (command->max_triangles > 0 && c->triangles > command->max_triangles)
+        fail(&f, "has %d triangles, more than %ld (--max-triangles); smear does not simplify", c->triangles,
+             command->max_triangles);
+    else if (command->max_flash > 0 && flash > (size_t)command->max_flash)
+        fail(&f, "takes %zu bytes of flash (meshes %zu, textures %zu, animation %zu), more than %ld (--max-flash)",
+             flash, c->bytes.meshes, c->bytes.textures, c->bytes.animation, command->max_flash);
+    else if (command->max_ram > 0 && c->bytes.actor[1] > (size_t)command->max_ram)
+        fail(&f, "takes %zu bytes of RAM with 2 poses, more than %ld (--max-ram)", c->bytes.actor[1],
+             command->max_ram);
+    else
+        return STATUS_OK;
+    return say_bad_input(path, &f);
+}
+
+/* ------------------------------------------------------------------ files */
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+/* An identifier from the name of the file to be written. */
+static void name_from(const char *path, char out[64])
+{
+    const char *base = base_name(path);
+    size_t length = 0;
+    if (base[0] >= '0' && base[0] <= '9')
+        out[length++] = '_';
+    for (; base[0] != '\0' && base[0] != '.' && length < 60; base++) {
+        char c = base[0] >= 'A' && base[0] <= 'Z' ? (char)(base[0] - 'A' + 'a') : base[0];
+        out[length++] = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '_';
+    }
+    out[length] = '\0';
+}
+
+static int write_result(const struct convert_command *command, const char *path, const struct conversion *c)
+{
+    struct failure f = { "" };
+    char name[64];
+    uint8_t *bytes;
+    size_t size;
+    name_from(command->output, name);
+    bool ok = ends_with(command->output, ".smr")
+            ? convert_to_blob(c, &bytes, &size, &f)
+            : convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), &bytes, &size, &f);
+    if (!ok)
+        return say_bad_input(path, &f);
+    ok = file_write(command->output, bytes, size, &f);
+    free(bytes);
+    if (!ok)
+        return say_bad_input(command->output, &f);
+    print_result(c, &command->options);
+    printf("wrote %s\n", command->output);
+    return STATUS_OK;
+}
+
+static int convert_loaded(struct convert_command *command, const char *path, const struct model *model)
+{
+    struct failure f = { "" };
+    struct conversion conversion;
+    int *clip = calloc((size_t)model->clip_count + MAX_CHOICES, sizeof *clip), status;
+    uint8_t *keep = calloc((size_t)model->node_count + 1, 1);
+    if (clip == NULL || keep == NULL) {
+        fail(&f, "out of memory");
+        status = say_bad_input(path, &f);
+    } else {
+        status = choose_clips(command, model, clip, &command->options.clip_count);
+        if (status == STATUS_OK)
+            status = choose_kept_nodes(command, model, keep);
+        command->options.clip = clip;
+        command->options.keep = keep;
+        if (status == STATUS_OK && !convert_model(model, &command->options, &conversion, &f)) {
+            status = say_bad_input(path, &f);
+        } else if (status == STATUS_OK) {
+            status = check_limits(command, path, &conversion);
+            if (status == STATUS_OK)
+                status = write_result(command, path, &conversion);
+            conversion_free(&conversion);
+        }
+    }
+    free(clip);
+    free(keep);
+    return status;
+}
+
+int command_convert(int count, char **text)
+{
+    struct convert_command command = { .options = { .scale = 1, .texture_edge = 128, .colors = 256, .influences = 4,
+                                                    .clip_error_px = 0.1, .rows = 240, .fov_degrees = 45 } };
+    struct failure f = { "" };
+    struct model model;
+    const char *path;
+    bool wants_help;
+    int status = arguments_read(count, text, table, &command, &path, 1, &wants_help);
+    if (status == STATUS_OK && wants_help)
+        return help_print("convert");
+    if (status != STATUS_OK)
+        return status;
+    if (path == NULL)
+        return say_bad_usage("convert", "needs a model (smear help convert)");
+    if (command.output == NULL)
+        return say_bad_usage("convert", "needs -o FILE.h or -o FILE.smr (smear help convert)");
+    if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr"))
+        return say_bad_usage("-o", "writes .h or .smr (\"%s\")", command.output);
+    if (!model_load(path, &model, &f))
+        return say_bad_input(path, &f);
+    if (model.warning[0] != '\0')
+        say_warning(path, model.warning);
+    status = convert_loaded(&command, path, &model);
+    model_free(&model);
+    return status;
+}

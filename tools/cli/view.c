@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: MIT */
+/* view.c - `smear view`: the options of `render` that say what is drawn, and those of a viewer. */
+#include "commands.h"
+
+#include "arguments.h"
+#include "options.h"
+#include "say.h"
+
+#include "../view/board.h"
+#include "../view/control.h"
+#include "../view/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char default_scene[] = "builtin:demo/race";
+
+/* ------------------------------------------------------------------ one function per option */
+
+static const char *read_out(void *to, const char *value)
+{
+    ((struct view_options *)to)->out = value;
+    return read_name(value, screen_names) >= 0 ? NULL : "needs x11, term, fb, drm or null";
+}
+
+static const char *read_board(void *to, const char *value)
+{
+    (void)to;                   /* its options have been put before all others */
+    return board_find(value) != NULL ? NULL : "is no board (smear help view lists them)";
+}
+
+static const char *read_zoom(void *to, const char *value)
+{
+    long zoom;
+    if (!read_integer(value, 1, 8, &zoom))
+        return "needs a whole number from 1 to 8";
+    ((struct view_options *)to)->look.zoom = (int)zoom;
+    return NULL;
+}
+
+static const char *read_rotate(void *to, const char *value)
+{
+    static const char *const names[] = { "0", "90", "180", "270", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs 0, 90, 180 or 270";
+    ((struct view_options *)to)->look.turns = found;
+    return NULL;
+}
+
+static const char *read_round(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->look.round = true;
+    return NULL;
+}
+
+static const char *read_tint(void *to, const char *value)
+{
+    struct panel_look *look = &((struct view_options *)to)->look;
+    char dark[8];
+    unsigned d, l;
+    if (strlen(value) != 13 || value[6] != ',')
+        return "needs RRGGBB,RRGGBB: dark and lit";
+    memcpy(dark, value, 6);
+    dark[6] = '\0';
+    if (!read_color(dark, &d) || !read_color(value + 7, &l))
+        return "needs RRGGBB,RRGGBB: dark and lit";
+    look->has_tint = true;
+    look->dark = d;
+    look->lit = l;
+    return NULL;
+}
+
+static const char *read_bus(void *to, const char *value)
+{
+    double *hz = &((struct view_options *)to)->bus.hz;
+    return read_number(value, 1.0, 1e12, hz) ? NULL : "needs bits per second from 1 to 1e12";
+}
+
+static const char *read_panel_hz(void *to, const char *value)
+{
+    double *hz = &((struct view_options *)to)->bus.panel_hz;
+    return read_number(value, 0.1, 1000.0, hz) ? NULL : "needs a refresh from 0.1 to 1000 Hz";
+}
+
+static const char *read_sync(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->bus.synced = true;
+    return NULL;
+}
+
+/* CORE:HZ */
+static const char *read_cpu(void *to, const char *value)
+{
+    struct view_options *o = to;
+    char name[32];
+    const char *colon = strrchr(value, ':');
+    if (colon == NULL || (size_t)(colon - value) >= sizeof name)
+        return "needs CORE:HZ";
+    memcpy(name, value, (size_t)(colon - value));
+    name[colon - value] = '\0';
+    o->core = cost_find(name);
+    if (o->core == NULL)
+        return "is of no known core (smear help view lists them)";
+    return read_number(colon + 1, 1e3, 1e11, &o->cpu_hz) ? NULL
+                                                         : "needs a clock from 1e3 to 1e11 Hz";
+}
+
+static const char *read_pace(void *to, const char *value)
+{
+    int found = read_name(value, pace_names);
+    if (found < 0)
+        return "needs time, every or board";
+    ((struct view_options *)to)->pace = (enum pace)found;
+    return NULL;
+}
+
+/* N pictures, or frames A to B. */
+static const char *read_frames(void *to, const char *value)
+{
+    struct view_options *o = to;
+    long last;
+    if (read_range(value, &o->first, &last)) {
+        o->frames = last - o->first + 1;
+        return NULL;
+    }
+    return read_integer(value, 1, 999999999, &o->frames) ? NULL
+                                                         : "needs a number from 1 on, or FIRST-LAST";
+}
+
+static const char *read_crc(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->crc = true;
+    return NULL;
+}
+
+static const char *read_check(void *to, const char *value)
+{
+    ((struct view_options *)to)->check = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_update(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->update = true;
+    return NULL;
+}
+
+static const char *read_record(void *to, const char *value)
+{
+    ((struct view_options *)to)->record = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_play(void *to, const char *value)
+{
+    ((struct view_options *)to)->play = value;
+    return value[0] != '\0' ? NULL : "needs a file name";
+}
+
+static const char *read_times(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->times = true;
+    return NULL;
+}
+
+static const char *read_paused(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->paused = true;
+    return NULL;
+}
+
+static const char *read_figures(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->figures = true;
+    return NULL;
+}
+
+static const char *read_no_shared_memory(void *to, const char *value)
+{
+    (void)value;
+    ((struct view_options *)to)->no_shared_memory = true;
+    return NULL;
+}
+
+static const char *read_colors(void *to, const char *value)
+{
+    static const char *const names[] = { "256", "24bit", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs 256 or 24bit";
+    ((struct view_options *)to)->colors = found == 0 ? 8 : 24;
+    return NULL;
+}
+
+static const char *read_split(void *to, const char *value)
+{
+    struct view_options *o = to;
+    const char *name;
+    o->has_split = true;
+    for (int i = 0; (name = options_method(i, &o->split)) != NULL; i++)
+        if (strcmp(name, value) == 0)
+            return NULL;
+    return "needs a method";
+}
+
+static const char *read_see(void *to, const char *value)
+{
+    int found = read_name(value, debug_names);
+    if (found < 0)
+        return "needs picture, velocity, depth, tiles, bands or wire";
+    ((struct view_options *)to)->debug = (enum debug_kind)found;
+    return NULL;
+}
+
+static const struct option table[] = {
+    { "--out", true, read_out },
+    { "--board", true, read_board },
+    { "--zoom", true, read_zoom },
+    { "--rotate", true, read_rotate },
+    { "--round", false, read_round },
+    { "--tint", true, read_tint },
+    { "--bus", true, read_bus },
+    { "--panel-hz", true, read_panel_hz },
+    { "--sync", false, read_sync },
+    { "--cpu", true, read_cpu },
+    { "--pace", true, read_pace },
+    { "--frames", true, read_frames },
+    { "--paused", false, read_paused },
+    { "--crc", false, read_crc },
+    { "--check", true, read_check },
+    { "--update", false, read_update },
+    { "--record", true, read_record },
+    { "--play", true, read_play },
+    { "--split", true, read_split },
+    { "--see", true, read_see },
+    { "--figures", false, read_figures },
+    { "--no-shared-memory", false, read_no_shared_memory },
+    { "--colors", true, read_colors },
+    { "--times", false, read_times },
+    { NULL, false, NULL },
+};
+
+/* ------------------------------------------------------------------ two kinds of options */
+
+/* The arguments, the board's first, so that what the user says goes before it; parted into those of
+ * the table above and those of `render`. */
+struct parted {
+    char **all, **own, **other;
+    int all_count, own_count, other_count;
+};
+
+static const struct option *find_own(const char *text)
+{
+    size_t length = strcspn(text, "=");
+    for (const struct option *o = table; o->name != NULL; o++)
+        if (strlen(o->name) == length && strncmp(o->name, text, length) == 0)
+            return o;
+    return NULL;
+}
+
+static const char *find_board(int count, char **text)
+{
+    const char *name = NULL;
+    for (int i = 0; i < count && strcmp(text[i], "--") != 0; i++) {
+        if (strncmp(text[i], "--board=", 8) == 0)
+            name = text[i] + 8;
+        else if (strcmp(text[i], "--board") == 0 && i + 1 < count)
+            name = text[i + 1];
+    }
+    return name;
+}
+
+static bool part(int count, char **text, struct parted *p)
+{
+    const char *name = find_board(count, text);
+    const struct board *board = name != NULL ? board_find(name) : NULL;
+    size_t room = (size_t)count + BOARD_MAX_OPTIONS;
+    bool ended = false;
+    p->all = calloc(3 * room, sizeof *p->all);
+    if (p->all == NULL)
+        return false;
+    p->own = p->all + room;
+    p->other = p->own + room;
+    for (int i = 0; board != NULL && board->option[i] != NULL; i++)
+        p->all[p->all_count++] = (char *)board->option[i];
+    for (int i = 0; i < count; i++)
+        p->all[p->all_count++] = text[i];
+    for (int i = 0; i < p->all_count; i++) {
+        char *t = p->all[i];
+        const struct option *own = ended ? NULL : find_own(t);
+        ended = ended || strcmp(t, "--") == 0;
+        if (own == NULL) {
+            p->other[p->other_count++] = t;
+            continue;
+        }
+        p->own[p->own_count++] = t;
+        if (own->has_value && strchr(t, '=') == NULL && i + 1 < p->all_count)
+            p->own[p->own_count++] = p->all[++i];
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ help */
+
+static const char *const help[] = {
+    "smear view [SCENE] [options]\n"
+    "\n"
+    "Shows SCENE (without one, the demo) in a window, in the terminal or on the display, whichever\n"
+    "there is, exactly as a device would show it: frames are drawn by what `smear render` uses, and\n"
+    "equal options give equal bits. All options of `render` that say what is drawn are options of\n"
+    "view, too (smear help render); those that name files are not.\n"
+    "\n"
+    "Where\n"
+    "  --out x11|term|fb|drm|null\n"
+    "                        a window (by $DISPLAY); the terminal; a framebuffer ($FRAMEBUFFER or\n"
+    "                        /dev/fb0); a display (/dev/dri/card*); nowhere [what is there]\n"
+    "  --colors 256|24bit    of the terminal [24bit where $COLORTERM says so]\n"
+    "  --no-shared-memory    pictures go to the window through its connection\n"
+    "\n"
+    "The device\n"
+    "  --board NAME          options of a device, put before all others; listed below\n"
+    "  --zoom 1..8           each pixel enlarged [the largest that fits]\n"
+    "  --rotate 0|90|180|270 the panel turned clockwise [0]\n"
+    "  --round               only the inscribed circle is seen\n"
+    "  --tint RRGGBB,RRGGBB  colours of dark and lit pixels of grey formats\n"
+    "  --bus HZ              bits per second to the panel: a frame takes its time on the wire\n"
+    "  --panel-hz HZ         refresh of the panel: frames tear where both meet, unless --sync\n"
+    "  --sync                frames wait for the panel\n"
+    "  --cpu CORE:HZ         an ESTIMATE of the time on this core, from the work that was counted\n"
+    "\n",
+    "Time\n"
+    "  --fps F               frames per second of the animation and, at most, of the screen [30]\n"
+    "  --pace time|every|board\n"
+    "                        time: frames that come late are left out; every: none is; board: as\n"
+    "                        many frames go by as the board is estimated to need for one, and\n"
+    "                        motion is that of the longer frame [time; every with --frames]\n"
+    "  --paused              nothing moves until it is told to\n"
+    "\n"
+    "What is seen at first\n"
+    "  --split METHOD        left half by this method, right half by --method\n"
+    "  --see picture|velocity|depth|tiles|bands|wire\n"
+    "  --figures             written over the picture\n"
+    "\n"
+    "Without a user\n"
+    "  --frames N|A-B        ends after N frames, or shows frames A to B\n"
+    "  --crc                 prints the CRC-32 of each frame, as `render --stats` has it\n"
+    "  --check FILE          exit status 1 unless the frames' CRCs are those in FILE; leaves\n"
+    "                        FILE.0000.got.png and FILE.0000.difference.png where they are not\n"
+    "  --update              writes FILE, and the accepted pictures beside it: FILE.0000.png ...\n"
+    "  --record FILE         writes the user's input, picture by picture\n"
+    "  --play FILE           gives it again\n"
+    "  --times               prints what drawing and the window took\n"
+    "\n",
+    NULL
+};
+
+int view_help_print(void)
+{
+    for (const char *const *text = help; *text != NULL; text++)
+        fputs(*text, stdout);
+    printf("Boards\n");
+    for (const struct board *b = board_list; b->name != NULL; b++) {
+        printf("  %-8s %s\n          ", b->name, b->what);
+        for (int i = 0; b->option[i] != NULL; i++)
+            printf(" %s", b->option[i]);
+        printf("\n");
+    }
+    printf("\nCores\n ");
+    for (const struct cost_core *c = cost_cores; c->name != NULL; c++)
+        printf(" %s", c->name);
+    printf("\n\nControls\n");
+    for (const struct control *c = control_list; c->keys != NULL; c++)
+        printf("  %-11s %s\n", c->keys, c->what);
+    printf("  Ctrl-C ends it, too. The pointer: drag to orbit, wheel to come closer.\n");
+    return STATUS_OK;
+}
+
+/* ------------------------------------------------------------------ the command */
+
+static int check(const struct view_options *w, const struct render_options *o)
+{
+    const struct {
+        const char *option;
+        bool given;
+    } only_render[] = {
+        { "-o", o->output != NULL }, { "--depth", o->depth != NULL },
+        { "--velocity", o->velocity != NULL }, { "--stats", o->stats != NULL },
+        { "--repeat", o->repeat > 0 }, { "--exact", o->exact },
+    };
+    for (size_t i = 0; i < sizeof only_render / sizeof *only_render; i++)
+        if (only_render[i].given)
+            return say_bad_usage(only_render[i].option, "is an option of render");
+    if (w->update && w->check == NULL)
+        return say_bad_usage("--update", "goes with --check FILE");
+    if (w->check != NULL && w->frames == 0)
+        return say_bad_usage("--check", "needs --frames");
+    if (w->out != NULL && strcmp(w->out, "null") == 0 && w->frames == 0)
+        return say_bad_usage("--out", "null needs --frames");
+    if (w->pace == PACE_BOARD && w->core == NULL)
+        return say_bad_usage("--pace", "board needs --cpu or --board");
+    return STATUS_OK;
+}
+
+static int view(struct parted *p)
+{
+    static struct view view;            /* large, and one is enough */
+    static struct render_options options;
+    bool wants_help;
+    int status = arguments_read(p->own_count, p->own, table, &view.wish, NULL, 0, &wants_help);
+    if (status == STATUS_OK)
+        status = options_read_seen(&options, p->other_count, p->other, &wants_help);
+    if (status == STATUS_OK && wants_help)
+        return view_help_print();
+    if (status == STATUS_OK)
+        status = check(&view.wish, &options);
+    if (status != STATUS_OK)
+        return status;
+    if (options.scene == NULL)
+        options.scene = default_scene;
+    return view_run(&view, &options);
+}
+
+int command_view(int count, char **text)
+{
+    struct parted parted = { 0 };
+    struct failure f = { "" };
+    if (!part(count, text, &parted)) {
+        fail(&f, "out of memory");
+        return say_bad_input("view", &f);
+    }
+    int status = view(&parted);
+    free(parted.all);
+    return status;
+}

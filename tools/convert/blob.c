@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: MIT */
+/* blob.c - a conversion as a .smr file: src/blob.h has the layout. Written byte by byte, low byte first, so that the
+ * host's byte order does not matter. */
+#include "build.h"
+
+#include "../../src/blob.h"
+#include "../image/buffer.h"
+#include "../image/image.h"
+
+static void put_u16(struct buffer *b, unsigned value)
+{
+    buffer_le16(b, value & 0xffffu);
+}
+
+static void put_u32(struct buffer *b, uint32_t value)
+{
+    put_u16(b, value & 0xffffu);
+    put_u16(b, value >> 16);
+}
+
+static void put_i32s(struct buffer *b, const int32_t *value, int count)
+{
+    for (int i = 0; i < count; i++)
+        put_u32(b, (uint32_t)value[i]);
+}
+
+static void align(struct buffer *b)
+{
+    while (b->size % 4 != 0)
+        buffer_byte(b, 0);
+}
+
+static void put_array(struct buffer *b, const void *data, size_t count, int size)
+{
+    const uint8_t *bytes = data;
+    const uint16_t *halves = data;
+    const uint32_t *words = data;
+    for (size_t i = 0; i < count; i++) {
+        if (size == 1)
+            buffer_byte(b, bytes[i]);
+        else if (size == 2)
+            put_u16(b, halves[i]);
+        else
+            put_u32(b, words[i]);
+    }
+    align(b);
+}
+
+struct blob_writer {
+    struct buffer b;
+    const struct conversion *c;
+    struct smear_blob_table table[BLOB_TABLES];
+    struct smear_blob_mesh *mesh;       /* offsets of each mesh's arrays */
+    uint32_t *texels, *palette;         /* of each texture */
+};
+
+static uint32_t put_optional(struct buffer *b, const void *data, size_t count, int size)
+{
+    uint32_t at = (uint32_t)b->size;
+    if (data == NULL)
+        return 0;
+    put_array(b, data, count, size);
+    return at;
+}
+
+static void put_arrays(struct blob_writer *w)
+{
+    const smear_model *m = &w->c->model;
+    for (int i = 0; i < w->c->texture_count; i++) {
+        const smear_texture *t = &w->c->texture[i];
+        int same = w->c->same_texels[i];
+        size_t count = (size_t)t->width * t->height;
+        int size = t->format == SMEAR_TEXEL_8888 ? 4 : t->format == SMEAR_TEXEL_565 ? 2 : 1;
+        w->texels[i] = same < i ? w->texels[same] : put_optional(&w->b, t->texels, count, size);
+        w->palette[i] = same < i ? w->palette[same]
+                                 : put_optional(&w->b, t->palette, (size_t)w->c->palette_count[i], 4);
+    }
+    for (int i = 0; i < m->mesh_count; i++) {
+        const smear_mesh *mesh = &m->mesh[i];
+        struct smear_blob_mesh *out = &w->mesh[i];
+        size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
+        int same = 0;
+        while (m->mesh[same].position != mesh->position)
+            same++;
+        if (same < i) {
+            *out = w->mesh[same];
+            continue;
+        }
+        out->position = put_optional(&w->b, mesh->position, 3 * vertices, 2);
+        out->normal = put_optional(&w->b, mesh->normal, 3 * vertices, 1);
+        out->uv = put_optional(&w->b, mesh->uv, 2 * vertices, 2);
+        out->color = put_optional(&w->b, mesh->color, 4 * vertices, 1);
+        out->face_color = put_optional(&w->b, mesh->face_color, 4 * triangles, 1);
+        out->index = put_optional(&w->b, mesh->index, 3 * triangles, 2);
+    }
+}
+
+static void begin_table(struct blob_writer *w, int table, int count)
+{
+    w->table[table] = (struct smear_blob_table){ (uint32_t)w->b.size, (uint32_t)count };
+}
+
+static void put_table(struct blob_writer *w, int table, const void *data, int count, int size)
+{
+    begin_table(w, table, count);
+    put_array(&w->b, data, (size_t)count, size);
+}
+
+static void put_surfaces(struct blob_writer *w)
+{
+    const struct conversion *c = w->c;
+    struct buffer *b = &w->b;
+    begin_table(w, BLOB_TEXTURE, c->texture_count);
+    for (int i = 0; i < c->texture_count; i++) {
+        const smear_texture *t = &c->texture[i];
+        put_u32(b, w->texels[i]);
+        put_u32(b, w->palette[i]);
+        put_u16(b, (unsigned)c->palette_count[i]);
+        put_u16(b, t->width);
+        put_u16(b, t->height);
+        buffer_byte(b, t->format);
+        buffer_byte(b, t->wrap_u);
+        buffer_byte(b, t->wrap_v);
+        put_array(b, "\0\0\0", 3, 1);
+    }
+    begin_table(w, BLOB_MATERIAL, c->model.material_count);
+    for (int i = 0; i < c->model.material_count; i++) {
+        const smear_material *m = &c->model.material[i];
+        put_u16(b, m->texture != NULL ? (unsigned)(m->texture - c->texture) : SMEAR_MODEL_NONE);
+        for (int k = 0; k < 4; k++)
+            buffer_byte(b, m->color[k]);
+        buffer_byte(b, m->alpha);
+        buffer_byte(b, m->cutoff);
+        buffer_byte(b, m->unlit);
+        buffer_byte(b, m->double_sided);
+        buffer_byte(b, m->bilinear);
+        buffer_byte(b, 0);
+    }
+    begin_table(w, BLOB_MESH, c->model.mesh_count);
+    for (int i = 0; i < c->model.mesh_count; i++) {
+        const smear_mesh *mesh = &c->model.mesh[i];
+        const struct smear_blob_mesh *at = &w->mesh[i];
+        put_u32(b, at->position);
+        put_u32(b, at->normal);
+        put_u32(b, at->uv);
+        put_u32(b, at->color);
+        put_u32(b, at->face_color);
+        put_u32(b, at->index);
+        put_u32(b, mesh->triangle_count);
+        put_u16(b, mesh->vertex_count);
+        buffer_byte(b, (uint8_t)mesh->shift);
+        buffer_byte(b, mesh->uv_shift);
+        put_u32(b, (uint32_t)mesh->scale);
+        put_i32s(b, mesh->offset, 3);
+    }
+}
+
+static void put_draws(struct blob_writer *w)
+{
+    const struct conversion *c = w->c;
+    struct buffer *b = &w->b;
+    begin_table(w, BLOB_DRAW, c->model.draw_count);
+    for (int i = 0; i < c->model.draw_count; i++) {
+        const smear_model_draw *d = &c->model.draw[i];
+        const uint16_t halves[10] = { d->mesh, d->material, d->node, d->skin, d->target_first, d->target_count,
+                                      d->weight_first, d->transform, d->deformed, d->influences };
+        put_array(b, halves, 10, 2);
+        put_u32(b, d->influence_first);
+        put_u32(b, d->vertex_first);
+    }
+    begin_table(w, BLOB_NODE, c->model.node_count);
+    for (int i = 0; i < c->model.node_count; i++) {
+        put_u16(b, c->model.node[i].parent);
+        put_u16(b, c->model.node[i].moves);
+        put_i32s(b, c->model.node[i].rest, 12);
+    }
+    begin_table(w, BLOB_JOINT, c->joint_count);
+    for (int i = 0; i < c->joint_count; i++) {
+        put_u16(b, c->model.joint[i].node);
+        put_u16(b, 0);
+        put_i32s(b, c->model.joint[i].basis, 9);
+        put_i32s(b, c->model.joint[i].origin, 3);
+    }
+    begin_table(w, BLOB_SKIN, c->skin_count);
+    for (int i = 0; i < c->skin_count; i++) {
+        const smear_model_skin *s = &c->model.skin[i];
+        put_u16(b, s->joint_first);
+        put_u16(b, s->joint_count);
+        put_u32(b, (uint32_t)s->steps);
+        put_i32s(b, s->offset, 3);
+        put_u32(b, (uint32_t)s->shift);
+    }
+    put_table(w, BLOB_INFLUENCE, c->model.influence, c->influence_count, 1);
+}
+
+static void put_morphs(struct blob_writer *w)
+{
+    const struct conversion *c = w->c;
+    begin_table(w, BLOB_TARGET, c->target_count);
+    for (int i = 0; i < c->target_count; i++) {
+        const smear_model_target *t = &c->model.target[i];
+        const uint32_t words[4] = { t->delta_first, t->delta_count, t->normal_first, t->shift };
+        put_array(&w->b, words, 4, 4);
+    }
+    begin_table(w, BLOB_DELTA, c->delta_count);
+    for (int i = 0; i < c->delta_count; i++) {
+        put_u16(&w->b, c->model.delta[i].vertex);
+        for (int k = 0; k < 3; k++)
+            put_u16(&w->b, (uint16_t)c->model.delta[i].step[k]);
+    }
+    put_table(w, BLOB_DELTA_NORMAL, c->model.delta_normal, c->delta_normals, 1);
+    put_table(w, BLOB_WEIGHT, c->model.weight, c->model.weight_count, 2);
+}
+
+static void put_clips(struct blob_writer *w)
+{
+    const struct conversion *c = w->c;
+    struct buffer *b = &w->b;
+    begin_table(w, BLOB_CLIP, c->model.clip_count);
+    for (int i = 0; i < c->model.clip_count; i++) {
+        const smear_model_clip *clip = &c->model.clip[i];
+        put_u32(b, clip->name);
+        put_u32(b, clip->duration);
+        put_u16(b, clip->channel_first);
+        put_u16(b, clip->channel_count);
+        put_u32(b, clip->tick_shift);
+    }
+    begin_table(w, BLOB_CHANNEL, c->channel_count);
+    for (int i = 0; i < c->channel_count; i++) {
+        const smear_model_channel *channel = &c->model.channel[i];
+        put_u16(b, channel->target);
+        buffer_byte(b, channel->path);
+        buffer_byte(b, channel->step);
+        put_u16(b, channel->key_count);
+        put_u16(b, channel->width);
+        put_u32(b, channel->time_first);
+        put_u32(b, channel->value_first);
+        put_i32s(b, channel->offset, 3);
+        put_u32(b, (uint32_t)channel->factor);
+        put_u32(b, (uint32_t)channel->shift);
+    }
+    put_table(w, BLOB_KEY_TIME, c->model.key_time, c->key_times, 2);
+    put_table(w, BLOB_KEY_VALUE, c->model.key_value, c->key_values, 2);
+    put_table(w, BLOB_TEXT, c->model.text, c->text_size, 1);
+}
+
+static void set_u32(struct buffer *b, size_t at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        b->data[at + (size_t)i] = (uint8_t)(value >> 8 * i);
+}
+
+static void put_head(struct buffer *b, const smear_model *m)
+{
+    const uint32_t words[4] = { SMEAR_BLOB_MAGIC, SMEAR_MODEL_FORMAT, 0, 0 };
+    put_array(b, words, 4, 4);
+    put_u16(b, m->transform_count);
+    put_u16(b, m->deformed_count);
+    put_u16(b, m->joint_count);
+    put_u16(b, m->normals);
+    put_u32(b, m->deformed_vertices);
+    put_u32(b, (uint32_t)m->unit_shift);
+    for (int i = 0; i < 2 * BLOB_TABLES; i++)
+        put_u32(b, 0);
+}
+
+bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, struct failure *f)
+{
+    struct blob_writer w = { .c = c };
+    w.mesh = calloc((size_t)c->model.mesh_count + 1, sizeof *w.mesh);
+    w.texels = calloc((size_t)c->texture_count + 1, sizeof *w.texels);
+    w.palette = calloc((size_t)c->texture_count + 1, sizeof *w.palette);
+    bool ok = w.mesh != NULL && w.texels != NULL && w.palette != NULL;
+    if (ok) {
+        put_head(&w.b, &c->model);
+        put_arrays(&w);
+        put_surfaces(&w);
+        put_draws(&w);
+        put_morphs(&w);
+        put_clips(&w);
+        ok = !w.b.failed;
+    }
+    free(w.mesh);
+    free(w.texels);
+    free(w.palette);
+    if (!ok) {
+        buffer_free(&w.b);
+        return fail(f, "out of memory");
+    }
+    if (w.b.size > 1u << 30) {
+        buffer_free(&w.b);
+        return fail(f, "is larger than a gigabyte");
+    }
+    for (size_t i = 0; i < BLOB_TABLES; i++) {
+        set_u32(&w.b, 32 + 8 * i, w.table[i].at);
+        set_u32(&w.b, 36 + 8 * i, w.table[i].count);
+    }
+    set_u32(&w.b, 8, (uint32_t)w.b.size);
+    set_u32(&w.b, 12, crc32_update(0, w.b.data + SMEAR_BLOB_CRC_FROM, w.b.size - SMEAR_BLOB_CRC_FROM));
+    *bytes = w.b.data;
+    *size = w.b.size;
+    return true;
+}

@@ -1,0 +1,446 @@
+/* SPDX-License-Identifier: MIT */
+/* header.c - a conversion as a C header: typed constant arrays and the smear_model that points to them. C99 and C++. */
+#include "build.h"
+
+#include "../image/buffer.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+struct header_writer {
+    struct buffer b;
+    const struct conversion *c;
+    const char *name;
+    char upper[64];
+};
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void put(struct header_writer *w, const char *format, ...)
+{
+    char text[400];
+    va_list args;
+    va_start(args, format);
+    int size = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (size < 0 || (size_t)size >= sizeof text)
+        w->b.failed = true;
+    else
+        buffer_append(&w->b, text, (size_t)size);
+}
+
+/* ------------------------------------------------------------------ numbers */
+
+enum kind { U8, I8, U16, I16, U32 };
+
+static const char *const type_of[] = { "uint8_t", "int8_t", "uint16_t", "int16_t", "uint32_t" };
+
+static void put_number(struct header_writer *w, const void *data, enum kind kind, size_t i)
+{
+    switch (kind) {
+    case U8: put(w, "%u", ((const uint8_t *)data)[i]); break;
+    case I8: put(w, "%d", ((const int8_t *)data)[i]); break;
+    case U16: put(w, "%u", ((const uint16_t *)data)[i]); break;
+    case I16: put(w, "%d", ((const int16_t *)data)[i]); break;
+    case U32: put(w, "0x%08" PRIx32 "u", ((const uint32_t *)data)[i]); break;
+    }
+}
+
+/* `static const TYPE NAME_what[count] = {...};`, nothing for no numbers. `index` -1: there is only one. */
+static void put_numbers(struct header_writer *w, const char *what, int index, const void *data, size_t count,
+                        enum kind kind)
+{
+    if (data == NULL || count == 0)
+        return;
+    put(w, "static const %s %s_%s", type_of[kind], w->name, what);
+    if (index >= 0)
+        put(w, "_%d", index);
+    put(w, "[%zu] = {", count);
+    size_t line = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i == 0 || w->b.size - line > 92) {
+            put(w, i > 0 ? ",\n    " : "\n    ");
+            line = w->b.size - 4;
+        } else {
+            put(w, ", ");
+        }
+        put_number(w, data, kind, i);
+    }
+    put(w, "\n};\n\n");
+}
+
+static void put_words(struct header_writer *w, const int32_t *value, int count)
+{
+    for (int i = 0; i < count; i++)
+        put(w, value[i] == INT32_MIN ? "%s(-2147483647 - 1)" : "%s%" PRId32, i > 0 ? ", " : "", value[i]);
+}
+
+/* A pointer member: `NAME_what_index`, or 0 where there is nothing. */
+static void put_pointer(struct header_writer *w, const char *what, int index, bool is_there)
+{
+    if (!is_there)
+        put(w, "0, ");
+    else if (index >= 0)
+        put(w, "%s_%s_%d, ", w->name, what, index);
+    else
+        put(w, "%s_%s, ", w->name, what);
+}
+
+static void open_table(struct header_writer *w, const char *type, const char *what, int count)
+{
+    put(w, "static const %s %s_%s[%d] = {\n", type, w->name, what, count);
+}
+
+static void close_table(struct header_writer *w)
+{
+    put(w, "};\n\n");
+}
+
+/* ------------------------------------------------------------------ tables */
+
+static int mesh_with_arrays(const smear_model *m, int index)
+{
+    int same = 0;
+    while (m->mesh[same].position != m->mesh[index].position)
+        same++;
+    return same;
+}
+
+static void put_textures(struct header_writer *w)
+{
+    static const char *const format[] = { "SMEAR_TEXEL_8888", "SMEAR_TEXEL_565", "SMEAR_TEXEL_PALETTE8" };
+    static const char *const wrap[] = { "SMEAR_REPEAT", "SMEAR_CLAMP", "SMEAR_MIRROR" };
+    static const enum kind kind[] = { U32, U16, U8 };
+    const struct conversion *c = w->c;
+    for (int i = 0; i < c->texture_count; i++) {
+        const smear_texture *t = &c->texture[i];
+        if (c->same_texels[i] != i)
+            continue;
+        put_numbers(w, "texels", i, t->texels, (size_t)t->width * t->height, kind[t->format]);
+        put_numbers(w, "palette", i, t->palette, (size_t)c->palette_count[i], U32);
+    }
+    if (c->texture_count == 0)
+        return;
+    open_table(w, "smear_texture", "texture", c->texture_count);
+    for (int i = 0; i < c->texture_count; i++) {
+        const smear_texture *t = &c->texture[i];
+        put(w, "    { ");
+        put_pointer(w, "texels", c->same_texels[i], true);
+        put_pointer(w, "palette", c->same_texels[i], t->palette != NULL);
+        put(w, "%u, %u, %s, %s, %s },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v]);
+    }
+    close_table(w);
+}
+
+static void put_materials(struct header_writer *w)
+{
+    static const char *const alpha[] = { "SMEAR_OPAQUE", "SMEAR_CUTOUT", "SMEAR_BLEND" };
+    const struct conversion *c = w->c;
+    if (c->model.material_count == 0)
+        return;
+    open_table(w, "smear_material", "material", c->model.material_count);
+    for (int i = 0; i < c->model.material_count; i++) {
+        const smear_material *m = &c->model.material[i];
+        if (m->texture != NULL)
+            put(w, "    { &%s_texture[%d], ", w->name, (int)(m->texture - c->texture));
+        else
+            put(w, "    { 0, ");
+        put(w, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2], m->color[3],
+            alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
+    }
+    close_table(w);
+}
+
+static void put_meshes(struct header_writer *w)
+{
+    const smear_model *m = &w->c->model;
+    for (int i = 0; i < m->mesh_count; i++) {
+        const smear_mesh *mesh = &m->mesh[i];
+        size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
+        if (mesh_with_arrays(m, i) != i)
+            continue;
+        put_numbers(w, "position", i, mesh->position, 3 * vertices, I16);
+        put_numbers(w, "normal", i, mesh->normal, 3 * vertices, I8);
+        put_numbers(w, "uv", i, mesh->uv, 2 * vertices, I16);
+        put_numbers(w, "color", i, mesh->color, 4 * vertices, U8);
+        put_numbers(w, "face_color", i, mesh->face_color, 4 * triangles, U8);
+        put_numbers(w, "index", i, mesh->index, 3 * triangles, U16);
+    }
+    if (m->mesh_count == 0)
+        return;
+    open_table(w, "smear_mesh", "mesh", m->mesh_count);
+    for (int i = 0; i < m->mesh_count; i++) {
+        const smear_mesh *mesh = &m->mesh[i];
+        int arrays = mesh_with_arrays(m, i);
+        put(w, "    { ");
+        put_pointer(w, "position", arrays, true);
+        put_pointer(w, "normal", arrays, mesh->normal != NULL);
+        put_pointer(w, "uv", arrays, mesh->uv != NULL);
+        put_pointer(w, "color", arrays, mesh->color != NULL);
+        put_pointer(w, "face_color", arrays, mesh->face_color != NULL);
+        put_pointer(w, "index", arrays, true);
+        put(w, "\n      %" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
+            mesh->shift, mesh->uv_shift, mesh->scale);
+        put_words(w, mesh->offset, 3);
+        put(w, " } },\n");
+    }
+    close_table(w);
+}
+
+static void put_draws(struct header_writer *w)
+{
+    const struct conversion *c = w->c;
+    if (c->model.draw_count > 0) {
+        open_table(w, "smear_model_draw", "draw", c->model.draw_count);
+        for (int i = 0; i < c->model.draw_count; i++) {
+            const smear_model_draw *d = &c->model.draw[i];
+            put(w, "    { %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRIu32 " },\n", d->mesh, d->material,
+                d->node, d->skin, d->target_first, d->target_count, d->weight_first, d->transform, d->deformed,
+                d->influences, d->influence_first, d->vertex_first);
+        }
+        close_table(w);
+    }
+    if (c->model.node_count > 0) {
+        open_table(w, "smear_model_node", "node", c->model.node_count);
+        for (int i = 0; i < c->model.node_count; i++) {
+            put(w, "    { %u, %u, { ", c->model.node[i].parent, c->model.node[i].moves);
+            put_words(w, c->model.node[i].rest, 12);
+            put(w, " } },\n");
+        }
+        close_table(w);
+    }
+    if (c->joint_count > 0) {
+        open_table(w, "smear_model_joint", "joint", c->joint_count);
+        for (int i = 0; i < c->joint_count; i++) {
+            put(w, "    { %u, 0, { ", c->model.joint[i].node);
+            put_words(w, c->model.joint[i].basis, 9);
+            put(w, " }, { ");
+            put_words(w, c->model.joint[i].origin, 3);
+            put(w, " } },\n");
+        }
+        close_table(w);
+    }
+    if (c->skin_count > 0) {
+        open_table(w, "smear_model_skin", "skin", c->skin_count);
+        for (int i = 0; i < c->skin_count; i++) {
+            const smear_model_skin *s = &c->model.skin[i];
+            put(w, "    { %u, %u, %" PRId32 ", { ", s->joint_first, s->joint_count, s->steps);
+            put_words(w, s->offset, 3);
+            put(w, " }, %" PRId32 " },\n", s->shift);
+        }
+        close_table(w);
+    }
+    put_numbers(w, "influence", -1, c->model.influence, (size_t)c->influence_count, U8);
+}
+
+static void put_morphs(struct header_writer *w)
+{
+    const struct conversion *c = w->c;
+    if (c->target_count > 0) {
+        open_table(w, "smear_model_target", "target", c->target_count);
+        for (int i = 0; i < c->target_count; i++) {
+            const smear_model_target *t = &c->model.target[i];
+            put(w, "    { %" PRIu32 ", %" PRIu32 ", 0x%" PRIx32 ", %" PRIu32 " },\n", t->delta_first, t->delta_count,
+                t->normal_first, t->shift);
+        }
+        close_table(w);
+    }
+    if (c->delta_count > 0) {
+        open_table(w, "smear_model_delta", "delta", c->delta_count);
+        for (int i = 0; i < c->delta_count; i++) {
+            const smear_model_delta *d = &c->model.delta[i];
+            put(w, "%s{ %u, { %d, %d, %d } },%s", i % 3 == 0 ? "    " : " ", d->vertex, d->step[0], d->step[1],
+                d->step[2], i % 3 == 2 || i + 1 == c->delta_count ? "\n" : "");
+        }
+        close_table(w);
+    }
+    put_numbers(w, "delta_normal", -1, c->model.delta_normal, (size_t)c->delta_normals, I8);
+    put_numbers(w, "weight", -1, c->model.weight, c->model.weight_count, I16);
+}
+
+/* Names as a string of C; each with its 0, the last one has the string's own. */
+static void put_text(struct header_writer *w)
+{
+    const struct conversion *c = w->c;
+    if (c->text_size == 0)
+        return;
+    put(w, "static const char %s_text[] =\n    \"", w->name);
+    for (int i = 0; i + 1 < c->text_size; i++) {
+        unsigned letter = (unsigned char)c->model.text[i];
+        bool plain = letter >= 32 && letter < 127 && strchr("\\\"?", (int)letter) == NULL;
+        put(w, plain ? "%c" : "\\%03o", letter);
+        if (letter == 0)
+            put(w, "\"\n    \"");
+    }
+    put(w, "\";\n\n");
+}
+
+static void put_clips(struct header_writer *w)
+{
+    const struct conversion *c = w->c;
+    if (c->model.clip_count > 0) {
+        open_table(w, "smear_model_clip", "clip", c->model.clip_count);
+        for (int i = 0; i < c->model.clip_count; i++) {
+            const smear_model_clip *clip = &c->model.clip[i];
+            put(w, "    { %" PRIu32 ", %" PRIu32 ", %u, %u, %" PRIu32 " },\n", clip->name, clip->duration,
+                clip->channel_first, clip->channel_count, clip->tick_shift);
+        }
+        close_table(w);
+    }
+    if (c->channel_count > 0) {
+        static const char *const path[] = { "SMEAR_PATH_TRANSLATION", "SMEAR_PATH_ROTATION", "SMEAR_PATH_SCALE",
+                                            "SMEAR_PATH_WEIGHTS" };
+        open_table(w, "smear_model_channel", "channel", c->channel_count);
+        for (int i = 0; i < c->channel_count; i++) {
+            const smear_model_channel *channel = &c->model.channel[i];
+            put(w, "    { %u, %s, %u, %u, %u, %" PRIu32 ", %" PRIu32 ", { ", channel->target, path[channel->path],
+                channel->step, channel->key_count, channel->width, channel->time_first, channel->value_first);
+            put_words(w, channel->offset, 3);
+            put(w, " }, %" PRId32 ", %" PRId32 " },\n", channel->factor, channel->shift);
+        }
+        close_table(w);
+    }
+    put_numbers(w, "key_time", -1, c->model.key_time, (size_t)c->key_times, U16);
+    put_numbers(w, "key_value", -1, c->model.key_value, (size_t)c->key_values, I16);
+    put_text(w);
+}
+
+static void put_model(struct header_writer *w)
+{
+    const struct conversion *c = w->c;
+    const smear_model *m = &c->model;
+    put(w, "static const smear_model %s_model = {\n    ", w->name);
+    put_pointer(w, "mesh", -1, m->mesh_count > 0);
+    put_pointer(w, "material", -1, m->material_count > 0);
+    put_pointer(w, "draw", -1, m->draw_count > 0);
+    put_pointer(w, "node", -1, m->node_count > 0);
+    put(w, "\n    ");
+    put_pointer(w, "joint", -1, c->joint_count > 0);
+    put_pointer(w, "skin", -1, c->skin_count > 0);
+    put_pointer(w, "influence", -1, c->influence_count > 0);
+    put_pointer(w, "target", -1, c->target_count > 0);
+    put(w, "\n    ");
+    put_pointer(w, "delta", -1, c->delta_count > 0);
+    put_pointer(w, "delta_normal", -1, c->delta_normals > 0);
+    put_pointer(w, "weight", -1, m->weight_count > 0);
+    put_pointer(w, "clip", -1, m->clip_count > 0);
+    put(w, "\n    ");
+    put_pointer(w, "channel", -1, c->channel_count > 0);
+    put_pointer(w, "key_time", -1, c->key_times > 0);
+    put_pointer(w, "key_value", -1, c->key_values > 0);
+    put_pointer(w, "text", -1, c->text_size > 0);
+    put(w, "\n    %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRId32 "\n};\n\n", m->mesh_count,
+        m->material_count, m->draw_count, m->node_count, m->clip_count, m->weight_count, m->transform_count,
+        m->deformed_count, m->joint_count, m->normals, m->deformed_vertices, m->unit_shift);
+}
+
+/* ------------------------------------------------------------------ names */
+
+/* Letters, digits and underscores, in capitals. */
+static void put_capitals(struct header_writer *w, const char *text)
+{
+    for (; *text != '\0'; text++) {
+        char c = *text;
+        if (c >= 'a' && c <= 'z')
+            c = (char)(c - 'a' + 'A');
+        if (!((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')))
+            c = '_';
+        buffer_byte(&w->b, (unsigned char)c);
+    }
+}
+
+static bool same_capitals(const char *a, const char *b)
+{
+    for (;; a++, b++) {
+        char x = *a, y = *b;
+        x = x >= 'a' && x <= 'z' ? (char)(x - 'a' + 'A') : x;
+        y = y >= 'a' && y <= 'z' ? (char)(y - 'a' + 'A') : y;
+        bool plain_x = (x >= 'A' && x <= 'Z') || (x >= '0' && x <= '9');
+        bool plain_y = (y >= 'A' && y <= 'Z') || (y >= '0' && y <= '9');
+        if (x == '\0' || y == '\0' || (plain_x || plain_y ? x != y : false))
+            return x == y;
+    }
+}
+
+/* Constants NAME_kind_TEXT; a name that is there already, or empty, gets its index behind it. */
+static void put_constants(struct header_writer *w, const char *kind, const char *const *text, int count)
+{
+    for (int i = 0; i < count; i++) {
+        bool repeats = text[i][0] == '\0';
+        for (int k = 0; k < i && !repeats; k++)
+            repeats = same_capitals(text[i], text[k]);
+        if (text[i][0] == '\0' && strcmp(kind, "NODE") == 0)
+            continue;
+        put(w, "#define %s_%s_", w->upper, kind);
+        put_capitals(w, text[i]);
+        if (repeats)
+            put(w, text[i][0] == '\0' ? "%d" : "_%d", i);
+        put(w, " %d\n", i);
+    }
+}
+
+static bool put_clip_constants(struct header_writer *w)
+{
+    const smear_model *m = &w->c->model;
+    const char **name = calloc((size_t)m->clip_count + 1, sizeof *name);
+    if (name == NULL)
+        return false;
+    for (int i = 0; i < m->clip_count; i++)
+        name[i] = m->text + m->clip[i].name;
+    put_constants(w, "CLIP", name, m->clip_count);
+    free(name);
+    return true;
+}
+
+static void put_top(struct header_writer *w, const char *from)
+{
+    const smear_model *m = &w->c->model;
+    put(w, "/* %s.h - ", w->name);
+    for (; *from != '\0'; from++)           /* nothing that ends the comment */
+        buffer_byte(&w->b, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
+    put(w, " for smear, written by smear convert.\n *\n"
+           " * %d triangles, %d vertices, %u draws, %d textures, %u nodes, %u clips: %zu bytes of constant data.\n"
+           " * Include it in one source file. */\n", w->c->triangles, w->c->vertices, m->draw_count,
+        w->c->texture_count, m->node_count, m->clip_count,
+        w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
+    put(w, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
+           "#if SMEAR_MODEL_FORMAT != %d\n#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
+        w->upper, w->upper, SMEAR_MODEL_FORMAT);
+    put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper, m->draw_count);
+    put(w, "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32 ", %u, (poses))\n\n",
+        w->upper, m->node_count, m->joint_count, m->weight_count, m->transform_count, m->deformed_count,
+        m->deformed_vertices, m->normals);
+}
+
+bool convert_to_header(const struct conversion *c, const char *name, const char *from, uint8_t **bytes, size_t *size,
+                       struct failure *f)
+{
+    struct header_writer w = { .c = c, .name = name };
+    size_t length = strlen(name);
+    if (length == 0 || length >= sizeof w.upper)
+        return fail(f, "the name of a header needs 1 to 63 letters");
+    for (size_t i = 0; i < length; i++)
+        w.upper[i] = name[i] >= 'a' && name[i] <= 'z' ? (char)(name[i] - 'a' + 'A') : name[i];
+    put_top(&w, from);
+    bool ok = put_clip_constants(&w);
+    put_constants(&w, "NODE", c->node_name, c->model.node_count);
+    put(&w, "\n");
+    put_textures(&w);
+    put_materials(&w);
+    put_meshes(&w);
+    put_draws(&w);
+    put_morphs(&w);
+    put_clips(&w);
+    put_model(&w);
+    put(&w, "#endif\n");
+    if (w.b.failed || !ok) {
+        buffer_free(&w.b);
+        return fail(f, "out of memory");
+    }
+    *bytes = w.b.data;
+    *size = w.b.size;
+    return true;
+}

@@ -1,0 +1,498 @@
+/* SPDX-License-Identifier: MIT */
+/* texture.c - smaller pictures, palettes, and colours instead of a texture. Integers throughout, so that the same
+ * picture gives the same bytes on every host. */
+#include "build.h"
+
+#include "exact.h"
+
+#include "../../src/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DISTINCT = 65536, REFINEMENTS = 12 };
+
+/* ------------------------------------------------------------------ smaller pictures */
+
+/* Whether every material with this picture ignores its alpha. */
+static bool is_opaque_picture(const struct converter *c, int image)
+{
+    for (int i = 0; i < c->model->material_count; i++)
+        if (c->model->material[i].image == image && c->model->material[i].alpha != MODEL_ALPHA_OPAQUE)
+            return false;
+    return true;
+}
+
+/* Pixel (x, y) of the smaller picture: the mean of what lies under it, in linear light, weighed by alpha. */
+static void shrink_pixel(const struct image *from, const struct image *to, int x, int y, uint8_t out[4])
+{
+    uint64_t sum[3] = { 0, 0, 0 }, alpha = 0, all = 0;
+    int64_t x0 = (int64_t)x * from->width, x1 = x0 + from->width;       /* in 1/to->width of a pixel */
+    int64_t y0 = (int64_t)y * from->height, y1 = y0 + from->height;
+    for (int64_t v = y0 / to->height; v * to->height < y1; v++) {
+        int64_t top = v * to->height > y0 ? v * to->height : y0;
+        int64_t bottom = (v + 1) * to->height < y1 ? (v + 1) * to->height : y1;
+        for (int64_t u = x0 / to->width; u * to->width < x1; u++) {
+            int64_t left = u * to->width > x0 ? u * to->width : x0;
+            int64_t right = (u + 1) * to->width < x1 ? (u + 1) * to->width : x1;
+            const uint8_t *p = from->rgba + 4 * ((size_t)v * (size_t)from->width + (size_t)u);
+            uint64_t area = (uint64_t)(right - left) * (uint64_t)(bottom - top);
+            for (int k = 0; k < 3; k++)
+                sum[k] += area * p[3] * smear_srgb_decode[p[k]];
+            alpha += area * p[3];
+            all += area;
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = alpha > 0 ? exact_srgb_code((uint32_t)((sum[k] + alpha / 2) / alpha)) : 0;
+    out[3] = (uint8_t)((alpha + all / 2) / all);
+}
+
+const struct image *shrunk_picture(struct converter *c, int index)
+{
+    const struct image *whole = &c->model->image[index];
+    struct image *to = &c->picture[index], from = *whole;
+    if (to->rgba != NULL)
+        return to;
+    int halvings = 0, larger = from.width > from.height ? from.width : from.height;
+    while (larger >> halvings > c->options->texture_edge)
+        halvings++;
+    to->width = from.width >> halvings > 0 ? from.width >> halvings : 1;
+    to->height = from.height >> halvings > 0 ? from.height >> halvings : 1;
+    to->rgba = pile_alloc(c->pile, (size_t)to->width * (size_t)to->height, 4, c->f);
+    from.rgba = pile_alloc(c->pile, (size_t)from.width * (size_t)from.height, 4, c->f);
+    if (to->rgba == NULL || from.rgba == NULL) {
+        to->rgba = NULL;
+        return NULL;
+    }
+    memcpy(from.rgba, whole->rgba, (size_t)from.width * (size_t)from.height * 4);
+    for (size_t i = 0; is_opaque_picture(c, index) && i < (size_t)from.width * (size_t)from.height; i++)
+        from.rgba[4 * i + 3] = 255;
+    if (halvings == 0) {
+        to->rgba = from.rgba;
+        return to;
+    }
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++)
+            shrink_pixel(&from, to, x, y, to->rgba + 4 * ((size_t)y * (size_t)to->width + (size_t)x));
+    return to;
+}
+
+/* ------------------------------------------------------------------ colours instead of a texture */
+
+static int wrapped(double at, int size, enum model_wrap wrap)
+{
+    double texel = floor(at * size);
+    if (wrap == MODEL_WRAP_CLAMP)
+        return (int)fmax(0, fmin(texel, size - 1));
+    double period = wrap == MODEL_WRAP_MIRROR ? 2.0 * size : size;
+    int within = (int)fmin(texel - period * floor(texel / period), period - 1);
+    return within < size ? within : 2 * size - 1 - within;
+}
+
+struct color_sum {
+    double linear[3], alpha, count;
+};
+
+static void add_texel(struct color_sum *sum, const struct image *image, const struct model_material *m, double u,
+                      double v)
+{
+    int x = wrapped(u, image->width, m->wrap_u), y = wrapped(v, image->height, m->wrap_v);
+    const uint8_t *p = image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+    double alpha = m->alpha == MODEL_ALPHA_OPAQUE ? 1 : p[3] / 255.0;
+    for (int k = 0; k < 3; k++)
+        sum->linear[k] += alpha * smear_srgb_decode[p[k]] / 65535.0;
+    sum->alpha += alpha;
+    sum->count += 1;
+}
+
+/* The mean of the texels a triangle shows. */
+static void triangle_color(const struct shape *s, const struct image *image, const struct model_material *m, int triangle,
+                           float out[4])
+{
+    const float *uv[3];
+    double longest = 0;
+    for (int k = 0; k < 3; k++)
+        uv[k] = s->uv + 2 * s->index[3 * triangle + k];
+    for (int k = 0; k < 3; k++)
+        longest = fmax(longest, fmax(fabs((double)uv[k][0] - (double)uv[(k + 1) % 3][0]) * image->width,
+                                     fabs((double)uv[k][1] - (double)uv[(k + 1) % 3][1]) * image->height));
+    int n = longest < 24 ? (int)longest + 1 : 24;
+    struct color_sum sum = { { 0, 0, 0 }, 0, 0 };
+    for (int i = 0; i < n; i++)
+        for (int j = 0; i + j < n; j++)
+            for (int half = 0; half < (i + j + 1 < n ? 2 : 1); half++) {
+                double a = (i + (1 + half) / 3.0) / n, b = (j + (1 + half) / 3.0) / n, rest = 1 - a - b;
+                add_texel(&sum, image, m, a * (double)uv[0][0] + b * (double)uv[1][0] + rest * (double)uv[2][0],
+                          a * (double)uv[0][1] + b * (double)uv[1][1] + rest * (double)uv[2][1]);
+            }
+    for (int k = 0; k < 3; k++)
+        out[k] = sum.alpha > 0 ? (float)(sum.linear[k] / sum.alpha) : 0;
+    out[3] = (float)(sum.alpha / sum.count);
+}
+
+/* Smooth shading wants colours at vertices: the mean of their triangles. Where colours of the picture meet, its
+ * coordinates differ and so do the vertices. */
+static bool to_vertices(struct converter *c, struct shape *s, const float *face)
+{
+    size_t vertices = (size_t)s->vertex_count;
+    bool has_colors = s->color != NULL;
+    float *color = pile_alloc(c->pile, vertices, 4 * sizeof *color, c->f);
+    int *faces = pile_alloc(c->pile, vertices, sizeof *faces, c->f);
+    if (color == NULL || faces == NULL)
+        return false;
+    for (int i = 0; i < 3 * s->triangle_count; i++) {
+        faces[s->index[i]]++;
+        for (size_t k = 0; k < 4; k++)
+            color[4 * s->index[i] + k] += face[4 * (size_t)(i / 3) + k];
+    }
+    for (size_t i = 0; i < 4 * vertices; i++)
+        color[i] = color[i] / (float)(faces[i / 4] > 0 ? faces[i / 4] : 1) * (has_colors ? s->color[i] : 1);
+    s->color = color;
+    return true;
+}
+
+bool bake_texture(struct converter *c, struct shape *s)
+{
+    const struct model_material *m = &c->model->material[s->material];
+    float *face = pile_alloc(c->pile, (size_t)s->triangle_count, 4 * sizeof *face, c->f);
+    if (face == NULL)
+        return false;
+    for (int t = 0; t < s->triangle_count; t++)
+        triangle_color(s, &c->model->image[m->image], m, t, face + 4 * t);
+    s->uv = NULL;
+    if (s->normal != NULL || s->color != NULL)
+        return to_vertices(c, s, face);
+    s->face_color = face;
+    return true;
+}
+
+/* ------------------------------------------------------------------ palettes */
+
+struct swatch {
+    uint32_t argb, count;
+    uint64_t key;               /* what it is sorted by */
+};
+
+static int channel_of(uint32_t argb, int k)
+{
+    return (int)(argb >> (24 - 8 * k) & 255);           /* alpha, red, green, blue */
+}
+
+static const int channel_weight[4] = { 6, 3, 6, 2 };
+
+static int64_t color_distance(uint32_t a, uint32_t b)
+{
+    int64_t sum = 0;
+    for (int k = 0; k < 4; k++) {
+        int d = channel_of(a, k) - channel_of(b, k);
+        sum += (int64_t)channel_weight[k] * d * d;
+    }
+    return sum;
+}
+
+static int by_color(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    uint64_t x = ((const struct swatch *)a)->key, y = ((const struct swatch *)b)->key;
+    return x < y ? -1 : x > y;
+}
+
+/* Swatches begin .. end - 1: their summed squared distance from the mean along the channel where it is largest. */
+struct color_box {
+    int begin, end, channel;
+    uint64_t spread;
+};
+
+static void measure_color_box(struct color_box *b, const struct swatch *swatch)
+{
+    b->spread = 0;
+    b->channel = 1;
+    for (int k = 0; k < 4; k++) {
+        uint64_t n = 0, sum = 0, squares = 0;
+        for (int i = b->begin; i < b->end; i++) {
+            uint64_t v = (uint64_t)channel_of(swatch[i].argb, k);
+            n += swatch[i].count;
+            sum += v * swatch[i].count;
+            squares += v * v * swatch[i].count;
+        }
+        uint64_t spread = (squares - sum * sum / n) * (uint64_t)channel_weight[k];
+        if (spread > b->spread) {
+            b->spread = spread;
+            b->channel = k;
+        }
+    }
+}
+
+/* Cuts the box with the largest spread at its mean until there are `limit`; returns how many. */
+static int cut_boxes(struct color_box *box, int limit, struct swatch *swatch, int count)
+{
+    int boxes = 1;
+    box[0] = (struct color_box){ .begin = 0, .end = count };
+    measure_color_box(&box[0], swatch);
+    while (boxes < limit) {
+        int widest = 0;
+        for (int i = 1; i < boxes; i++)
+            if (box[i].spread > box[widest].spread)
+                widest = i;
+        struct color_box *b = &box[widest];
+        if (b->spread == 0)
+            break;
+        for (int i = b->begin; i < b->end; i++)
+            swatch[i].key = (uint64_t)channel_of(swatch[i].argb, b->channel) << 32 | swatch[i].argb;
+        qsort(swatch + b->begin, (size_t)(b->end - b->begin), sizeof *swatch, by_key);
+        uint64_t n = 0, sum = 0;
+        for (int i = b->begin; i < b->end; i++) {
+            n += swatch[i].count;
+            sum += (uint64_t)channel_of(swatch[i].argb, b->channel) * swatch[i].count;
+        }
+        int cut = b->begin + 1;
+        while (cut < b->end - 1 && (uint64_t)channel_of(swatch[cut].argb, b->channel) * n <= sum)
+            cut++;
+        box[boxes] = (struct color_box){ .begin = cut, .end = b->end };
+        b->end = cut;
+        measure_color_box(b, swatch);
+        measure_color_box(&box[boxes++], swatch);
+    }
+    return boxes;
+}
+
+static int nearest_entry(uint32_t argb, const uint32_t *palette, int count)
+{
+    int best = 0;
+    int64_t best_distance = INT64_MAX;
+    for (int i = 0; i < count; i++) {
+        int64_t d = color_distance(argb, palette[i]);
+        if (d < best_distance) {
+            best = i;
+            best_distance = d;
+        }
+    }
+    return best;
+}
+
+/* Every entry becomes the mean of the swatches that are nearest to it. Returns whether any changed. */
+static bool refine_palette(uint32_t *palette, int count, struct swatch *swatch, int swatches)
+{
+    uint64_t sum[256][5] = { { 0 } };
+    bool changed = false;
+    for (int i = 0; i < swatches; i++) {
+        uint64_t *s = sum[nearest_entry(swatch[i].argb, palette, count)];
+        for (int k = 0; k < 4; k++)
+            s[k] += (uint64_t)channel_of(swatch[i].argb, k) * swatch[i].count;
+        s[4] += swatch[i].count;
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t mean = 0;
+        for (int k = 0; k < 4; k++)
+            mean = mean << 8 | (uint32_t)(sum[i][4] > 0 ? (sum[i][k] + sum[i][4] / 2) / sum[i][4]
+                                                        : (uint64_t)channel_of(palette[i], k));
+        changed = changed || mean != palette[i];
+        palette[i] = mean;
+    }
+    return changed;
+}
+
+static uint32_t argb_of(const uint8_t *p)
+{
+    return (uint32_t)p[3] << 24 | (uint32_t)p[0] << 16 | (uint32_t)p[1] << 8 | p[2];
+}
+
+/* Distinct ones of sorted colours; 0 when there are more than room. */
+static int list_swatches(const uint32_t *sorted, size_t count, struct swatch *out, int room)
+{
+    int swatches = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (swatches > 0 && out[swatches - 1].argb == sorted[i]) {
+            out[swatches - 1].count++;
+            continue;
+        }
+        if (swatches == room)
+            return 0;
+        out[swatches++] = (struct swatch){ .argb = sorted[i], .count = 1 };
+    }
+    return swatches;
+}
+
+static int choose_palette(struct converter *c, const struct image *image, uint32_t palette[256])
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    uint32_t *sorted = pile_alloc(c->pile, count, sizeof *sorted, c->f);
+    struct swatch *swatch = pile_alloc(c->pile, MAX_DISTINCT, sizeof *swatch, c->f);
+    struct color_box box[256];
+    int swatches = 0, boxes;
+    if (sorted == NULL || swatch == NULL)
+        return 0;
+    for (int dropped = 0; swatches == 0; dropped++) {
+        for (size_t i = 0; i < count; i++)
+            sorted[i] = argb_of(image->rgba + 4 * i) & 0x01010101u * (255u << dropped & 255u);
+        qsort(sorted, count, sizeof *sorted, by_color);
+        swatches = list_swatches(sorted, count, swatch, MAX_DISTINCT);
+    }
+    if (swatches <= c->options->colors) {
+        for (int i = 0; i < swatches; i++)
+            palette[i] = swatch[i].argb;
+        return swatches;
+    }
+    boxes = cut_boxes(box, c->options->colors, swatch, swatches);
+    for (int i = 0; i < boxes; i++)
+        palette[i] = swatch[(box[i].begin + box[i].end) / 2].argb;
+    for (int i = 0; i < REFINEMENTS && refine_palette(palette, boxes, swatch, swatches); i++)
+        ;
+    qsort(palette, (size_t)boxes, sizeof *palette, by_color);
+    return boxes;
+}
+
+/* ------------------------------------------------------------------ textures */
+
+static double channel_error(uint32_t a, uint32_t b)
+{
+    double sum = 0;
+    for (int k = 1; k < 4; k++) {
+        double d = channel_of(a, k) - channel_of(b, k);
+        sum += d * d;
+    }
+    return sum / 3;
+}
+
+static uint32_t expand_565(unsigned texel)
+{
+    unsigned r = texel >> 11, g = texel >> 5 & 63, b = texel & 31;
+    return 0xff000000u | (r << 3 | r >> 2) << 16 | (g << 2 | g >> 4) << 8 | (b << 3 | b >> 2);
+}
+
+static unsigned pack_565(uint32_t argb)
+{
+    unsigned r = ((unsigned)channel_of(argb, 1) * 31 + 127) / 255, g = ((unsigned)channel_of(argb, 2) * 63 + 127) / 255;
+    return r << 11 | g << 5 | ((unsigned)channel_of(argb, 3) * 31 + 127) / 255;
+}
+
+/* Fills texels and palette; returns the squared error in codes. */
+static bool fill_texels(struct converter *c, const struct image *image, struct out_texture *t, double *error)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    size_t size = t->texture.format == SMEAR_TEXEL_8888 ? 4 : t->texture.format == SMEAR_TEXEL_565 ? 2 : 1;
+    void *texels = pile_alloc(c->pile, count, size, c->f);
+    uint32_t *palette = NULL, last = 0;
+    int entry = -1;
+    *error = 0;
+    if (texels == NULL)
+        return false;
+    if (t->texture.format == SMEAR_TEXEL_PALETTE8) {
+        palette = pile_alloc(c->pile, 256, sizeof *palette, c->f);
+        t->palette_count = palette != NULL ? choose_palette(c, image, palette) : 0;
+        if (t->palette_count == 0)
+            return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        uint32_t argb = argb_of(image->rgba + 4 * i), shown = argb;
+        if (palette != NULL) {
+            if (entry < 0 || argb != last)
+                entry = nearest_entry(argb, palette, t->palette_count);
+            last = argb;
+            ((uint8_t *)texels)[i] = (uint8_t)entry;
+            shown = palette[entry];
+        } else if (t->texture.format == SMEAR_TEXEL_565) {
+            ((uint16_t *)texels)[i] = (uint16_t)pack_565(argb);
+            shown = expand_565(pack_565(argb));
+        } else {
+            ((uint32_t *)texels)[i] = argb;
+        }
+        *error += channel_error(argb, shown);
+    }
+    *error /= (double)count;
+    t->texture.texels = texels;
+    t->texture.palette = palette;
+    return true;
+}
+
+static uint8_t wrap_of(enum model_wrap wrap)
+{
+    return wrap == MODEL_WRAP_CLAMP ? SMEAR_CLAMP : wrap == MODEL_WRAP_MIRROR ? SMEAR_MIRROR : SMEAR_REPEAT;
+}
+
+static smear_texel_format format_of(const struct converter *c, int image)
+{
+    if (c->options->texture == CONVERT_RGB8888)
+        return SMEAR_TEXEL_8888;
+    /* 565 has no alpha */
+    return c->options->texture == CONVERT_RGB565 && is_opaque_picture(c, image) ? SMEAR_TEXEL_565
+                                                                               : SMEAR_TEXEL_PALETTE8;
+}
+
+bool texture_for(struct converter *c, const struct model_material *m, int *texture)
+{
+    struct out_texture *all = c->texture.data, made = { .image = m->image, .same = c->texture.count };
+    const struct image *image = shrunk_picture(c, m->image);
+    if (image == NULL)
+        return false;
+    made.texture = (smear_texture){ .width = (uint16_t)image->width, .height = (uint16_t)image->height,
+                                    .format = (uint8_t)format_of(c, m->image), .wrap_u = wrap_of(m->wrap_u),
+                                    .wrap_v = wrap_of(m->wrap_v) };
+    for (int i = 0; i < c->texture.count; i++) {
+        if (all[i].image != m->image)
+            continue;
+        if (all[i].texture.wrap_u == made.texture.wrap_u && all[i].texture.wrap_v == made.texture.wrap_v) {
+            *texture = i;
+            return true;
+        }
+        made.same = all[i].same;
+    }
+    struct convert_texture_report report = {
+        .from_width = c->model->image[m->image].width, .from_height = c->model->image[m->image].height,
+        .width = image->width, .height = image->height
+    };
+    if (made.same < c->texture.count) {
+        made.texture.texels = all[made.same].texture.texels;
+        made.texture.palette = all[made.same].texture.palette;
+        made.palette_count = all[made.same].palette_count;
+    } else {
+        double error;
+        if (!fill_texels(c, image, &made, &error))
+            return false;
+        report.rms = sqrt(error);
+    }
+    report.colors = made.palette_count;
+    struct out_texture *out = list_add(&c->texture, 1, c->f);
+    struct convert_texture_report *reports = list_add(&c->texture_report, 1, c->f);
+    if (out == NULL || reports == NULL)
+        return false;
+    *out = made;
+    *reports = report;
+    *texture = c->texture.count - 1;
+    return true;
+}
+
+bool finish_textures(struct converter *c)
+{
+    struct conversion *out = c->out;
+    size_t count = (size_t)c->texture.count, materials = (size_t)c->material.count;
+    const struct out_texture *texture = c->texture.data;
+    const struct out_material *material = c->material.data;
+    smear_material *table = pile_alloc(c->pile, materials, sizeof *table, c->f);
+    out->texture = pile_alloc(c->pile, count, sizeof *out->texture, c->f);
+    out->palette_count = pile_alloc(c->pile, count, sizeof *out->palette_count, c->f);
+    out->same_texels = pile_alloc(c->pile, count, sizeof *out->same_texels, c->f);
+    if (table == NULL || out->texture == NULL || out->palette_count == NULL || out->same_texels == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        out->texture[i] = texture[i].texture;
+        out->palette_count[i] = texture[i].palette_count;
+        out->same_texels[i] = texture[i].same;
+    }
+    for (size_t i = 0; i < materials; i++) {
+        table[i] = material[i].material;
+        if (material[i].texture >= 0)
+            table[i].texture = out->texture + material[i].texture;
+    }
+    out->texture_count = c->texture.count;
+    out->model.material = table;
+    out->model.material_count = (uint16_t)materials;
+    return true;
+}

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT */
+/* debug.c - see debug.h. */
+#include "debug.h"
+
+#include "wire.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+
+const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "bands", "wire", NULL };
+
+enum { BAR_WIDTH = 4 };
+
+/* ------------------------------------------------------------------ colours */
+
+static uint32_t rgb(double r, double g, double b)
+{
+    const double channel[3] = { r, g, b };
+    uint32_t out = 0;
+    for (int i = 0; i < 3; i++) {
+        double c = channel[i] < 0.0 ? 0.0 : channel[i] > 1.0 ? 1.0 : channel[i];
+        out = out << 8 | (uint32_t)(c * 255.0 + 0.5);
+    }
+    return out;
+}
+
+static uint32_t blend(uint32_t under, uint32_t over, unsigned weight)
+{
+    uint32_t out = 0;
+    for (int shift = 0; shift < 24; shift += 8) {
+        uint32_t a = under >> shift & 255, b = over >> shift & 255;
+        out |= (a * (256 - weight) + b * weight) >> 8 << shift;
+    }
+    return out;
+}
+
+static uint32_t grey_of(uint32_t code)
+{
+    uint32_t y = ((code >> 16 & 255) * 54 + (code >> 8 & 255) * 183 + (code & 255) * 19) >> 8;
+    return y << 16 | y << 8 | y;
+}
+
+/* Hue goes round with the direction; black stands still, full brightness is `full` pixels. */
+static uint32_t velocity_color(double x, double y, double full)
+{
+    double angle = atan2(-y, x), length = hypot(x, y) / full;
+    double value = length < 1.0 ? sqrt(length) : 1.0;
+    return rgb(value * (0.5 + 0.5 * cos(angle)), value * (0.5 + 0.5 * cos(angle - 2 * PI / 3)),
+               value * (0.5 + 0.5 * cos(angle + 2 * PI / 3)));
+}
+
+/* ------------------------------------------------------------------ planes */
+
+static bool draw_planes(struct debug *d, const struct lane *lane, struct presenter *presenter,
+                        const struct instant *instant, struct failure *f)
+{
+    if (d->width != lane->setup.width || d->height != lane->setup.height) {
+        debug_close(d);
+        if (!planes_open(&d->planes, lane->setup.width, lane->setup.height, f)) {
+            planes_close(&d->planes);
+            return false;
+        }
+        d->width = lane->setup.width;
+        d->height = lane->setup.height;
+    }
+    const struct presented *presented = lane_present(lane, presenter, instant, f);
+    return presented != NULL && planes_draw(&d->planes, presented, f);
+}
+
+void debug_close(struct debug *d)
+{
+    if (d->width > 0)
+        planes_close(&d->planes);
+    *d = (struct debug){ .width = 0 };
+}
+
+static size_t pixels_of(const struct lane *lane)
+{
+    return (size_t)lane->setup.width * (size_t)lane->setup.height;
+}
+
+static void show_velocity(const struct debug *d, const struct lane *lane, uint32_t *picture)
+{
+    const float *v = d->planes.velocity.value;
+    double full = lane->setup.reach * 2.0;
+    for (size_t i = 0; i < pixels_of(lane); i++, v += 3)
+        picture[i] = velocity_color((double)v[0], (double)v[1], full);
+}
+
+/* Near is bright; even steps of 1 / distance. */
+static void show_depth(const struct debug *d, const struct lane *lane, uint32_t *picture)
+{
+    const float *depth = d->planes.depth.value;
+    double nearest = INFINITY;
+    for (size_t i = 0; i < pixels_of(lane); i++)
+        nearest = fmin(nearest, (double)depth[i]);
+    for (size_t i = 0; i < pixels_of(lane); i++) {
+        double value = isfinite(depth[i]) ? 0.08 + 0.92 * nearest / (double)depth[i] : 0.0;
+        picture[i] = rgb(value, value, isfinite(depth[i]) ? value : 0.2);
+    }
+}
+
+/* ------------------------------------------------------------------ tiles */
+
+static int tile_edge(const struct lane *lane)
+{
+    int edge = lane->setup.tile > 0 ? lane->setup.tile : 8;
+    while (lane->setup.tile == 0 && edge < lane->setup.reach)
+        edge *= 2;
+    return edge;
+}
+
+/* Longest displacement within the exposure in each tile, in pixels. */
+static void longest_of(const struct debug *d, const struct lane *lane, int edge, int columns,
+                       double *longest)
+{
+    const float *v = d->planes.velocity.value;
+    double open = lane->setup.present.shutter_degrees / 360.0;
+    for (int y = 0; y < lane->setup.height; y++)
+        for (int x = 0; x < lane->setup.width; x++, v += 3) {
+            double *tile = &longest[y / edge * columns + x / edge];
+            *tile = fmax(*tile, hypot((double)v[0], (double)v[1]) * open);
+        }
+}
+
+static double around(const double *longest, int columns, int rows, int column, int row)
+{
+    double most = 0.0;
+    for (int y = row > 0 ? row - 1 : 0; y <= row + 1 && y < rows; y++)
+        for (int x = column > 0 ? column - 1 : 0; x <= column + 1 && x < columns; x++)
+            most = fmax(most, longest[y * columns + x]);
+    return most;
+}
+
+/* Green: nothing within reach moves by half a pixel; yellow to red: the longest streak within
+ * reach, up to the reach; violet: beyond it, so that a filter shortens it. */
+static uint32_t tile_color(double streak, int reach)
+{
+    double share = streak / (2.0 * reach);
+    if (streak < 0.5)
+        return 0x207040;
+    return share <= 1.0 ? rgb(0.9, 0.8 * (1.0 - share), 0.1) : 0xa030d0;
+}
+
+/* Shares of a band's height, one above the other, in columns [x0, x1). */
+static void draw_bar(const struct lane *lane, const struct lane_band *b, int x0, int x1,
+                     const uint32_t *count, const uint32_t *color, int kinds, uint32_t *picture)
+{
+    uint32_t all = 0;
+    for (int k = 0; k < kinds; k++)
+        all += count[k];
+    for (int y = 0; y < b->height && all > 0; y++) {
+        double at = (y + 0.5) / b->height * all;
+        int kind = 0;
+        for (double end = count[0]; kind < kinds - 1 && at >= end; end += count[kind])
+            kind++;
+        for (int x = x0 > 0 ? x0 : 0; x < x1 && x < lane->setup.width; x++)
+            picture[(size_t)(b->y + y) * (size_t)lane->setup.width + (size_t)x] = color[kind];
+    }
+}
+
+/* What the library counted of each row of tiles. Left: green still, yellow uniform, red complex.
+ * Right, by method: grey none, white accumulate, yellow reconstruct, blue subframes, violet
+ * timemask. */
+static void draw_counts(const struct lane *lane, uint32_t *picture)
+{
+    static const uint32_t class_color[3] = { 0x30ff70, 0xffe030, 0xff4020 };
+    static const uint32_t method_color[5] = { 0x808080, 0xffffff, 0xffe030, 0x2080ff, 0xc040ff };
+    const smear_stats none = { 0 };
+    for (int i = 0; i < lane->band_count; i++) {
+        const smear_stats *to = &lane->band[i].counts;
+        const smear_stats *from = i > 0 ? &lane->band[i - 1].counts : &none;
+        const uint32_t classes[3] = { to->tiles_still - from->tiles_still,
+                                      to->tiles_uniform - from->tiles_uniform,
+                                      to->tiles_complex - from->tiles_complex };
+        const uint32_t methods[5] = { to->tiles_none - from->tiles_none,
+                                      to->tiles_accumulate - from->tiles_accumulate,
+                                      to->tiles_reconstruct - from->tiles_reconstruct,
+                                      to->tiles_subframes - from->tiles_subframes,
+                                      to->tiles_timemask - from->tiles_timemask };
+        draw_bar(lane, &lane->band[i], 0, BAR_WIDTH, classes, class_color, 3, picture);
+        draw_bar(lane, &lane->band[i], lane->setup.width - BAR_WIDTH, lane->setup.width, methods,
+                 method_color, 5, picture);
+    }
+}
+
+static bool show_tiles(const struct debug *d, const struct lane *lane, uint32_t *picture,
+                       struct failure *f)
+{
+    int edge = tile_edge(lane), width = lane->setup.width, height = lane->setup.height;
+    int columns = (width + edge - 1) / edge, rows = (height + edge - 1) / edge;
+    double *longest = calloc((size_t)columns * (size_t)rows, sizeof *longest);
+    if (longest == NULL)
+        return fail(f, "out of memory");
+    longest_of(d, lane, edge, columns, longest);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            uint32_t *p = &picture[(size_t)y * (size_t)width + (size_t)x];
+            double streak = around(longest, columns, rows, x / edge, y / edge);
+            *p = blend(grey_of(*p), tile_color(streak, lane->setup.reach),
+                       x % edge == 0 || y % edge == 0 ? 200 : 110);
+        }
+    draw_counts(lane, picture);
+    free(longest);
+    return true;
+}
+
+/* ------------------------------------------------------------------ bands, wires */
+
+static void show_bands(const struct lane *lane, uint32_t *picture)
+{
+    for (int i = 0; i < lane->band_count; i++) {
+        const struct lane_band *b = &lane->band[i];
+        uint32_t *p = picture + (size_t)b->y * (size_t)lane->setup.width;
+        for (int k = 0; k < b->height * lane->setup.width; k++)
+            p[k] = blend(p[k], i & 1 ? 0x3060ff : 0xff9020, k < lane->setup.width ? 200 : 70);
+    }
+}
+
+static bool show_wire(const struct lane *lane, struct presenter *presenter,
+                      const struct instant *instant, uint32_t *picture, struct failure *f)
+{
+    const struct presented *presented = lane_present(lane, presenter, instant, f);
+    if (presented == NULL)
+        return false;
+    for (size_t i = 0; i < pixels_of(lane); i++)
+        picture[i] = blend(grey_of(picture[i]), 0, 170);
+    wire_draw(presented, picture, lane->setup.width, lane->setup.height);
+    return true;
+}
+
+bool debug_draw(struct debug *d, enum debug_kind kind, const struct lane *lane,
+                struct presenter *presenter, const struct instant *instant, uint32_t *picture,
+                struct failure *f)
+{
+    bool needs_planes = kind == DEBUG_VELOCITY || kind == DEBUG_DEPTH || kind == DEBUG_TILES;
+    if (needs_planes && !draw_planes(d, lane, presenter, instant, f))
+        return false;
+    switch (kind) {
+    case DEBUG_VELOCITY: show_velocity(d, lane, picture); return true;
+    case DEBUG_DEPTH: show_depth(d, lane, picture); return true;
+    case DEBUG_TILES: return show_tiles(d, lane, picture, f);
+    case DEBUG_BANDS: show_bands(lane, picture); return true;
+    case DEBUG_WIRE: return show_wire(lane, presenter, instant, picture, f);
+    default: return true;
+    }
+}

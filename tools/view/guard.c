@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* guard.c - see guard.h. */
+#include "guard.h"
+
+#include <signal.h>
+#include <stddef.h>
+
+static volatile sig_atomic_t asked;
+static void (*volatile undo_all)(void);
+
+static void die(int signal_number)
+{
+    void (*undo)(void) = undo_all;
+    undo_all = NULL;
+    if (undo != NULL)
+        undo();
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
+}
+
+static void ask(int signal_number)
+{
+    if (asked)
+        die(signal_number);
+    asked = 1;
+}
+
+static void handle(int signal_number, void (*handler)(int), int flags)
+{
+    struct sigaction action = { .sa_handler = handler, .sa_flags = flags };
+    sigemptyset(&action.sa_mask);
+    sigaction(signal_number, &action, NULL);
+}
+
+void guard_set(void (*undo)(void))
+{
+    static const int asking[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT };
+    static const int crashes[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+    undo_all = undo;
+    for (size_t i = 0; i < sizeof asking / sizeof *asking; i++)
+        handle(asking[i], ask, 0);      /* no SA_RESTART: waiting for events must end */
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
+        handle(crashes[i], die, 0);
+    handle(SIGPIPE, SIG_IGN, 0);
+}
+
+bool guard_is_asked(void)
+{
+    return asked != 0;
+}
+
+void guard_suspend(void (*redo)(void))
+{
+    void (*undo)(void) = undo_all;
+    if (undo != NULL)
+        undo();
+    raise(SIGSTOP);
+    redo();
+}

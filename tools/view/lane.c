@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* lane.c - see lane.h. */
+#include "lane.h"
+
+#include "clock.h"
+
+#include "../cli/say.h"
+
+#include <stdlib.h>
+
+static void note_band(void *user, const smear_band *band)
+{
+    struct lane *lane = user;
+    if (lane->band_count == LANE_MAX_BANDS || lane->device.is_timed)
+        return;
+    struct lane_band *b = &lane->band[lane->band_count++];
+    *b = (struct lane_band){ .y = band->y, .height = band->height, .bytes = band->size };
+    smear_get_stats(lane->device.ctx, &b->counts);
+}
+
+static bool open_parts(struct lane *lane, struct failure *f)
+{
+    struct device_setup setup = setup_device(&lane->setup, &lane->options);
+    size_t pixels = (size_t)lane->setup.width * (size_t)lane->setup.height;
+    setup.band = note_band;
+    setup.band_user = lane;
+    lane->picture = calloc(pixels, sizeof *lane->picture);
+    if (lane->picture == NULL)
+        return fail(f, "out of memory");
+    return device_open(&lane->device, &setup, f) &&
+           panel_codes_open(&lane->codes, lane->options.format, f);
+}
+
+bool lane_open(struct lane *lane, const struct render_options *options, struct source *source,
+               struct failure *f)
+{
+    struct lane old = *lane;
+    *lane = (struct lane){ .options = *options, .is_open = true };
+    if (setup_open(&lane->options, source, &lane->setup) != STATUS_OK)
+        fail(f, "these settings do not go together");
+    else if (open_parts(lane, f)) {
+        lane_close(&old);
+        return true;
+    }
+    lane_close(lane);
+    *lane = old;
+    return false;
+}
+
+void lane_close(struct lane *lane)
+{
+    if (!lane->is_open)
+        return;
+    device_close(&lane->device);
+    panel_codes_close(&lane->codes);
+    setup_release(&lane->setup);
+    free(lane->picture);
+    *lane = (struct lane){ .is_open = false };
+}
+
+const struct presented *lane_present(const struct lane *lane, struct presenter *presenter,
+                                     const struct instant *instant, struct failure *f)
+{
+    struct present_options options = setup_frame(&lane->setup, &lane->options, instant->frame);
+    options.fps /= instant->frames_apart;
+    return presenter_frame(presenter, instant->time, &options, f);
+}
+
+bool lane_draw(struct lane *lane, struct presenter *presenter, const struct instant *instant,
+               struct failure *f)
+{
+    double start = clock_us();
+    const struct presented *presented = lane_present(lane, presenter, instant, f);
+    if (presented == NULL || !device_fit(&lane->device, presented, f))
+        return false;
+    lane->band_count = 0;
+    if (!device_draw(&lane->device, presented, f))
+        return false;
+    smear_get_stats(lane->device.ctx, &lane->stats);
+    bool ok = panel_decode(&lane->codes, lane->device.pixels, lane->device.stride,
+                           lane->setup.width, lane->setup.height, lane->picture, f);
+    lane->wall_us = clock_us() - start;
+    return ok;
+}

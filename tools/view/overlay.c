@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+/* overlay.c - see overlay.h. */
+#include "overlay.h"
+
+#include "clock.h"
+#include "control.h"
+#include "font.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+enum { MARGIN = 4, HELP_KEYS = 11, HELP_COLUMN = 48 };
+
+/* ------------------------------------------------------------------ lines */
+
+struct page {
+    struct text *text;
+    int columns, rows;
+};
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void add(struct page *p, const char *format, ...)
+{
+    if (p->text->rows >= p->rows || p->text->rows >= TEXT_ROWS)
+        return;
+    char *line = p->text->line[p->text->rows++];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, TEXT_COLUMNS + 1, format, args);
+    va_end(args);
+    if (p->columns < TEXT_COLUMNS)
+        line[p->columns > 0 ? p->columns : 0] = '\0';
+}
+
+/* ------------------------------------------------------------------ figures */
+
+static double ms(uint32_t ticks)
+{
+    return ticks / (DEVICE_TICKS_PER_US * 1000.0);
+}
+
+static void add_settings(struct page *p, const struct view *v)
+{
+    const struct render_options *o = &v->main.options;
+    char samples[24] = "";
+    if (o->samples > 0)
+        snprintf(samples, sizeof samples, " %d", o->samples);
+    if (v->is_split && v->left.is_open)
+        add(p, "%s | %s%s  shutter %d", control_method_name(v->left.options.method),
+            control_method_name(o->method), samples, o->shutter_degrees);
+    else
+        add(p, "%s%s  shutter %d", control_method_name(o->method), samples, o->shutter_degrees);
+    add(p, "%dx%d %s  %s light", v->main.setup.width, v->main.setup.height,
+        options_format_name(o->format), o->light == SMEAR_LIGHT_LINEAR ? "linear" : "encoded");
+}
+
+static void add_time(struct page *p, const struct view *v)
+{
+    struct instant now = view_instant(v, v->at);
+    if (now.frame >= 0)
+        add(p, "frame %ld  %.3f s%s", now.frame, now.time, v->is_paused ? "  paused" : "");
+    else
+        add(p, "between frames  %.3f s%s", now.time, v->is_paused ? "  paused" : "");
+}
+
+static void add_stages(struct page *p, const struct view *v)
+{
+    const smear_stats *s = &v->main.stats;
+    add(p, "%.1f shown per second, of %.4g  x%g", v->shown_fps, view_fps(v),
+        (double)v->speed / VIEW_UNITS);
+    add(p, "drawn in %.2f ms: submit %.2f raster %.2f", v->main.wall_us / 1000.0,
+        ms(s->time_submit), ms(s->time_raster));
+    add(p, "  reduce %.2f blur %.2f convert %.2f", ms(s->time_reduce), ms(s->time_blur),
+        ms(s->time_convert));
+}
+
+static void add_counts(struct page *p, const struct view *v)
+{
+    const smear_stats *s = &v->main.stats;
+    add(p, "triangles %lu in %lu drawn %lu dropped", (unsigned long)s->triangles_in,
+        (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped);
+    if (s->triangles_split > 0)
+        add(p, "  drawn in parts: split %lu times", (unsigned long)s->triangles_split);
+    add(p, "tiles %lu still %lu uniform %lu complex", (unsigned long)s->tiles_still,
+        (unsigned long)s->tiles_uniform, (unsigned long)s->tiles_complex);
+    add(p, "  none %lu reconstruct %lu", (unsigned long)s->tiles_none,
+        (unsigned long)s->tiles_reconstruct);
+    add(p, "  subframes %lu timemask %lu", (unsigned long)s->tiles_subframes,
+        (unsigned long)s->tiles_timemask);
+    add(p, "samples %lu, %.1f per pixel", (unsigned long)s->samples,
+        (double)s->samples / s->pixels);
+    if (v->main.options.arena > 0)
+        add(p, "arena %lu of %lu bytes", (unsigned long)s->arena_bytes,
+            (unsigned long)v->main.options.arena);
+    else
+        add(p, "arena %lu bytes", (unsigned long)s->arena_bytes);
+    add(p, "crc32 %08lx", (unsigned long)s->crc32);
+}
+
+static void add_board(struct page *p, const struct view *v)
+{
+    const struct bus *bus = &v->wish.bus;
+    if (v->wish.core != NULL) {
+        add(p, "ESTIMATE for %s at %.4g MHz:", v->wish.core->name, v->wish.cpu_hz / 1e6);
+        add(p, "  %.1f frames/s: cpu %.1f ms, bus %.1f ms", 1e6 / (v->board_us + v->wire_us),
+            v->board_us / 1000.0, v->wire_us / 1000.0);
+    } else if (bus->hz > 0.0) {
+        add(p, "bus %.1f ms at %.4g MHz", v->wire_us / 1000.0, bus->hz / 1e6);
+    }
+}
+
+static void add_figures(struct page *p, const struct view *v)
+{
+    add_settings(p, v);
+    add_time(p, v);
+    if (v->debug_kind != DEBUG_PICTURE)
+        add(p, "seen: %s", debug_names[v->debug_kind]);
+    add_stages(p, v);
+    add_counts(p, v);
+    add_board(p, v);
+    if (v->has_error)
+        add(p, "error: rmse %.2f ssim %.4f flip %.4f", v->error.rmse, v->error.ssim, v->error.flip);
+    add(p, "%s", v->screen->what);
+}
+
+/* ------------------------------------------------------------------ help */
+
+static int control_count(void)
+{
+    int count = 0;
+    while (control_list[count].keys != NULL)
+        count++;
+    return count;
+}
+
+/* Columns of text side by side, and lines in each. */
+static void help_grid(int columns, int rows, int *across, int *down)
+{
+    *across = columns / HELP_COLUMN > 1 ? columns / HELP_COLUMN : 1;
+    *down = rows > 2 ? rows - 1 : 1;
+}
+
+int overlay_help_pages(int columns, int rows)
+{
+    int across, down;
+    help_grid(columns, rows, &across, &down);
+    return (control_count() + across * down - 1) / (across * down);
+}
+
+static void add_help(struct page *p, int page)
+{
+    int across, down, count = control_count();
+    help_grid(p->columns, p->rows, &across, &down);
+    int pages = overlay_help_pages(p->columns, p->rows);
+    int first = (page - 1) * across * down;
+    int here = count - first < across * down ? count - first : across * down;
+    int lines = (here + across - 1) / across;
+    for (int row = 0; row < lines; row++) {
+        char line[TEXT_COLUMNS + 1] = "";
+        for (int column = 0; column < across; column++) {
+            int i = first + column * lines + row;
+            if (column * lines + row >= here)
+                break;
+            size_t used = strlen(line);
+            snprintf(line + used, sizeof line - used, "%-*s%-*s", HELP_KEYS, control_list[i].keys,
+                     HELP_COLUMN - HELP_KEYS, control_list[i].what);
+        }
+        add(p, "%s", line);
+    }
+    if (pages > 1)
+        add(p, "page %d of %d: ? goes on, escape closes", page, pages);
+}
+
+void overlay_text(const struct view *v, int columns, int rows, struct text *out)
+{
+    struct page page = { out, columns < TEXT_COLUMNS ? columns : TEXT_COLUMNS, rows };
+    *out = (struct text){ .rows = 0 };
+    if (v->help_page > 0)
+        add_help(&page, v->help_page);
+    else if (v->has_overlay)
+        add_figures(&page, v);
+    if (v->message[0] != '\0' && clock_us() < v->message_until_us) {
+        if (out->rows == page.rows && out->rows > 0)
+            out->rows--;
+        add(&page, "%s", v->message);
+    }
+}
+
+/* ------------------------------------------------------------------ letters on surfaces */
+
+static int letter_zoom(const struct surface *s)
+{
+    int zoom = s->width / 640;
+    return zoom > 1 ? zoom : 1;
+}
+
+void overlay_room(const struct surface *s, int *columns, int *rows)
+{
+    int zoom = letter_zoom(s);
+    *columns = (s->width - 2 * MARGIN) / (FONT_WIDTH * zoom);
+    *rows = (s->height - 2 * MARGIN) / (FONT_HEIGHT * zoom);
+}
+
+void overlay_draw(const struct surface *s, const struct text *text)
+{
+    int zoom = letter_zoom(s);
+    for (int i = 0; i < text->rows; i++)
+        font_draw(s, MARGIN, MARGIN + i * FONT_HEIGHT * zoom, zoom, text->line[i]);
+}
