@@ -92,11 +92,12 @@ if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
     suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
+    suite demo-linux $make -s TARGET=linux demo-test
 fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
-    for target in cortex-m0plus cortex-m3 cortex-m4; do
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
@@ -106,6 +107,10 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite demo-gba $make -s TARGET=gba demo-test
     fi
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
+fi
+if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
+    suite target-rv32imc $make -s TARGET=rv32imc target-test
+    suite demo-rv32imc $make -s TARGET=rv32imc demo-test
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then
