@@ -84,6 +84,7 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
 fi
 suite golden-host $make -s TARGET=host target-test
+suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
