@@ -42,7 +42,7 @@ MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
-VIEW_SRC  := $(wildcard tools/view/*.c)
+VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
@@ -54,7 +54,7 @@ BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all cost-model help demo readme-pictures test bench chart chart-picture layers tables clean
+.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -96,6 +96,19 @@ $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+# platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked
+# by its CRCs (tools/view/host_display.c).
+HOST_DISPLAY_SRC := platform/host/platform.c tools/view/host_display.c tools/cli/picture.c \
+    $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
+        console.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
+
+## a desktop's display for firmware: build/host/libsmear-display.a
+host-display: $(BUILD)/libsmear-display.a
+
+$(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
+	@rm -f $@
+	$(AR) rcs $@ $^
 
 # For a Linux without libraries, and what boots it.
 $(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
@@ -208,6 +221,11 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+
+# The demo firmware on a desktop's screen.
+$(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \
+    $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

@@ -25,14 +25,15 @@ TAPES_SRC := tests/target_tapes.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
              $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
 
 PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(PLATFORM_OBJ) $(BUILD)/tests/target_print.o
-GOLDEN_OBJ  := $(PROGRAM_OBJ) $(BUILD)/tests/target_golden.o $(BUILD)/tests/play.o \
-               $(BUILD)/$(TAPES)/golden.o
+PLAYER_OBJ  := $(PROGRAM_OBJ) $(BUILD)/tests/target_golden.o $(BUILD)/tests/play.o
+GOLDEN_OBJ  := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/golden.o
+SMALL_OBJ   := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/small.o
 BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target_bench.o $(BUILD)/tests/play.o \
                $(BUILD)/$(TAPES)/bench.o
 UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target_unit.o $(BUILD)/tests/test.o \
                $(UNIT_SUITES:%=$(BUILD)/tests/test_%.o)
 
-$(BUILD)/$(TAPES)/golden.o $(BUILD)/$(TAPES)/bench.o: CFLAGS += -Itests
+$(BUILD)/$(TAPES)/%.o: CFLAGS += -Itests
 
 $(TAPES)/target_tapes: $(TAPES_SRC)
 	@mkdir -p $(@D)
@@ -40,6 +41,9 @@ $(TAPES)/target_tapes: $(TAPES_SRC)
 
 $(TAPES)/golden.c: $(TAPES)/target_tapes tests/golden.txt
 	$(TAPES)/target_tapes golden $@ tests/golden.txt
+
+$(TAPES)/small.c: $(TAPES)/target_tapes tests/golden.txt
+	$(TAPES)/target_tapes small $@ tests/golden.txt
 
 $(TAPES)/bench.c: $(TAPES)/target_tapes
 	$(TAPES)/target_tapes bench $@
@@ -55,8 +59,8 @@ $(BUILD)/target_unit$(EXE): $(UNIT_OBJ) $(LIB) $(SCRIPTS)
 
 # On small boards (SMALL_LAYOUTS) the linker script holds programs to the real sizes; golden frames
 # that need more memory than there is are skipped.
-$(BUILD)/target_golden-%$(EXE): $(GOLDEN_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/%.ld
-	$(CC) $(LDFLAGS) -T $*.ld -o $@ $(GOLDEN_OBJ) $(LIB) $(LDLIBS)
+$(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/%.ld
+	$(CC) $(LDFLAGS) -T $*.ld -o $@ $(SMALL_OBJ) $(LIB) $(LDLIBS)
 
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)

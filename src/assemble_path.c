@@ -229,8 +229,10 @@ static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygo
     if (!has_room(b))
         return false;
     bounds.piece = piece;
-    if (piece != 0)         /* of the whole exposure */
-        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);
+    if (piece != 0) {
+        bounds.flags |= PATH_PIECE;
+        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);      /* of the whole exposure */
+    }
     const struct smear_segment *s = b->segment;
     struct smear_geometry *g = b->a->geometry;
     uint16_t offset[3];

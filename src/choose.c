@@ -6,6 +6,31 @@
 
 #include "fixmath.h"
 
+/* Few instants cost less than a time mask: its closed forms pay from `most` on. Measured on the scenes of the quality
+ * suite (make chart). */
+struct preset {
+    int32_t target;             /* from this error on, 1/64 codes */
+    int32_t step;               /* travel from one instant to the next, 1/16 px */
+    int32_t least, most;        /* instants, however short the way; and up to which they are taken */
+    int32_t pieces;             /* instants at most where triangles are there for pieces of the exposure */
+    int32_t slots, edge, tap;   /* as in struct smear_timemask_settings */
+};
+
+enum { INSTANTS_MAX = 64 };
+
+static const struct preset *preset_of(int32_t target)
+{
+    static const struct preset preset[] = {
+        { SMEAR_DRAFT, 80, 2, 6, 4, 8, 2, 768 },
+        { SMEAR_BALANCED, 40, 3, 6, 11, 16, 4, 512 },
+        { 0, 12, 6, 8, 20, 32, 6, 256 }
+    };
+    const struct preset *p = preset;
+    while (target < p->target)
+        p++;
+    return p;
+}
+
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
 static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
 {
@@ -46,11 +71,16 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->method = TILE_SMOOTH;
         choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);
         choice->taps = max_i32(load->travel >> 4, 8);
-    } else if (closed_form) {
-        choose_timemask(choice, chooser->target >= SMEAR_DRAFT ? 8 : chooser->target >= SMEAR_BALANCED ? 16 : 32,
-                        min_i32(chooser->target, 128), chooser->target >= SMEAR_BALANCED ? 2 : 5, 512);
     } else {
-        choice->method = TILE_SUBFRAMES;
-        choice->instants = instants_for(load, chooser->target >= SMEAR_BALANCED ? 16 : 32);
+        const struct preset *p = preset_of(chooser->target);
+        int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
+        if (load->flags & PATH_PIECE)       /* a closed form for each piece of the exposure costs as much as an instant */
+            instants = min_i32(instants, p->pieces);
+        if (closed_form && instants > p->most && (load->flags & PATH_PIECE) == 0) {
+            choose_timemask(choice, p->slots, min_i32(chooser->target, 64), p->edge, p->tap);
+        } else {
+            choice->method = TILE_SUBFRAMES;
+            choice->instants = min_i32(instants, INSTANTS_MAX);
+        }
     }
 }

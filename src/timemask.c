@@ -12,6 +12,8 @@
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
+enum { WIDTH_LOG2 = 4, HEIGHT_LOG2 = 3, PIECES_LOG2 = 4 };
+
 enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
 
 /* What the blocks of a tile share. */
@@ -25,6 +27,7 @@ struct job {
     int32_t slots_log2;                         /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
     int32_t x, y, width, height;                /* the block */
+    bool even;                                  /* slots are */
     uint32_t fragments;
 };
 
@@ -97,43 +100,23 @@ static int32_t shutter_bend(const struct smear_shutter *s, int log2)
     return worst;
 }
 
-/* Edges are taken to sweep evenly: how far one that turns or grows lies off in the middle, |move x change| / (4 length),
- * q8 px, rounded up. */
-static int32_t edge_bend(const struct mover *m, int i, int j)
-{
-    const int32_t *a = m->record[i] + m->segment->motion, *b = m->record[j] + m->segment->motion;
-    int32_t ex = b[PATH_X] - a[PATH_X], ey = b[PATH_Y] - a[PATH_Y];
-    int32_t cx = b[PATH_POSE_WORDS + PATH_X] - a[PATH_POSE_WORDS + PATH_X] - ex;
-    int32_t cy = b[PATH_POSE_WORDS + PATH_Y] - a[PATH_POSE_WORDS + PATH_Y] - ey;
-    int32_t mx = a[PATH_POSE_WORDS + PATH_X] - a[PATH_X], my = a[PATH_POSE_WORDS + PATH_Y] - a[PATH_Y];
-    int64_t turn = (int64_t)mx * cy - (int64_t)my * cx;
-    uint32_t length = (uint32_t)max_i32(abs_i32(ex + (cx >> 1)), abs_i32(ey + (cy >> 1))) + 16u;
-    turn = (turn < 0 ? -turn : turn) >> 2;
-    int zeros = count_leading_zeros(length);
-    uint64_t over = (uint64_t)(turn >> 8) * recip_norm(length << zeros) >> (61 - 8 - zeros);
-    return over >= INT32_MAX ? INT32_MAX : (int32_t)over + 1;
-}
-
 /* The fewest segments that do for all triangles of the tile, of the whole exposure. */
 static void choose_segments(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
     int32_t bend = 0, travel = 0;               /* q8 px */
-    struct mover m;
     for (uint32_t i = 0; i < t->mover_count; i++) {
-        if (!mover_is_in(&t->mover[i], t->column))
-            continue;
-        mover_take(&m, j, i);
-        if (m.bounds->piece == 0) {
-            travel = max_i32(travel, m.bounds->travel << 4);
-            bend = max_i32(bend, m.bounds->bend << 3);
-            bend = max_i32(bend, max_i32(edge_bend(&m, 0, 1), max_i32(edge_bend(&m, 1, 2), edge_bend(&m, 2, 0))));
+        const struct smear_path_bounds *b = geometry_bounds(t->frame->geometry, t->mover[i].triangle);
+        if (mover_is_in(&t->mover[i], t->column) && b->piece == 0) {
+            travel = max_i32(travel, b->travel << 4);
+            bend = max_i32(bend, b->bend << 3);
         }
     }
+    bend >>= 2;                                 /* what edges that follow parabolas leave of it */
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend
-               || (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend))
+               || (!j->even && (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->bend)))
         log2++;
     j->segments_log2 = log2;
     j->slots_log2 = j->slots.slots_log2 - log2;
@@ -177,6 +160,57 @@ static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, 
     return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
 
+/* What fragments of a triangle in a segment share. */
+struct painter {
+    struct job *j;
+    const struct timemask_shade *shade;
+    uint32_t kept[2];           /* slopes of depth codes as they are kept, below and from code 32768 */
+    int32_t slope[2];
+    int32_t first;              /* slot */
+    int32_t last_slot;          /* of the exposure, less 2 `first` */
+    int32_t time_shift;         /* from twice a slot to time */
+};
+
+/* The fragments of a row of runs. */
+SMEAR_INLINE void paint_row(const struct painter *p, int32_t y, const uint32_t *run, int32_t n, const uint16_t *still,
+                            bool plain)
+{
+    const struct timemask_shade *s = p->shade;
+    struct timemask_slots *slots = &p->j->slots;
+    const struct timemask_here row = timemask_here(&s->depth, 0, y);
+    for (int32_t i = 0; i < n; i++) {
+        int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
+        const struct timemask_here here = { add_wrap(row.at, mul_wrap(s->depth.dx, x)),
+                                            add_wrap(row.change, mul_wrap(s->depth.change_dx, x)) };
+        int32_t time = ((from + to) << p->time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
+        int32_t code = timemask_code(clamp_i32(timemask_value(&s->depth, &here, time), s->depth_low, s->depth_high));
+        int32_t high = code >> 15, slope = p->slope[high], reach = abs_i32(slope) * (to - from - 1) >> 5;
+        struct timemask_fragment f;
+        f.high = code + reach;
+        if (f.high <= still[x])
+            continue;
+        f.low = max_i32(code - reach, 0);
+        f.mask = UINT32_MAX >> (32 - (to - from)) << (p->first + from);
+        if (f.low <= still[x]) {
+            f.mask = slots_before_still((code - still[x]) * 32 - slope * (to - from - 1), slope, p->first + from, to - from);
+            if (f.mask == 0)
+                continue;
+        }
+        /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
+        f.depth = code + (slope * (p->last_slot - (from + to - 1)) >> 5);
+        f.slope = slope;
+        f.color = p->kept[high];
+        if ((uint32_t)f.depth > 65535u) {
+            f.depth = code;
+            f.slope = 0;
+            f.color = 0;
+        }
+        f.color |= plain ? s->color : smear_timemask_color(s, y, run[i]);
+        timemask_slots_add(slots, (uint32_t)(y * TIMEMASK_WIDTH + x), &f);
+        p->j->fragments++;
+    }
+}
+
 /* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
 static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3], int32_t first,
                          int32_t slots_log2)
@@ -184,40 +218,24 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     const struct smear_raster_target *still = &j->tile->still;
     struct timemask_cover c;
     struct timemask_shade s;
-    struct timemask_run run[TIMEMASK_RUNS];
+    uint32_t run[TIMEMASK_RUNS];
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
-    /* Slopes as they are kept, below and from code 32768; and how far the middle of the exposure is off. */
-    const uint32_t kept[2] = { smear_timemask_slope(s.slope[0]) << 24, smear_timemask_slope(s.slope[1]) << 24 };
-    const int32_t slope[2] = { timemask_slope_of(kept[0]), timemask_slope_of(kept[1]) };
-    const int32_t last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first;
+    struct painter p = { .j = j, .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
+                         .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
+    for (int i = 0; i < 2; i++) {
+        p.kept[i] = smear_timemask_slope(s.slope[i]) << 24;
+        p.slope[i] = timemask_slope_of(p.kept[i]);
+    }
     const bool plain = !s.gouraud && s.sampler == NULL;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
-        for (int32_t i = 0; i < n; i++) {
-            const struct timemask_run *r = &run[i];
-            int32_t count = r->to - r->from;
-            uint32_t code = timemask_depth(&s, y, r), high = code >> 15;
-            int32_t apart = ((int32_t)code - (int32_t)depth[r->x]) * 32, most = abs_i32(slope[high]) * (count - 1);
-            if (apart <= -most)
-                continue;
-            uint32_t mask = UINT32_MAX >> (32 - count) << (first + r->from);
-            if (apart <= most)
-                mask = slots_before_still(apart - slope[high] * (count - 1), slope[high], first + r->from, count);
-            if (mask == 0)
-                continue;
-            /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
-            int32_t middle = (int32_t)code + (slope[high] * (last_slot - (r->from + r->to - 1)) >> 5);
-            uint32_t color = plain ? s.color : smear_timemask_color(&s, y, r);
-            if ((uint32_t)middle < 65536u)
-                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color | kept[high],
-                                         (uint32_t)middle, slope[high]);
-            else
-                smear_timemask_slots_add(&j->slots, (uint32_t)(y * TIMEMASK_BLOCK + r->x), mask, color, code, 0);
-            j->fragments++;
-        }
+        if (plain)
+            paint_row(&p, y, run, n, depth, true);
+        else
+            paint_row(&p, y, run, n, depth, false);
     }
 }
 
@@ -233,17 +251,25 @@ static void draw_whole(struct job *j, const struct mover *m)
     }
 }
 
-/* One that is there for a piece of the exposure: as it is in the middle of each slot. */
+/* One that is there for a piece of the exposure: a segment of its slots, where slots are even and there is one at least;
+ * else as it is in the middle of each slot. */
 static void draw_piece(struct job *j, const struct mover *m)
 {
-    struct timemask_pose pose;
+    struct timemask_pose pose[3];
+    const struct timemask_pose *poses[3] = { &pose[0], &pose[1], &pose[2] };
     int32_t slots = 1 << j->slots.slots_log2;
+    if (slots >= PATH_PIECES && j->even) {
+        for (int i = 0; i < 3; i++)
+            pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
+        draw_segment(j, m, poses, (m->bounds->piece - 1) * (slots / PATH_PIECES), j->slots.slots_log2 - PIECES_LOG2);
+        return;
+    }
+    poses[1] = poses[2] = &pose[0];
     for (int32_t slot = 0; slot < slots; slot++) {
         int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
         if (!path_piece_time(&time, m->bounds->piece))
             continue;
-        const struct timemask_pose *poses[3] = { &pose, &pose, &pose };
-        pose_at(&pose, j, m, time);
+        pose_at(&pose[0], j, m, time);
         draw_segment(j, m, poses, slot, 0);
     }
 }
@@ -271,39 +297,40 @@ static void finish_block(const struct job *j)
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
         uint32_t *out = t->out + (j->y + y - still->y0) * t->tile + (j->x - still->x0);
         for (int32_t x = 0; x < j->width; x++) {
-            uint32_t at = (uint32_t)(y * TIMEMASK_BLOCK + x);
-            out[x] = smear_timemask_slots_mean(&j->slots, at, color[x]);
+            uint32_t at = (uint32_t)(y * TIMEMASK_WIDTH + x);
+            out[x] = j->slots.count[at] == 0 ? color[x] : smear_timemask_slots_mean(&j->slots, at, color[x]);
         }
     }
 }
 
-/* Rows of a block that the memory is enough for. */
-static int32_t block_height(uint32_t work_bytes)
+/* Log2 of the rows of a block that the memory is enough for. */
+static int height_log2(uint32_t work_bytes)
 {
-    int32_t height = TIMEMASK_BLOCK;
-    while (work_bytes != 0 && height > 1
-           && timemask_slots_bytes((uint32_t)(TIMEMASK_BLOCK * height)) + LISTED * sizeof(uint32_t) > work_bytes)
-        height >>= 1;
-    return height;
+    int log2 = HEIGHT_LOG2;
+    while (work_bytes != 0 && log2 > 0
+           && timemask_slots_bytes((uint32_t)TIMEMASK_WIDTH << log2) + LISTED * sizeof(uint32_t) > work_bytes)
+        log2--;
+    return log2;
 }
 
 size_t smear_timemask_work(int32_t tile)
 {
     (void)tile;
-    return timemask_slots_bytes(TIMEMASK_BLOCK * TIMEMASK_BLOCK) + LISTED * sizeof(uint32_t);
+    return timemask_slots_bytes(TIMEMASK_WIDTH * TIMEMASK_HEIGHT) + LISTED * sizeof(uint32_t);
 }
 
 uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
 {
-    const int32_t height = block_height(t->work_bytes);
+    const int log2 = height_log2(t->work_bytes), height = 1 << log2;
     struct job j = { .tile = t, .settings = settings, .list = t->work };
-    smear_timemask_slots_place(&j.slots, j.list + LISTED, (uint32_t)(TIMEMASK_BLOCK * height),
+    smear_timemask_slots_place(&j.slots, j.list + LISTED, WIDTH_LOG2 + log2,
                                31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
+    j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     list_movers(&j);
     for (j.y = t->still.y0; j.y < t->still.y1; j.y += height)
-        for (j.x = t->still.x0; j.x < t->still.x1; j.x += TIMEMASK_BLOCK) {
-            j.width = min_i32(t->still.x1 - j.x, TIMEMASK_BLOCK);
+        for (j.x = t->still.x0; j.x < t->still.x1; j.x += TIMEMASK_WIDTH) {
+            j.width = min_i32(t->still.x1 - j.x, TIMEMASK_WIDTH);
             j.height = min_i32(t->still.y1 - j.y, height);
             smear_timemask_slots_clear(&j.slots);
             if (j.first != 0) {         /* did not fit at once: from the start */

@@ -5,7 +5,7 @@
 
 #include "mover.h"
 
-/* Bytes of work memory per worker: 7.5 kB, whatever the tile. Half or a quarter of it does, too, at the cost of more set-up:
+/* Bytes of work memory per worker: 7.6 kB, whatever the tile. Half or a quarter of it does, too, at the cost of more set-up:
  * tell by smear_moving_tile.work_bytes. */
 size_t smear_timemask_work(int32_t tile);
 

@@ -4,8 +4,45 @@
 
 enum {
     SLOT_Q = 14,                /* fraction bits of slots in planes */
-    HALF = TIMEMASK_BLOCK / 2,
+    BENT_Q = 12,                /* after a multiplication with bends */
+    MIDDLE_X = TIMEMASK_WIDTH / 2, MIDDLE_Y = TIMEMASK_HEIGHT / 2
 };
+
+/* ------------------------------------------------------------------ bounds */
+
+/* Only where the plane is >= 0 can pixels be covered: a bound of rows' pixels, or of rows where it is nearly level. */
+static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
+{
+    uint32_t ax = (uint32_t)abs_i32(p->dx), ay = (uint32_t)abs_i32(p->dy);
+    bool steep = ax >= ay >> 2;
+    uint32_t size = steep ? ax : ay;
+    if (size == 0)
+        return;
+    int zeros = count_leading_zeros(size);
+    int32_t r = (int32_t)recip_norm(size << zeros);             /* 1 / size = r 2^(zeros - 61) */
+    const int64_t most = 1 << 28;
+    if (!steep) {
+        int64_t best = (int64_t)p->at + max_i32(p->dx * c->x0, p->dx * (c->x1 - 1));
+        int64_t rows = best * r >> (61 - zeros);
+        rows = rows > most ? most : rows < -most ? -most : rows;
+        if (p->dy > 0)
+            c->y0 = max_i32(c->y0, (int32_t)-rows - 1);
+        else
+            c->y1 = min_i32(c->y1, (int32_t)rows + 2);
+        return;
+    }
+    int64_t at = (int64_t)p->at * r >> (45 - zeros);
+    int32_t step = (int32_t)((int64_t)p->dy * r >> (45 - zeros)), place;
+    at = at > most ? most : at < -most ? -most : at;
+    place = (int32_t)at;
+    if (p->dx > 0) {
+        c->left[c->lefts].at = -place - 0x1000;
+        c->left[c->lefts++].step = -step;
+    } else {
+        c->right[c->rights].at = place + 0x1000;
+        c->right[c->rights++].step = step;
+    }
+}
 
 /* ------------------------------------------------------------------ edges */
 
@@ -73,67 +110,120 @@ static struct timemask_plane bow_of(const struct timemask_plane *start, const st
 /* Largest magnitude in the block, or a bit more. */
 static inline int32_t plane_size(const struct timemask_plane *p)
 {
-    return abs_i32(p->at + (p->dx + p->dy) * HALF) + (abs_i32(p->dx) + abs_i32(p->dy)) * HALF;
+    return abs_i32(p->at + p->dx * MIDDLE_X + p->dy * MIDDLE_Y) + abs_i32(p->dx) * MIDDLE_X + abs_i32(p->dy) * MIDDLE_Y;
+}
+
+/* How an edge's functions at start and end differ over the block: `d` in its middle, `h` more or less at its corners. */
+struct sweep {
+    struct timemask_plane start, end, bow;
+    int32_t d, h, bows;         /* bows: twice the largest bow */
+    int32_t length;             /* of the edge, about, q8 px */
+    bool reversed;
+};
+
+/* What an edge that crosses may be off: where it moves by p px and is off by e px, a part e / p of its contrast is wrong over
+ * p pixels. The squares of that add up to e^2 / p, which is held below 2^-edge px. `off` is e x length in q8. */
+static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
+{
+    return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> edge;
+}
+
+/* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the block's middle it is off by up to
+ * h / 2 and the bow; multiplied with 1 - (what the difference is more) / difference, by h^2 / (2 d). */
+static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_t edge)
+{
+    int32_t size = abs_i32(w->d);
+    if (size < w->length >> 7 || w->h > size >> 1)
+        return false;
+    int zeros = count_leading_zeros((uint32_t)size);
+    uint32_t r = recip_norm_precise((uint32_t)size << zeros);
+    enum timemask_form form = COVER_EVEN;
+    int32_t part = 0;
+    if (!is_near(w, (w->h >> 1) + (w->bows >> 1), edge)) {
+        part = (int32_t)(mulh_u32((uint32_t)w->h << zeros, r) >> 14);           /* h / d, q15 */
+        int32_t off = (int32_t)((int64_t)w->h * part >> 16);
+        form = is_near(w, off + (w->bows >> 1), edge) ? COVER_BENT : COVER_BOWED;
+        if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, edge)))
+            return false;
+    }
+    bool leaves = (w->d > 0) != w->reversed;
+    struct timemask_crossing *x = leaves ? &c->leave[c->leaves++] : &c->enter[c->enters++];
+    int shift = 61 - zeros - (SLOT_Q - 1) - c->slots_log2;
+    int32_t sign = w->d < 0 ? -1 : 1;
+    x->mean = (struct timemask_plane){
+        slots_over(sign * (w->start.at + w->end.at + 1), r, shift), slots_over(sign * (w->start.dx + w->end.dx), r, shift),
+        slots_over(sign * (w->start.dy + w->end.dy), r, shift)
+    };
+    x->bend = (struct timemask_plane){ 1 << 30, 0, 0 };
+    x->bow = 0;
+    c->form = form > c->form ? form : c->form;
+    if (form != COVER_EVEN) {
+        int down = 31 - zeros;          /* |differences| < d < 2^(32 - zeros) */
+        x->bend.dx = (int32_t)((int64_t)(-sign * (w->start.dx - w->end.dx)) * r >> down);
+        x->bend.dy = (int32_t)((int64_t)(-sign * (w->start.dy - w->end.dy)) * r >> down);
+        x->bend.at = (1 << 30) - x->bend.dx * MIDDLE_X - x->bend.dy * MIDDLE_Y;
+    }
+    if (form == COVER_BOWED) {
+        int32_t bow = w->bow.at + w->bow.dx * MIDDLE_X + w->bow.dy * MIDDLE_Y;
+        x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
+    }
+    x->slack = (part << c->slots_log2 >> 1) + (abs_i32(x->bow) << c->slots_log2 >> 2);
+    /* Covered only where it is left after the start, entered before the end. */
+    struct timemask_plane seen = leaves ? x->mean : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
+    seen.at += (1 << (SLOT_Q - 1 + c->slots_log2)) + x->slack;
+    bound_add(c, &seen);
+    return true;
 }
 
 /* Adds edge i -> j to its kind. False: it is outside everywhere. */
-static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j)
+static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j, int32_t edge)
 {
     const struct timemask_pose *a = pose[0], *m = pose[1], *b = pose[2];
-    bool reversed = !is_before(a, b, i, j);
-    if (reversed) {
+    struct sweep w;
+    w.reversed = !is_before(a, b, i, j);
+    if (w.reversed) {
         int keep = i;
         i = j;
         j = keep;
     }
-    struct timemask_plane start = edge_at(a->x[i], a->y[i], a->x[j], a->y[j]);
+    w.start = edge_at(a->x[i], a->y[i], a->x[j], a->y[j]);
+    w.end = edge_at(b->x[i], b->y[i], b->x[j], b->y[j]);
     struct timemask_plane middle = edge_at(m->x[i], m->y[i], m->x[j], m->y[j]);
-    struct timemask_plane end = edge_at(b->x[i], b->y[i], b->x[j], b->y[j]);
-    struct timemask_plane bow = bow_of(&start, &middle, &end);
-    int32_t bows = plane_size(&bow);            /* in units of 1/2 */
-    int32_t low = min_i32(plane_low(&start, c), plane_low(&end, c));
-    int32_t high = max_i32(plane_high(&start, c), plane_high(&end, c));
-    if (low - (bows >> 1) >= 0)
-        return !reversed;       /* inside everywhere, or outside */
-    if (high + (bows >> 1) < 0)
-        return reversed;
+    w.bow = bow_of(&w.start, &middle, &w.end);
+    w.bows = plane_size(&w.bow);
+    int32_t low = min_i32(plane_low(&w.start, c), plane_low(&w.end, c));
+    int32_t high = max_i32(plane_high(&w.start, c), plane_high(&w.end, c));
+    if (low - (w.bows >> 1) >= 0)
+        return !w.reversed;     /* inside everywhere, or outside */
+    if (high + (w.bows >> 1) < 0)
+        return w.reversed;
 
-    /* Twice the mean of both ends, and by how much they differ: `d` in the block's middle, `h` less or more at its
-     * corners. The edge's length is about `length`, q8. */
-    int32_t mx = start.dx + end.dx, my = start.dy + end.dy;
-    int32_t ddx = start.dx - end.dx, ddy = start.dy - end.dy;
-    int32_t d = start.at - end.at + (ddx + ddy) * HALF;
-    int32_t h = (abs_i32(ddx) + abs_i32(ddy)) * HALF;
-    int32_t size = abs_i32(d);
-    int32_t length = (abs_i32(mx) + abs_i32(my)) >> 1;
-    int32_t off = (h >> 1) + (bows >> 1);       /* what a plane of slots would be off, q8 px^2 */
-
-    if (size + h + bows <= length >> 7) {       /* moves by less than 1/128 px */
-        struct timemask_plane p = { (start.at + end.at) >> 1, mx >> 1, my >> 1 };
-        c->still[c->stills++] = reversed ? other_side(&p) : p;
-    } else if ((int64_t)off * off <= (int64_t)length * size >> c->edge && size >= length >> 7) {
-        /* The crossing lies at n (1/2 + mean / difference), where the difference is taken as constant. That is off by
-         * off / length: a part off / size of the contrast over size / length pixels. */
-        int zeros = count_leading_zeros((uint32_t)size);
-        uint32_t r = recip_norm_precise((uint32_t)size << zeros);
-        int shift = 61 - zeros - (SLOT_Q - 1) - c->slots_log2;
-        int32_t sign = d < 0 ? -1 : 1;
-        struct timemask_plane p = {
-            slots_over(sign * (start.at + end.at + 1), r, shift)
-                + (1 << (SLOT_Q + c->slots_log2) >> 1) + (1 << (SLOT_Q - 1)),
-            slots_over(sign * mx, r, shift), slots_over(sign * my, r, shift)
-        };
-        if ((d > 0) != reversed)
-            c->leave[c->leaves++] = p;
-        else
-            c->enter[c->enters++] = p;
-    } else {
-        c->turn[c->turns].start = start;
-        c->turn[c->turns].end = end;
-        c->turn[c->turns].bow = bow;
-        c->turn[c->turns++].reversed = reversed;
+    int32_t mx = w.start.dx + w.end.dx, my = w.start.dy + w.end.dy;
+    int32_t ddx = w.start.dx - w.end.dx, ddy = w.start.dy - w.end.dy;
+    w.d = w.start.at - w.end.at + ddx * MIDDLE_X + ddy * MIDDLE_Y;
+    w.h = abs_i32(ddx) * MIDDLE_X + abs_i32(ddy) * MIDDLE_Y;
+    w.length = (abs_i32(mx) + abs_i32(my)) >> 1;
+    if (abs_i32(w.d) + w.h + w.bows <= w.length >> 7) {     /* moves by less than 1/128 px */
+        struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
+        if (w.reversed)
+            p = other_side(&p);
+        c->still[c->stills++] = p;
+        bound_add(c, &p);
+    } else if (!crossing_add(c, &w, edge)) {
+        c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
     }
     return true;
+}
+
+/* Pixels that are left before they are entered. */
+static void bound_pairs(struct timemask_cover *c)
+{
+    for (int i = 0; i < c->leaves; i++)
+        for (int k = 0; k < c->enters; k++) {
+            const struct timemask_plane *l = &c->leave[i].mean, *e = &c->enter[k].mean;
+            struct timemask_plane p = { l->at - e->at + c->leave[i].slack + c->enter[k].slack, l->dx - e->dx, l->dy - e->dy };
+            bound_add(c, &p);
+        }
 }
 
 static int64_t area_of(const struct timemask_pose *p)
@@ -160,12 +250,15 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
         || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
         return false;
     c->slots_log2 = slots_log2;
-    c->edge = edge;
-    c->enters = c->leaves = c->stills = c->turns = 0;
-    return edge_add(c, pose, 0, 1) && edge_add(c, pose, 1, 2) && edge_add(c, pose, 2, 0);
+    c->enters = c->leaves = c->stills = c->turns = c->lefts = c->rights = 0;
+    c->form = COVER_EVEN;
+    if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))
+        return false;
+    bound_pairs(c);
+    return c->y0 < c->y1;
 }
 
-/* ------------------------------------------------------------------ rows */
+/* ------------------------------------------------------------------ edges that may do anything */
 
 /* Slots [0, n). */
 static inline uint32_t below(int32_t n)
@@ -215,105 +308,148 @@ static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t slots
 }
 
 /* Writes the runs of a mask. */
-static int32_t put_runs(struct timemask_run *out, int32_t x, uint32_t mask)
+static int32_t put_runs(uint32_t *out, int32_t x, uint32_t mask)
 {
     int32_t count = 0;
     while (mask != 0) {
         uint32_t low = mask & (0u - mask), rest = mask + low;      /* adding carries over the lowest run */
         int32_t from = 31 - count_leading_zeros(low);
-        int32_t to = (rest & (0u - rest)) == 0 ? 32 : 31 - count_leading_zeros(rest & (0u - rest));
-        out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)from, (uint8_t)to };
+        int32_t to = rest == 0 ? 32 : 31 - count_leading_zeros(rest & (0u - rest));
+        out[count++] = timemask_run(x, from, to);
         mask &= ~below(to);
     }
     return count;
 }
 
-static int32_t row_turning(const struct timemask_cover *c, int32_t y, struct timemask_run *out)
+/* What still and turning edges leave of runs. */
+static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out, int32_t count)
 {
-    int32_t slots = 1 << c->slots_log2, count = 0;
-    for (int32_t x = c->x0; x < c->x1; x++) {
-        int32_t from = 0, to = slots;
+    uint32_t run[TIMEMASK_WIDTH];
+    int32_t n = count;
+    for (int32_t i = 0; i < n; i++)
+        run[i] = out[i];
+    count = 0;
+    for (int32_t k = 0; k < n; k++) {
+        int32_t x = timemask_run_x(run[k]), outside = 0;
         for (int i = 0; i < c->stills; i++)
-            if (timemask_plane_at(&c->still[i], x, y) < 0)
-                to = 0;
-        for (int i = 0; i < c->leaves; i++)
-            to = min_i32(to, timemask_plane_at(&c->leave[i], x, y) >> SLOT_Q);
-        for (int i = 0; i < c->enters; i++)
-            from = max_i32(from, timemask_plane_at(&c->enter[i], x, y) >> SLOT_Q);
-        if (from >= to)
+            outside |= timemask_plane_at(&c->still[i], x, y);
+        if (outside < 0)
             continue;
-        uint32_t mask = below(to) & ~below(from);
+        uint32_t mask = UINT32_MAX, all = 0;
         for (int i = 0; i < c->turns && mask != 0; i++) {
-            int32_t start = timemask_plane_at(&c->turn[i].start, x, y), end = timemask_plane_at(&c->turn[i].end, x, y);
-            int32_t bow = timemask_plane_at(&c->turn[i].bow, x, y);
+            const struct timemask_turning *t = &c->turn[i];
+            int32_t start = timemask_plane_at(&t->start, x, y), end = timemask_plane_at(&t->end, x, y);
+            int32_t bow = timemask_plane_at(&t->bow, x, y);
             int32_t low = min_i32(start, end), high = max_i32(start, end);
             low += bow < 0 ? (bow - 1) >> 1 : 0;
             high += bow > 0 ? (bow + 1) >> 1 : 0;
-            uint32_t inside = low >= 0 ? UINT32_MAX : high < 0 ? 0 : turn_mask(start, end, bow, c->slots_log2);
-            mask &= c->turn[i].reversed ? ~inside : inside;
+            if (low >= 0 || high < 0) {
+                mask &= (low >= 0) != t->reversed ? UINT32_MAX : 0;
+                continue;
+            }
+            uint32_t inside = turn_mask(start, end, bow, c->slots_log2);
+            mask &= t->reversed ? ~inside : inside;
+            all = 1;
         }
-        count += put_runs(out + count, x, mask);
+        if (mask == UINT32_MAX || (mask != 0 && all == 0))
+            out[count++] = run[k];
+        else
+            count += put_runs(out + count, x, mask & below(timemask_run_to(run[k])) & ~below(timemask_run_from(run[k])));
     }
     return count;
 }
 
-/* A plane on its way along a row. */
+/* ------------------------------------------------------------------ rows */
+
+/* A crossing on its way along a row. */
 struct walk {
-    int32_t at, step;
+    int32_t mean, step, bend, bend_step;
 };
 
-static inline struct walk walk_start(const struct timemask_plane *p, const struct timemask_cover *c, int32_t y)
+SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x, int32_t y)
 {
-    return (struct walk){ timemask_plane_at(p, c->x0, y), p->dx };
+    return (struct walk){ timemask_plane_at(&p->mean, x, y), p->mean.dx, timemask_plane_at(&p->bend, x, y), p->bend.dx };
 }
 
-/* Edges that do not turn: what is covered at some time is convex, so the first gap after it ends the row. Runs shorter than
- * a slot may hold the middle of none. */
-SMEAR_INLINE int32_t row_plain(const struct timemask_cover *c, int32_t y, struct timemask_run *out, int enters, int leaves,
-                               int stills)
+/* The slot in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
+SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t slots_log2, enum timemask_form form)
 {
+    int32_t slot;
+    if (form == COVER_EVEN) {
+        slot = w->mean;
+    } else {
+        slot = mulh_i32(w->mean, w->bend);
+        w->bend = add_wrap(w->bend, w->bend_step);
+    }
+    w->mean = add_wrap(w->mean, w->step);
+    if (form == COVER_BOWED) {
+        const int32_t most = 1 << (BENT_Q + slots_log2);
+        slot = clamp_i32(slot + (most >> 1), 0, most);
+        slot += ((slot >> 3) * ((most - slot) >> 3) >> (6 + slots_log2)) * p->bow >> 14;
+    }
+    return slot;
+}
+
+SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y, uint32_t *out, int enters,
+                              int leaves, enum timemask_form form)
+{
+    const int q = form == COVER_EVEN ? SLOT_Q : BENT_Q;
     const int32_t slots = 1 << c->slots_log2;
-    struct walk enter[3], leave[3], still[3];
+    /* Slots count from the segment's middle, but for bows. */
+    const int32_t half = (form == COVER_BOWED ? 0 : slots << q >> 1) + (1 << (q - 1));
+    struct walk enter[3], leave[3];
     int32_t count = 0;
     for (int i = 0; i < enters; i++)
-        enter[i] = walk_start(&c->enter[i], c, y);
+        enter[i] = walk_start(&c->enter[i], x0, y);
     for (int i = 0; i < leaves; i++)
-        leave[i] = walk_start(&c->leave[i], c, y);
-    for (int i = 0; i < stills; i++)
-        still[i] = walk_start(&c->still[i], c, y);
-    for (int32_t x = c->x0; x < c->x1; x++) {
-        int32_t from = 0, to = slots << SLOT_Q, outside = 0;
-        for (int i = 0; i < stills; i++) {
-            outside |= still[i].at;
-            still[i].at = add_wrap(still[i].at, still[i].step);
-        }
-        for (int i = 0; i < leaves; i++) {
-            to = min_i32(to, leave[i].at);
-            leave[i].at = add_wrap(leave[i].at, leave[i].step);
-        }
-        for (int i = 0; i < enters; i++) {
-            from = max_i32(from, enter[i].at);
-            enter[i].at = add_wrap(enter[i].at, enter[i].step);
-        }
-        if (from >> SLOT_Q < to >> SLOT_Q && outside >= 0)
-            out[count++] = (struct timemask_run){ (uint8_t)x, (uint8_t)(from >> SLOT_Q), (uint8_t)(to >> SLOT_Q) };
-        else if (count != 0 && (from >= to || outside < 0))
-            break;
+        leave[i] = walk_start(&c->leave[i], x0, y);
+    for (int32_t x = x0; x < x1; x++) {
+        int32_t from = -half, to = (slots << q) - half;
+        for (int i = 0; i < leaves; i++)
+            to = min_i32(to, walk_on(&leave[i], &c->leave[i], c->slots_log2, form));
+        for (int i = 0; i < enters; i++)
+            from = max_i32(from, walk_on(&enter[i], &c->enter[i], c->slots_log2, form));
+        to = (to + half) >> q;
+        from = (from + half) >> q;
+        if (from < to)
+            out[count++] = timemask_run(x, from, to);
     }
     return count;
 }
 
-int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, struct timemask_run *out)
+SMEAR_INLINE int32_t row_kind(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y, uint32_t *out,
+                              enum timemask_form form)
 {
-    if (c->turns != 0)
-        return row_turning(c, y, out);
-    switch (c->enters << 4 | c->leaves << 2 | c->stills) {
-    case 0x00: return row_plain(c, y, out, 0, 0, 0);
-    case 0x04: return row_plain(c, y, out, 0, 1, 0);
-    case 0x10: return row_plain(c, y, out, 1, 0, 0);
-    case 0x14: return row_plain(c, y, out, 1, 1, 0);
-    case 0x18: return row_plain(c, y, out, 1, 2, 0);
-    case 0x24: return row_plain(c, y, out, 2, 1, 0);
-    default:   return row_plain(c, y, out, c->enters, c->leaves, c->stills);
+    switch (c->enters << 2 | c->leaves) {
+    case 0x1: return row_form(c, x0, x1, y, out, 0, 1, form);
+    case 0x4: return row_form(c, x0, x1, y, out, 1, 0, form);
+    case 0x5: return row_form(c, x0, x1, y, out, 1, 1, form);
+    case 0x6: return row_form(c, x0, x1, y, out, 1, 2, form);
+    case 0x9: return row_form(c, x0, x1, y, out, 2, 1, form);
+    default:  return row_form(c, x0, x1, y, out, c->enters, c->leaves, form);
     }
+}
+
+int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, uint32_t *out)
+{
+    int32_t x0 = c->x0, x1 = c->x1, count;
+    for (int i = 0; i < c->lefts; i++)
+        x0 = max_i32(x0, (c->left[i].at + c->left[i].step * y) >> 16);
+    for (int i = 0; i < c->rights; i++)
+        x1 = min_i32(x1, ((c->right[i].at + c->right[i].step * y) >> 16) + 1);
+    if (x0 >= x1)
+        return 0;
+    if ((c->enters | c->leaves) == 0) {
+        const uint32_t run = timemask_run(0, 0, 1 << c->slots_log2);
+        for (int32_t x = x0; x < x1; x++)
+            out[x - x0] = run + (uint32_t)x;
+        count = x1 - x0;
+    } else if (c->form == COVER_EVEN) {
+        count = row_kind(c, x0, x1, y, out, COVER_EVEN);
+    } else if (c->form == COVER_BENT) {
+        count = row_kind(c, x0, x1, y, out, COVER_BENT);
+    } else {
+        count = row_kind(c, x0, x1, y, out, COVER_BOWED);
+    }
+    return (c->stills | c->turns) == 0 || count == 0 ? count : row_cut(c, y, out, count);
 }

@@ -5,8 +5,7 @@
 #include "pixel.h"
 
 enum {
-    MOST_CHANGE = 1 << 25,      /* of a value in a segment: times 64 it fits */
-    MOST_SLOPE = 1 << 21,
+    MOST_SLOPE = 1 << 20,
     AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -47,8 +46,8 @@ static uint64_t pose_start(struct pose_setup *p, const struct timemask_pose *pos
 struct segment_setup {
     struct pose_setup pose[3];
     const struct pose_setup *shape[3];
-    bool turns;
-    const struct timemask_shade *shade;
+    bool turns;                 /* slopes are not the same */
+    int32_t x, y, x_change, y_change;       /* a point that attributes go with: q8 px from the block's first centre */
 };
 
 /* At the point that attributes go with. */
@@ -63,34 +62,46 @@ static void slopes_of(struct plane *p, const struct pose_setup *shape, const int
     smear_plane_make(&shape->setup, p, value[o[0]], value[o[1]], value[o[2]]);
 }
 
-/* From values at the three vertices at the start, in the middle and at the end. A plane that changes by `most` or more is so
- * steep that it has no exact pixels: it becomes one value. */
-static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3], int64_t most)
+/* |change| + |curve| all over the block. */
+static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve)
 {
-    const struct timemask_shade *shade = s->shade;
+    int64_t corner = TIMEMASK_WIDTH * (int64_t)abs_i32(dx) + TIMEMASK_HEIGHT * (int64_t)abs_i32(dy);
+    return (change < 0 ? -change : change) + corner + (curve < 0 ? -curve : curve);
+}
+
+/* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with the value v of
+ * a point at c and slopes g around it; all three change with time:
+ *
+ *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
+ *
+ * A plane that changes by more than there are bits for is so steep that it has no exact pixels: it becomes one value. */
+static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3])
+{
     struct plane p, start, end;
     slopes_of(&p, s->shape[1], value[1]);
-    t->dx = p.dx;
-    t->dy = p.dy;
-    t->at = point_of(value[1]);
-    int64_t change = (int64_t)point_of(value[2]) - point_of(value[0]);
-    t->dx_change = t->dy_change = 0;
+    int32_t v = point_of(value[1]);
+    int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
+    int64_t at = v - (((int64_t)p.dx * s->x + (int64_t)p.dy * s->y) >> 8);
+    int64_t change = v_change - (((int64_t)p.dx * s->x_change + (int64_t)p.dy * s->y_change) >> 8), curve = 0;
+    t->change_dx = t->change_dy = 0;
     if (s->turns) {
         slopes_of(&start, s->shape[0], value[0]);
         slopes_of(&end, s->shape[2], value[2]);
-        t->dx_change = end.dx - start.dx;
-        t->dy_change = end.dy - start.dy;
-        t->change = (int32_t)(change > most ? most : change < -most ? -most : change);
-        return;
+        t->change_dx = end.dx - start.dx;
+        t->change_dy = end.dy - start.dy;
+        change -= ((int64_t)t->change_dx * s->x + (int64_t)t->change_dy * s->y) >> 8;
+        curve = -(((int64_t)t->change_dx * s->x_change + (int64_t)t->change_dy * s->y_change) >> 8);
     }
-    int64_t at = t->at - (((int64_t)p.dx * shade->x + (int64_t)p.dy * shade->y) >> 8);
-    change -= ((int64_t)p.dx * shade->x_change + (int64_t)p.dy * shade->y_change) >> 8;
-    if (change >= most || change <= -most) {
-        t->change = t->dx = t->dy = 0;
-        return;
+    t->dx = p.dx;
+    t->dy = p.dy;
+    if (change_size(change, t->change_dx, t->change_dy, curve) >= INT32_MAX) {
+        at = v;
+        change = curve = 0;
+        t->dx = t->dy = t->change_dx = t->change_dy = 0;
     }
     t->at = (int32_t)(uint32_t)(uint64_t)at;
     t->change = (int32_t)change;
+    t->curve = (int32_t)curve;
 }
 
 static void range_of(int32_t *low, int32_t *high, const int32_t *const value[3])
@@ -149,7 +160,7 @@ static uint32_t channels_pixel(const int32_t c[3], bool linear)
 
 /* Values of the vertices that go into planes, times 1/w where that is wanted. */
 static void values_make(struct timemask_timed *t, const struct segment_setup *poses, const int32_t (*q)[3],
-                        const int32_t a[3], int64_t most)
+                        const int32_t a[3])
 {
     int32_t over[3][3];
     const int32_t *value[3] = { a, a, a };
@@ -158,7 +169,7 @@ static void values_make(struct timemask_timed *t, const struct segment_setup *po
             over[k][i] = times_q15(a[i], q[k][i]);
         value[k] = over[k];
     }
-    timed_make(t, poses, value, most);
+    timed_make(t, poses, value);
 }
 
 /* Whether interpolation on the screen is off by too much: range of the values, in 1/64 of what counts. */
@@ -175,16 +186,14 @@ static void shade_depth(struct timemask_shade *s, const struct segment_setup *po
     int32_t depth[3][3];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
-            depth[k][i] = pose[k]->depth[i] >> 6;
+            depth[k][i] = pose[k]->depth[i] >> 7;
     const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-    timed_make(&s->depth, poses, value, MOST_CHANGE);
+    timed_make(&s->depth, poses, value);
     range_of(&s->depth_low, &s->depth_high, value);
-    int32_t change = s->depth.change;
-    if (s->turns)
-        change = narrow_sat(change - (((int64_t)s->depth.dx * s->x_change + (int64_t)s->depth.dy * s->y_change) >> 8));
+    int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
     change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
-    s->slope[0] = change >> 1;
-    s->slope[1] = change >> 5;
+    s->slope[0] = change;
+    s->slope[1] = change >> 4;
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
@@ -205,20 +214,19 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 
     /* Slopes of the middle, unless it is seen from its edge then. */
     uint64_t area = pose_start(&poses.pose[1], pose[1]);
-    poses.shade = s;
-    poses.turns = s->turns = area == 0 || shape_turns(pose[0], pose[2]);
+    poses.turns = area == 0 || shape_turns(pose[0], pose[2]);
     poses.shape[1] = &poses.pose[1];
-    if (s->turns) {
+    if (poses.turns) {
         uint64_t area_a = pose_start(&poses.pose[0], pose[0]), area_b = pose_start(&poses.pose[2], pose[2]);
         const struct pose_setup *some = &poses.pose[area != 0 ? 1 : area_a != 0 ? 0 : 2];
         poses.shape[0] = area_a != 0 ? &poses.pose[0] : some;
         poses.shape[1] = some;
         poses.shape[2] = area_b != 0 ? &poses.pose[2] : some;
     }
-    s->x = point_of(pose[1]->x);
-    s->y = point_of(pose[1]->y);
-    s->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
-    s->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
+    poses.x = point_of(pose[1]->x);
+    poses.y = point_of(pose[1]->y);
+    poses.x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
+    poses.y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
     shade_depth(s, &poses, pose);
 
     int32_t channel[3][3];
@@ -261,20 +269,20 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++)
                 high = max_i32(high, pose[k]->depth[i]);
-        int up = max_i32(count_leading_zeros((uint32_t)high) - 3, 0);
+        int up = count_leading_zeros((uint32_t)high) - 6;          /* room for changes */
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++)
-                over[k][i] = pose[k]->depth[i] << up;
+                over[k][i] = up >= 0 ? pose[k]->depth[i] << up : pose[k]->depth[i] >> -up;
         const int32_t *value[3] = { over[0], over[1], over[2] };
         q = (const int32_t (*)[3])over;
-        timed_make(&s->q, &poses, value, INT32_MAX);
+        timed_make(&s->q, &poses, value);
     }
     for (int c = 0; c < 3 && s->gouraud; c++) {
         const int32_t *value[3] = { channel[c], channel[c], channel[c] };
         range_of(&s->channel_low[c], &s->channel_high[c], value);
         for (int i = 0; i < 3 && s->over_w; i++)
             channel[c][i] >>= 8;
-        values_make(&s->channel[c], &poses, q, channel[c], s->over_w ? INT32_MAX : MOST_CHANGE);
+        values_make(&s->channel[c], &poses, q, channel[c]);
     }
     if (m == NULL)
         return;
@@ -283,8 +291,8 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
         v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
     }
-    values_make(&s->u, &poses, q, u, INT32_MAX);
-    values_make(&s->v, &poses, q, v, INT32_MAX);
+    values_make(&s->u, &poses, q, u);
+    values_make(&s->v, &poses, q, v);
     s->travel = 0;
     for (int i = 0; i < 3; i++) {
         int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
@@ -294,35 +302,10 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 
 /* ------------------------------------------------------------------ colours */
 
-/* floor(a time / 64) for any a. */
-static inline int32_t times_time(int32_t a, int32_t time)
+static inline int32_t value_at(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
 {
-    const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
-    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
-}
-
-/* a b / 256 for a b below 2^23. */
-static inline int32_t times_q8(int32_t a, int32_t b)
-{
-    return add_wrap(mul_wrap(a >> 8, b), (a & 255) * b >> 8);
-}
-
-int32_t smear_timemask_turning_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
-                                     int32_t time)
-{
-    int32_t px = x * 256 - s->x - times_time(s->x_change, time), py = y * 256 - s->y - times_time(s->y_change, time);
-    int32_t dx = add_wrap(p->dx, times_time(p->dx_change, time)), dy = add_wrap(p->dy, times_time(p->dy_change, time));
-    return add_wrap(add_wrap(p->at, times_time(p->change, time)), add_wrap(times_q8(dx, px), times_q8(dy, py)));
-}
-
-/* As timemask_value, for any change. */
-static int32_t wide_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
-                          int32_t time)
-{
-    if (s->turns)
-        return smear_timemask_turning_value(s, p, x, y, time);
-    int32_t here = add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
-    return add_wrap(here, times_time(p->change, time));
+    struct timemask_here here = timemask_here(p, x, y);
+    return timemask_value(p, &here, time);
 }
 
 /* w at a time: 1/q = recip 2^(zeros - 61). */
@@ -333,7 +316,7 @@ struct quotient {
 
 static struct quotient quotient_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
-    uint32_t q = (uint32_t)max_i32(wide_value(s, &s->q, x, y, time), 1 << 11);
+    uint32_t q = (uint32_t)max_i32(value_at(&s->q, x, y, time), 1 << 11);
     int zeros = count_leading_zeros(q);
     return (struct quotient){ zeros, (int32_t)recip_norm(q << zeros) };
 }
@@ -350,9 +333,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
     if (s->over_w)
         w = quotient_at(s, x, y, time);
     for (int c = 0; c < 3; c++) {
-        int32_t value = s->over_w ? quotient_of(&w, wide_value(s, &s->channel[c], x, y, time)) >> 4
-                                  : timemask_value(s, &s->channel[c], x, y, time);
-        out[c] = clamp_i32(value, s->channel_low[c], s->channel_high[c]);
+        int32_t value = value_at(&s->channel[c], x, y, time);
+        out[c] = clamp_i32(s->over_w ? quotient_of(&w, value) >> 4 : value, s->channel_low[c], s->channel_high[c]);
     }
 }
 
@@ -360,8 +342,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    *u = wide_value(s, &s->u, x, y, time);
-    *v = wide_value(s, &s->v, x, y, time);
+    *u = value_at(&s->u, x, y, time);
+    *v = value_at(&s->v, x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         *u = quotient_of(&w, *u);
@@ -376,20 +358,20 @@ static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32
 }
 
 /* The mean of texels along the run: from its start to its end, evenly. */
-static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, const struct timemask_run *run,
+static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, uint32_t run,
                              int32_t light[3])
 {
     uint32_t texel[TAPS_MAX];
     const bool linear = s->frame->linear;
     const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
-    int32_t travel = s->travel * (run->to - run->from) >> s->slots_log2;
+    int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
     int log2 = 0;
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;
     int32_t u0, v0, u1, v1;
     const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
-    texel_at(s, x, y, (run->from << up) - half, &u0, &v0);
-    texel_at(s, x, y, (run->to << up) - half, &u1, &v1);
+    texel_at(s, x, y, (timemask_run_from(run) << up) - half, &u0, &v0);
+    texel_at(s, x, y, (timemask_run_to(run) << up) - half, &u1, &v1);
     int32_t du = sub_wrap(u1, u0) >> log2, dv = sub_wrap(v1, v0) >> log2;
     const struct smear_texture_run along = {
         .at = packed_uv((uint32_t)add_wrap(u0, du >> 1), (uint32_t)add_wrap(v0, dv >> 1)),
@@ -417,9 +399,9 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
-uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, const struct timemask_run *run)
+uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run)
 {
-    int32_t x = run->x, light[3];
+    int32_t x = timemask_run_x(run), light[3];
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
         if (s->sampler == NULL)

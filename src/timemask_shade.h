@@ -12,12 +12,11 @@
 /* Time in a segment is counted in 1/64, from its middle. */
 enum { TIMEMASK_TIME_LOG2 = 6 };
 
-/* An attribute: at the block's first pixel where slopes stay, else at the moving point; and how it changes over the whole
- * segment. */
+/* An attribute over the screen and time: a plane, plus time times another, plus time^2 times a constant. */
 struct timemask_timed {
-    int32_t at, change;
-    int32_t dx, dy;             /* per pixel, in the middle */
-    int32_t dx_change, dy_change;       /* over the segment; where slopes turn */
+    int32_t at, dx, dy;         /* in the segment's middle, at the block's first pixel */
+    int32_t change, change_dx, change_dy;       /* over the segment */
+    int32_t curve;              /* the same, times the whole segment again */
 };
 
 struct timemask_shade {
@@ -25,12 +24,10 @@ struct timemask_shade {
     const struct smear_segment *segment;
     const struct smear_sampler *sampler;    /* null: no texture */
     bool gouraud;
-    bool turns;                             /* slopes change, attributes are those of the moving point */
-    int32_t x, y, x_change, y_change;       /* the point: q8 px from the block's first centre */
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
-    struct timemask_timed depth;            /* units q5 */
+    struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
     int32_t slope[2];                       /* of depth codes below and from 32768, 1/16 per slot */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
@@ -47,33 +44,46 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
                           const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap);
 
 /* Colour of a pixel of the block over a run. */
-uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, const struct timemask_run *run);
+uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
 
-int32_t smear_timemask_turning_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
-                                     int32_t time);
+/* The two planes at a pixel. */
+struct timemask_here {
+    int32_t at, change;
+};
 
-/* Value at a time, where |change| is below 2^25. */
-static inline int32_t timemask_value(const struct timemask_shade *s, const struct timemask_timed *p, int32_t x, int32_t y,
-                                     int32_t time)
+static inline struct timemask_here timemask_here(const struct timemask_timed *p, int32_t x, int32_t y)
 {
-    if (s->turns)
-        return smear_timemask_turning_value(s, p, x, y, time);
-    int32_t here = add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
-    return add_wrap(here, p->change * time >> TIMEMASK_TIME_LOG2);
+    return (struct timemask_here){ add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y))),
+                                   add_wrap(p->change, add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y))) };
 }
 
-static inline int32_t timemask_middle(const struct timemask_shade *s, const struct timemask_run *run)
+/* floor(a time / 64) for any a. */
+static inline int32_t timemask_part(int32_t a, int32_t time)
 {
-    return ((run->from + run->to) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2)) - (1 << (TIMEMASK_TIME_LOG2 - 1));
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * time >> TIMEMASK_TIME_LOG2);
+#else
+    const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
+    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
+#endif
 }
 
-/* Depth code of the pixel in the middle of its run. */
-static inline uint32_t timemask_depth(const struct timemask_shade *s, int32_t y, const struct timemask_run *run)
+/* Value at a time. */
+static inline int32_t timemask_value(const struct timemask_timed *p, const struct timemask_here *here, int32_t time)
 {
-    int32_t units = timemask_value(s, &s->depth, run->x, y, timemask_middle(s, run));
-    units = clamp_i32(units, s->depth_low, s->depth_high);
-    return units < 32768 << 5 ? (uint32_t)(units + 16) >> 5
-                              : ((uint32_t)units + ((15u * 32768u) << 5) + 256u) >> 9;
+    return add_wrap(here->at, timemask_part(add_wrap(here->change, timemask_part(p->curve, time)), time));
+}
+
+static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t run)
+{
+    return ((timemask_run_from(run) + timemask_run_to(run)) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2))
+         - (1 << (TIMEMASK_TIME_LOG2 - 1));
+}
+
+/* Depth code of units q4. */
+static inline int32_t timemask_code(int32_t units)
+{
+    return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
 }
 
 #endif

@@ -2,19 +2,26 @@
 /* timemask_slots.c - entries of pixels: taken, lost, merged, averaged. */
 #include "timemask_slots.h"
 
-void smear_timemask_slots_place(struct timemask_slots *b, void *memory, uint32_t pixels, int32_t slots_log2, bool linear)
+void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear)
 {
-    b->held = memory;
+    size_t pixels = (size_t)1 << pixels_log2;
+    b->any = memory;
+    b->held = b->any + pixels;
     b->color = b->held + TIMEMASK_ENTRIES * pixels;
     b->depth = (uint16_t *)(void *)(b->color + TIMEMASK_ENTRIES * pixels);
-    b->pixels = pixels;
+    b->farthest = b->depth + TIMEMASK_ENTRIES * pixels;
+    b->count = (uint8_t *)(b->farthest + pixels);
+    b->pixels_log2 = pixels_log2;
     b->slots_log2 = slots_log2;
     b->linear = linear;
 }
 
 void smear_timemask_slots_clear(struct timemask_slots *b)
 {
-    __builtin_memset(b->held, 0, TIMEMASK_ENTRIES * b->pixels * sizeof *b->held);
+    size_t pixels = (size_t)1 << b->pixels_log2;
+    __builtin_memset(b->any, 0, pixels * sizeof *b->any);
+    __builtin_memset(b->farthest, 255, pixels * sizeof *b->farthest);
+    __builtin_memset(b->count, 0, pixels);
 }
 
 static inline uint32_t count_bits(uint32_t m)
@@ -46,8 +53,7 @@ static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32
     if (begin <= 0 && end <= 0)
         return 0;
     /* They cross: slots before are those whose difference has the sign of the first. */
-    int32_t step = (end - begin) / (last - first);
-    int32_t count = step == 0 ? 1 : clamp_i32(-begin / step, 0, last - first - 1) + 1;
+    int32_t count = clamp_i32(-begin / (2 * slope), 0, last - first - 1) + 1;
     uint32_t before = both & ((2u << (first + count - 1)) - 1u);
     return begin > 0 ? before : both & ~before;
 }
@@ -64,16 +70,19 @@ static const uint32_t over[33] = {
 /* (a wa + b wb) / n with n = wa + wb slots: equal codes keep their mean. */
 static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
 {
-    uint32_t n = wa + wb, out[3];
-    for (int c = 0; c < 3; c++) {
-        int shift = 16 - 8 * c;
-        uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
-        if (linear)         /* the sum is below 2^21 */
-            out[c] = smear_srgb_encode[mulh_u32((smear_srgb_decode[ca] * wa + smear_srgb_decode[cb] * wb) << 11, over[n]) >> 5];
-        else                /* below 2^13 */
-            out[c] = mulh_u32((ca * wa + cb * wb + n / 2) << 18, over[n]) >> 8;
+    uint32_t n = wa + wb, by = over[n];
+    if (linear) {       /* sums are below 2^21 */
+        uint32_t red = smear_srgb_decode[pixel_red(a)] * wa + smear_srgb_decode[pixel_red(b)] * wb;
+        uint32_t green = smear_srgb_decode[pixel_green(a)] * wa + smear_srgb_decode[pixel_green(b)] * wb;
+        uint32_t blue = smear_srgb_decode[pixel_blue(a)] * wa + smear_srgb_decode[pixel_blue(b)] * wb;
+        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5], smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
+                          smear_srgb_encode[mulh_u32(blue << 11, by) >> 5]);
     }
-    return pixel_make(0, out[0], out[1], out[2]);
+    /* Below 2^13: products with by / 2^4 fit. */
+    uint32_t red_blue = (a & 0xff00ffu) * wa + (b & 0xff00ffu) * wb + (n >> 1) * 0x10001u;
+    uint32_t green = pixel_green(a) * wa + pixel_green(b) * wb + (n >> 1);
+    by = (by + 15u) >> 4;
+    return ((red_blue >> 16) * by >> 18) << 16 | (green * by >> 18) << 8 | (red_blue & 0xffffu) * by >> 18;
 }
 
 static inline uint32_t distance(uint32_t a, uint32_t b)
@@ -85,13 +94,15 @@ struct entry {
     uint32_t held, color, depth;
 };
 
-static inline struct entry entry_at(const struct timemask_slots *b, uint32_t at)
+static inline struct entry entry_at(const struct timemask_slots *b, uint32_t pixel, uint32_t i)
 {
+    uint32_t at = (i << b->pixels_log2) + pixel;
     return (struct entry){ b->held[at], b->color[at], b->depth[at] };
 }
 
-static inline void entry_put(struct timemask_slots *b, uint32_t at, const struct entry *e)
+static inline void entry_put(struct timemask_slots *b, uint32_t pixel, uint32_t i, const struct entry *e)
 {
+    uint32_t at = (i << b->pixels_log2) + pixel;
     b->held[at] = e->held;
     b->color[at] = e->color;
     b->depth[at] = (uint16_t)e->depth;
@@ -102,15 +113,16 @@ static struct entry entry_join(const struct entry *a, const struct entry *b, boo
 {
     uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
     const struct entry *longer = wa < wb ? b : a;
-    struct entry e;
-    e.held = a->held | b->held;
-    e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
-    e.depth = longer->depth;
+    struct entry e = { a->held | b->held, longer->color, longer->depth };
+    if ((a->color ^ b->color) << 8 != 0)
+        e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
     return e;
 }
 
-/* How much it matters that two entries become one: by depths, and by colours. */
-static uint32_t unlikeness(const struct entry *a, const struct entry *b)
+enum { ALIKE = 48 * 64 };       /* no need to look for better ones */
+
+/* How much it matters that two entries become one: by depth and colour. */
+static inline uint32_t apart(const struct entry *a, const struct entry *b)
 {
     uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
                    + distance(pixel_green(a->color), pixel_green(b->color))
@@ -118,108 +130,111 @@ static uint32_t unlikeness(const struct entry *a, const struct entry *b)
     return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
-/* All entries are taken: the two of four that are most alike share one. */
+/* All entries are taken: two that are alike share one. What is new first looks for one like itself, from the latest on. */
 static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
-    struct entry all[TIMEMASK_ENTRIES + 1];
-    for (uint32_t e = 0; e < TIMEMASK_ENTRIES; e++)
-        all[e] = entry_at(b, pixel * TIMEMASK_ENTRIES + e);
-    all[TIMEMASK_ENTRIES] = *fresh;
-    uint32_t first = 0, second = 1, least = UINT32_MAX;
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
-        for (uint32_t j = i + 1; j <= TIMEMASK_ENTRIES; j++) {
-            uint32_t d = unlikeness(&all[i], &all[j]);
+    struct entry all[TIMEMASK_ENTRIES];
+    uint32_t first = 0, second = TIMEMASK_ENTRIES, least = UINT32_MAX;
+    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0 && least > ALIKE;) {
+        all[i] = entry_at(b, pixel, i);
+        uint32_t d = apart(&all[i], fresh);
+        if (d < least) {
+            least = d;
+            first = i;
+        }
+    }
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > ALIKE; i++)
+        for (uint32_t j = i + 1; j < TIMEMASK_ENTRIES; j++) {
+            uint32_t d = apart(&all[i], &all[j]);
             if (d < least) {
                 least = d;
                 first = i;
                 second = j;
             }
         }
-    struct entry joined = entry_join(&all[first], &all[second], b->linear);
-    entry_put(b, pixel * TIMEMASK_ENTRIES + first, &joined);
-    if (second != TIMEMASK_ENTRIES)
-        entry_put(b, pixel * TIMEMASK_ENTRIES + second, fresh);
+    struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh, b->linear);
+    entry_put(b, pixel, first, &joined);
+    if (second < TIMEMASK_ENTRIES)
+        entry_put(b, pixel, second, fresh);
+    /* It goes on in the longer's course for the other's slots, too. */
+    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->slots_log2) - 1) >> 5;
+    int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
+    if (lowest < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)lowest;
 }
 
 /* ------------------------------------------------------------------ fragments */
 
-/* Depth codes of one surface, for all that matters here. */
-static inline bool is_level(uint32_t a, uint32_t b)
-{
-    return distance(a, b) <= a >> 6;
-}
-
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth,
-                              int32_t slope)
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
 {
     const int32_t last_slot = (1 << b->slots_log2) - 1;
-    uint32_t *const held = b->held + pixel * TIMEMASK_ENTRIES, *const colors = b->color + pixel * TIMEMASK_ENTRIES;
-    uint16_t *const depths = b->depth + pixel * TIMEMASK_ENTRIES;
-    uint32_t occupied = 0;
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++)
-        occupied |= held[i];
-    if ((occupied & mask) != 0) {
-        for (uint32_t i = 0; i < TIMEMASK_ENTRIES; i++) {
-            uint32_t both = held[i] & mask;
-            if (both == 0)
-                continue;
-            int32_t apart = ((int32_t)depth - (int32_t)depths[i]) * 32;
-            int32_t turn = slope - timemask_slope_of(colors[i]), most = abs_i32(turn) * last_slot;
-            uint32_t taken = apart > most ? both : apart <= -most ? 0 : nearer_slots(apart, turn, both, last_slot);
+    uint32_t mask = f->mask, n = b->count[pixel];
+    for (uint32_t i = 0; i < n;) {
+        uint32_t at = (i << b->pixels_log2) + pixel, both = b->held[at] & mask;
+        if (both != 0) {
+            int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
+            int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
+            uint32_t taken = deeper > most ? both : deeper <= -most ? 0 : nearer_slots(deeper, turn, both, last_slot);
             mask &= ~both | taken;
-            held[i] &= ~taken;
+            b->held[at] &= ~taken;
+            if (b->held[at] == 0) {     /* the last one takes its place */
+                struct entry last = entry_at(b, pixel, --n);
+                entry_put(b, pixel, i, &last);
+                continue;
+            }
         }
-        if (mask == 0)
-            return;
+        i++;
     }
-    uint32_t free = TIMEMASK_ENTRIES;
-    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0;) {
-        if (held[i] == 0) {
-            free = i;
-        } else if (colors[i] << 8 == color << 8 && is_level(depths[i], depth)) {
-            held[i] |= mask;
+    b->count[pixel] = (uint8_t)n;
+    if (mask == 0)
+        return;
+    b->any[pixel] |= mask;
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
+    for (uint32_t i = n; i-- > 0;) {
+        uint32_t at = (i << b->pixels_log2) + pixel;
+        if (timemask_is_same(b, at, f)) {
+            b->held[at] |= mask;
             return;
         }
     }
-    struct entry fresh = { mask, color, depth };
-    if (free < TIMEMASK_ENTRIES)
-        entry_put(b, pixel * TIMEMASK_ENTRIES + free, &fresh);
-    else
+    struct entry fresh = { mask, f->color, (uint32_t)f->depth };
+    if (n == TIMEMASK_ENTRIES) {
         merge(b, pixel, &fresh);
+        return;
+    }
+    entry_put(b, pixel, n, &fresh);
+    b->count[pixel] = (uint8_t)(n + 1);
 }
 
-/* Linear light, entry by entry; `rest` slots of the still colour. */
+/* ------------------------------------------------------------------ means */
+
+/* Linear light. */
 static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
 {
-    uint32_t rest = 1u << b->slots_log2, sum[3] = { 0, 0, 0 }, half = rest >> 1;
-    for (uint32_t e = 0; e <= TIMEMASK_ENTRIES; e++) {
-        uint32_t at = pixel * TIMEMASK_ENTRIES + e;
-        uint32_t n = e < TIMEMASK_ENTRIES ? count_bits(b->held[at]) : rest, color = e < TIMEMASK_ENTRIES ? b->color[at] : still;
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red = half, green = half, blue = half;
+    for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
+        bool own = i < b->count[pixel];
+        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : still;
         rest -= n;
-        if (n == 0)
-            continue;
-        sum[0] += n * smear_srgb_decode[pixel_red(color)];
-        sum[1] += n * smear_srgb_decode[pixel_green(color)];
-        sum[2] += n * smear_srgb_decode[pixel_blue(color)];
+        red += n * smear_srgb_decode[pixel_red(color)];
+        green += n * smear_srgb_decode[pixel_green(color)];
+        blue += n * smear_srgb_decode[pixel_blue(color)];
     }
-    for (int c = 0; c < 3; c++)
-        sum[c] = smear_srgb_encode[(sum[c] + half) >> b->slots_log2 >> 4];
-    return pixel_make(0, sum[0], sum[1], sum[2]);
+    const int down = b->slots_log2 + 4;
+    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down], smear_srgb_encode[blue >> down]);
 }
 
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
 {
-    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2)), count = b->count[pixel];
+    if (count == 1 && b->held[pixel] == all)
+        return b->color[pixel] & 0xffffffu;
+    if (b->linear)
+        return mean_linear(b, pixel, still);
     uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
-    for (uint32_t at = pixel * TIMEMASK_ENTRIES, end = at + TIMEMASK_ENTRIES; at < end; at++) {
-        uint32_t held = b->held[at];
-        if (held == 0)
-            continue;
-        if (held == all)
-            return b->color[at] & 0xffffffu;
-        if (b->linear)
-            return mean_linear(b, pixel, still);
-        uint32_t n = count_bits(held), color = b->color[at];
+    for (uint32_t i = 0, at = pixel; i < count; i++, at += 1u << b->pixels_log2) {
+        uint32_t n = count_bits(b->held[at]), color = b->color[at];
         rest -= n;
         red_blue += (color & 0xff00ffu) * n;
         green += (color >> 8 & 0xffu) * n;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_slots.h - who is seen in a pixel in which time slots: an A-buffer over time.
  *
- * A pixel has three entries, each with the slots it holds, a colour, and a depth code that goes evenly with time. A slot is
- * in at most one entry: the nearer of two takes it. What no entry holds shows the still scene. When a fourth is needed,
- * the two most alike become one, coloured by their shares. */
+ * A pixel has up to five entries, each with the slots it holds, a colour, and a depth code that goes evenly with time. A
+ * slot is in at most one entry: the nearer of two takes it. What no entry holds shows the still scene. When a sixth is
+ * needed, the two most alike become one, coloured by their shares. */
 #ifndef SMEAR_TIMEMASK_SLOTS_H
 #define SMEAR_TIMEMASK_SLOTS_H
 
@@ -11,25 +11,37 @@
 #include "pixel.h"
 #include "timemask_cover.h"
 
-enum { TIMEMASK_ENTRIES = 3 };
+enum { TIMEMASK_ENTRIES = 5 };
 
-/* Entries of a block: e of pixel p at p * TIMEMASK_ENTRIES + e, rows TIMEMASK_BLOCK apart. */
+/* Entries of a block: e of pixel p at e * pixels + p, rows TIMEMASK_WIDTH apart. */
 struct timemask_slots {
-    uint32_t *held;             /* a bit per slot, 0: free */
+    uint32_t *any;              /* slots held by some entry */
+    uint32_t *held;             /* a bit per slot, never 0 in use */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
     uint16_t *depth;            /* code in the middle of the exposure */
-    uint32_t pixels;
+    uint16_t *farthest;         /* no entry is farther than this in a slot it holds */
+    uint8_t *count;             /* entries in use */
+    int32_t pixels_log2;
     int32_t slots_log2;         /* of the whole exposure */
     bool linear;
 };
 
+/* What may be seen of a moving triangle in a pixel. */
+struct timemask_fragment {
+    uint32_t mask;              /* slots, at least one */
+    uint32_t color;             /* as it is kept */
+    int32_t depth;              /* code in the middle of the exposure */
+    int32_t slope;              /* timemask_slope_of(color) */
+    int32_t low, high;          /* codes it keeps to */
+};
+
 static inline size_t timemask_slots_bytes(uint32_t pixels)
 {
-    return (size_t)TIMEMASK_ENTRIES * pixels * (2 * sizeof(uint32_t) + sizeof(uint16_t));
+    return pixels * (TIMEMASK_ENTRIES * (2 * sizeof(uint32_t) + sizeof(uint16_t)) + sizeof(uint32_t) + sizeof(uint16_t) + 1);
 }
 
 /* Over `memory` of that size, aligned for words. */
-void smear_timemask_slots_place(struct timemask_slots *b, void *memory, uint32_t pixels, int32_t slots_log2, bool linear);
+void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear);
 
 /* Frees all entries. */
 void smear_timemask_slots_clear(struct timemask_slots *b);
@@ -44,10 +56,40 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* A fragment that holds the slots of `mask` (at least one) before others are asked. Colour with the slope's 8 bits on top;
- * depth code in the middle of the exposure; slope as timemask_slope_of has it. */
-void smear_timemask_slots_add(struct timemask_slots *b, uint32_t pixel, uint32_t mask, uint32_t color, uint32_t depth,
-                              int32_t slope);
+/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, const struct timemask_fragment *f)
+{
+    return (b->color[at] ^ f->color) << 8 == 0 && (uint32_t)abs_i32((int32_t)b->depth[at] - f->depth) <= (uint32_t)f->depth >> 6;
+}
+
+/* timemask_slots_add, where others have a say or entries run out. */
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f);
+
+static inline void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
+{
+    uint32_t any = b->any[pixel], n = b->count[pixel];
+    if ((any & f->mask) != 0 && f->high <= b->farthest[pixel]) {
+        f->mask &= ~any;
+        if (f->mask == 0)
+            return;
+    }
+    if ((any & f->mask) != 0 || n == TIMEMASK_ENTRIES) {
+        smear_timemask_slots_contest(b, pixel, f);
+        return;
+    }
+    uint32_t at = (n << b->pixels_log2) + pixel;
+    b->any[pixel] = any | f->mask;
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
+    if (n != 0 && timemask_is_same(b, at - (1u << b->pixels_log2), f)) {
+        b->held[at - (1u << b->pixels_log2)] |= f->mask;
+        return;
+    }
+    b->held[at] = f->mask;
+    b->color[at] = f->color;
+    b->depth[at] = (uint16_t)f->depth;
+    b->count[pixel] = (uint8_t)(n + 1);
+}
 
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still);

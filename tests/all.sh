@@ -74,6 +74,8 @@ else
 fi
 suite command-line sh tests/cli.sh build/smear
 suite view sh tests/view.sh build/smear
+suite build-demo-screen $make -s build/host/demo-screen
+suite view-display sh tests/view_display.sh build/host/demo-screen
 if needs tmux "tmux"; then
     suite view-terminal sh tests/view_term.sh build/smear
 fi
@@ -94,7 +96,7 @@ fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
-    for target in cortex-m0plus cortex-m3 cortex-m4; do
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
@@ -104,6 +106,10 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite demo-gba $make -s TARGET=gba demo-test
     fi
     suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
+fi
+if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
+    suite target-rv32imc $make -s TARGET=rv32imc target-test
+    suite demo-rv32imc $make -s TARGET=rv32imc demo-test
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then

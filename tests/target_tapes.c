@@ -3,6 +3,7 @@
  *
  *     target_tapes list                        draws the golden frames here, prints GOLDEN.txt
  *     target_tapes golden OUT.c GOLDEN.txt     the same frames as tapes, all within 256 kB of RAM
+ *     target_tapes small OUT.c GOLDEN.txt      those which make do with 64 kB
  *     target_tapes bench OUT.c                 the peers' scenes at 320x240, whole and in bands
  *
  * A line of GOLDEN.txt is `TAPE FRAME CRC`; other lines are comments. `list` draws without tapes,
@@ -22,7 +23,7 @@ struct spec {
     struct present_options present; /* fps, clear and a shutter of 0 degrees are filled in */
 };
 
-enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20 };
+enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20, SMALL_BYTES = 64 << 10 };
 
 /* Every method, output format, dither and light, all tile sizes, both pose models, kept poses, a
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. */
@@ -271,7 +272,8 @@ static bool list_golden(struct failure *f, const char **file)
     return ok;
 }
 
-static bool write_tapes(const char *path, const char *golden_path, struct failure *f,
+/* `limit`: in bytes of memory, pointers being as large as they are here. */
+static bool write_tapes(const char *path, const char *golden_path, size_t limit, struct failure *f,
                         const char **file)
 {
     uint8_t *crcs = NULL;
@@ -290,7 +292,10 @@ static bool write_tapes(const char *path, const char *golden_path, struct failur
         else
             complete_bench(&spec);
         *file = spec.name;
-        ok = visit(&spec, &visitor, f);
+        smear_desc desc = spec.desc;
+        desc.flush = add_to_crc;
+        if (limit == 0 || smear_memory_size(&desc) <= limit)
+            ok = visit(&spec, &visitor, f);
     }
     if (ok) {
         *file = path;
@@ -310,11 +315,14 @@ int main(int argc, char **argv)
     if (argc == 2 && strcmp(argv[1], "list") == 0) {
         ok = list_golden(&f, &file);
     } else if (argc == 4 && strcmp(argv[1], "golden") == 0) {
-        ok = write_tapes(argv[2], argv[3], &f, &file);
+        ok = write_tapes(argv[2], argv[3], 0, &f, &file);
+    } else if (argc == 4 && strcmp(argv[1], "small") == 0) {
+        ok = write_tapes(argv[2], argv[3], SMALL_BYTES, &f, &file);
     } else if (argc == 3 && strcmp(argv[1], "bench") == 0) {
-        ok = write_tapes(argv[2], NULL, &f, &file);
+        ok = write_tapes(argv[2], NULL, 0, &f, &file);
     } else {
-        fprintf(stderr, "usage: target_tapes list | golden OUT.c GOLDEN.txt | bench OUT.c\n");
+        fprintf(stderr, "usage: target_tapes list | golden OUT.c GOLDEN.txt | small OUT.c GOLDEN.txt |"
+                        " bench OUT.c\n");
         return 2;
     }
     if (!ok)

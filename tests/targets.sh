@@ -5,7 +5,7 @@
 # target_objects.sh. A target without its tools is named and skipped; REQUIRE_ALL=1 makes that a
 # failure.
 set -u
-[ $# -gt 0 ] || set -- host cortex-m0plus cortex-m3 cortex-m4 s390x
+[ $# -gt 0 ] || set -- host cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 gba rv32imc s390x
 make=${MAKE:-make}
 failed= skipped= passed=
 for target in "$@"; do

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* test_view.c - the parts of `smear view` that need no screen: layouts of pixels, the panel's place,
- * what a bus makes of a frame, bytes of terminals, recorded input, the turned camera, wires. */
+/* test_view.c - the parts of `smear view` that need no screen: layouts of pixels, the panel's
+ * place, what a bus makes of a frame, bytes of terminals, recorded input, the turned camera,
+ * wires. */
 #include "test.h"
 
 #include "../tools/cli/picture.h"
@@ -102,7 +103,7 @@ static void test_every_pixel_of_the_panel_is_where_it_is_located(void)
         for (int zoom = 1; zoom <= 3; zoom++) {
             struct panel_look look = { .zoom = zoom, .turns = turns };
             struct surface s = surface_of(40, 37);
-            struct panel_place place = panel_fit(&look, W, H, &s);
+            struct panel_place place = panel_place_on(&look, W, H, &s);
             panel_show(&look, &place, codes, W, H, &s);
             int hits = 0;
             for (int v = 0; v < s.height; v++)
@@ -127,7 +128,7 @@ static void test_a_turned_panel_is_turned_clockwise(void)
     fill_codes();
     struct panel_look look = { .zoom = 1, .turns = 1 };
     struct surface s = surface_of(H, W);
-    struct panel_place place = panel_fit(&look, W, H, &s);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
     panel_show(&look, &place, codes, W, H, &s);
     CHECK_EQ(at(H - 1, 0), codes[0]);               /* top left goes to top right */
     CHECK_EQ(at(0, 0), codes[(H - 1) * W]);
@@ -138,17 +139,17 @@ static void test_zoom_is_the_largest_that_fits(void)
 {
     const struct panel_look look = { .zoom = 0 }, fixed = { .zoom = 2 };
     struct surface s = surface_of(6 * 5 + 3, 4 * 5);
-    CHECK_EQ(panel_fit(&look, W, H, &s).zoom, 5);
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 5);
     s.height--;
-    CHECK_EQ(panel_fit(&look, W, H, &s).zoom, 4);
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 4);
     s = surface_of(64, 64);
-    CHECK_EQ(panel_fit(&look, W, H, &s).zoom, 8);
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 8);
     s = surface_of(5, 30);
-    struct panel_place place = panel_fit(&look, W, H, &s);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
     CHECK_EQ(place.zoom, 0);
     CHECK_EQ(place.width, 5);
     CHECK_EQ(place.height, 3);
-    CHECK_EQ(panel_fit(&fixed, W, H, &s).zoom, 2);
+    CHECK_EQ(panel_place_on(&fixed, W, H, &s).zoom, 2);
 }
 
 static void test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it(void)
@@ -159,7 +160,7 @@ static void test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it(void
             for (int height = 1; height <= 9; height++) {
                 struct panel_look look = { .zoom = zoom, .round = true, .turns = width & 3 };
                 struct surface s = surface_of(width, height);
-                struct panel_place place = panel_fit(&look, W, H, &s);
+                struct panel_place place = panel_place_on(&look, W, H, &s);
                 panel_show(&look, &place, codes, W, H, &s);
                 for (int v = 0; v < 12; v++)
                     for (int u = 0; u < 12; u++)
@@ -174,7 +175,7 @@ static void test_shrinking_keeps_the_mean(void)
         codes[i] = i & 1 ? 0xff0080 : 0x010000;
     const struct panel_look look = { .zoom = 0 };
     struct surface s = surface_of(3, 2);
-    struct panel_place place = panel_fit(&look, W, H, &s);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
     panel_show(&look, &place, codes, W, H, &s);
     for (int i = 0; i < 6; i++)
         CHECK_EQ(at(i % 3, i / 3), 0x800040);
@@ -185,7 +186,7 @@ static void test_a_round_glass_hides_the_corners_only(void)
     fill_codes();
     const struct panel_look look = { .zoom = 1, .round = true };
     struct surface s = surface_of(W, H);
-    struct panel_place place = panel_fit(&look, W, H, &s);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
     panel_show(&look, &place, codes, W, H, &s);
     CHECK((at(0, 0) & 0xff) != 1 && (at(W - 1, H - 1) & 0xff) != 1);
     CHECK_EQ(at(2, 0), codes[2]);
@@ -198,7 +199,7 @@ static void test_greys_run_between_the_panels_colours(void)
     const struct panel_look look = { .zoom = 1, .has_tint = true, .dark = 0x102030,
                                      .lit = 0xa0b0c0 };
     struct surface s = surface_of(2, 1);
-    struct panel_place place = panel_fit(&look, 2, 1, &s);
+    struct panel_place place = panel_place_on(&look, 2, 1, &s);
     panel_show(&look, &place, greys, 2, 1, &s);
     CHECK_EQ(at(0, 0), 0x102030);
     CHECK_EQ(at(1, 0), 0xa0b0c0);
@@ -338,12 +339,12 @@ static bool is_key(const char *bytes, int key)
 static void test_keys_of_terminals_are_known(void)
 {
     CHECK(is_key("b", 'b') && is_key("?", '?') && is_key(" ", ' '));
-    CHECK(is_key("\r", KEY_ENTER) && is_key("\n", KEY_ENTER) && is_key("\t", KEY_TAB));
-    CHECK(is_key("\033", KEY_ESCAPE));
-    CHECK(is_key("\033[A", KEY_UP) && is_key("\033OA", KEY_UP));
-    CHECK(is_key("\033[B", KEY_DOWN) && is_key("\033[C", KEY_RIGHT) && is_key("\033[D", KEY_LEFT));
-    CHECK(is_key("\033[H", KEY_HOME) && is_key("\033[1~", KEY_HOME) && is_key("\033[F", KEY_END));
-    CHECK(is_key("\033[5~", KEY_PAGE_UP) && is_key("\033[6~", KEY_PAGE_DOWN));
+    CHECK(is_key("\r", SCREEN_ENTER) && is_key("\n", SCREEN_ENTER) && is_key("\t", SCREEN_TAB));
+    CHECK(is_key("\033", SCREEN_ESCAPE));
+    CHECK(is_key("\033[A", SCREEN_UP) && is_key("\033OA", SCREEN_UP));
+    CHECK(is_key("\033[B", SCREEN_DOWN) && is_key("\033[C", SCREEN_RIGHT) && is_key("\033[D", SCREEN_LEFT));
+    CHECK(is_key("\033[H", SCREEN_HOME) && is_key("\033[1~", SCREEN_HOME) && is_key("\033[F", SCREEN_END));
+    CHECK(is_key("\033[5~", SCREEN_PAGE_UP) && is_key("\033[6~", SCREEN_PAGE_DOWN));
 }
 
 static void test_half_a_sequence_waits_for_the_rest(void)
@@ -411,10 +412,10 @@ static const char script_file[] = "build/test-view-script";
 static void test_recorded_input_is_played(void)
 {
     const struct event events[] = {
-        { .kind = EVENT_KEY, .key = 'b' },          { .kind = EVENT_KEY, .key = KEY_LEFT },
+        { .kind = EVENT_KEY, .key = 'b' },          { .kind = EVENT_KEY, .key = SCREEN_LEFT },
         { .kind = EVENT_KEY, .key = ' ' },          { .kind = EVENT_DRAG, .button = 3, .x = -7, .y = 9 },
         { .kind = EVENT_WHEEL, .y = -1 },           { .kind = EVENT_KEY, .key = '#' },
-        { .kind = EVENT_KEY, .key = KEY_PAGE_UP },
+        { .kind = EVENT_KEY, .key = SCREEN_PAGE_UP },
     };
     const int count = sizeof events / sizeof *events;
     struct failure f = { "" };

@@ -5,7 +5,8 @@
  *     view_cost fit COUNTS BENCH           the instructions per piece of work that explain best what
  *                                          target_bench has measured, and how well they do
  *
- * The fit minimises the squared relative error over all frames; no piece may cost less than nothing. */
+ * The fit minimises the squared relative error over all frames; no piece may cost less than
+ * nothing. */
 #include "../tools/image/image.h"
 #include "../tools/scenes/present.h"
 #include "../tools/scenes/tape.h"

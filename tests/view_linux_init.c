@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* view_linux_init.c - the first process of a Linux that has a display and nothing else: runs each line
- * of /commands on the console, tells on the serial line how it ended and how it left the console, and
- * waits for the machine to be switched off. Modules in /modules/list are loaded before. */
+/* view_linux_init.c - the first process of a Linux that has a display and nothing else: runs
+ * each line of /commands on the console, tells on the serial line how it ended and how it left
+ * the console, and waits for the machine to be switched off. Modules in /modules/list are loaded
+ * before. */
 #include <fcntl.h>
 #include <linux/kd.h>
 #include <stdio.h>

@@ -19,8 +19,8 @@ CFLAGS  += $(CORE) -ffreestanding -ffunction-sections -fdata-sections
 LDFLAGS += $(CORE) -nostdlib -Wl,--gc-sections -Lplatform/cortexm
 LDLIBS  += -lgcc
 
-PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/semihost.c \
-                platform/cortexm/platform.c platform/common/memory.c
+PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/platform.c \
+                $(addprefix platform/common/,arena.c arguments.c memory.c semihost.c)
 
 RUN       := platform/cortexm/run.sh $(BOARD)
 RUN_BENCH := platform/cortexm/run.sh $(BENCH_BOARD) -icount shift=7

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* startup.c - from reset to main on any Cortex-M, without a C library. */
+#include "../common/arguments.h"
+#include "../common/semihost.h"
+#include "../common/stack.h"
 #include "interrupt.h"
-#include "semihost.h"
-#include "stack.h"
 
 #include <stdint.h>
 
@@ -10,29 +11,12 @@
 extern uint32_t link_data_load[], link_data_start[], link_data_end[];
 extern uint32_t link_bss_start[], link_bss_end[];
 
-enum { FAULT_STATUS = 99, MAX_ARGUMENTS = 8, COMMAND_LINE_BYTES = 128 };
+enum { FAULT_STATUS = 99 };
 
 int main(int argc, char **argv);
 
 void reset_handler(void);
 void fault_handler(void);
-
-/* Splits the command line at spaces; the emulator puts the program's name first. */
-static int split_arguments(char *line, char **argument)
-{
-    int count = 0;
-    while (*line != '\0' && count < MAX_ARGUMENTS) {
-        while (*line == ' ')
-            *line++ = '\0';
-        if (*line == '\0')
-            break;
-        argument[count++] = line;
-        while (*line != '\0' && *line != ' ')
-            line++;
-    }
-    argument[count] = NULL;
-    return count;
-}
 
 /* All of it that is not in use here. */
 static void paint_stack(void)
@@ -53,7 +37,7 @@ void reset_handler(void)
     for (uint32_t *to = link_bss_start; to < link_bss_end; to++)
         *to = 0;
     paint_stack();
-    int count = semihost_command_line(line, sizeof line) ? split_arguments(line, argument) : 0;
+    int count = semihost_command_line(line, sizeof line) ? arguments_split(line, argument) : 0;
     semihost_exit(main(count, argument));
 }
 

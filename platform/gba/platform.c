@@ -4,16 +4,13 @@
  * Text goes to mGBA's debug port, line by line; on a console nobody hears it. The clock is timers 0
  * and 1, cascaded: 32 bits of processor cycles. */
 #include "../platform.h"
+#include "../common/arguments.h"
 #include "gba.h"
 
 #include <stdbool.h>
 
-#define STACK_PAINT 0x5ac35ac3u     /* start.S, too */
+enum { LINE_BYTES = 200 };
 
-enum { LINE_BYTES = 200, MAX_ARGUMENTS = 8, COMMAND_LINE_BYTES = 128 };
-
-extern uint64_t link_arena_start[], link_arena_end[];
-extern uint32_t link_stack_top[], link_stack_limit[];
 extern const char gba_command_line[];
 
 int main(int argc, char **argv);
@@ -55,22 +52,6 @@ void platform_print(const char *text)
     }
 }
 
-void *platform_arena(size_t *bytes)
-{
-    *bytes = (size_t)((uintptr_t)link_arena_end - (uintptr_t)link_arena_start);
-    return link_arena_start;
-}
-
-uint32_t platform_stack_used(void)
-{
-    const uint32_t *lowest = link_stack_limit;
-    while (lowest < link_stack_top && *lowest == STACK_PAINT)
-        lowest++;
-    if (lowest == link_stack_limit)
-        return UINT32_MAX;
-    return (uint32_t)((uintptr_t)link_stack_top - (uintptr_t)lowest);
-}
-
 void platform_clock_start(void)
 {
     GBA_TIMER0_CONTROL = 0;
@@ -109,24 +90,11 @@ static void leave(int status)
     }
 }
 
-/* Splits the command line at spaces. */
 void gba_main(void)
 {
-    static char line[COMMAND_LINE_BYTES];
+    static char line[COMMAND_LINE_BYTES] = "program ";
     static char *argument[MAX_ARGUMENTS + 1];
-    char *at = line;
-    int count = 0;
-    for (int i = 0; i < COMMAND_LINE_BYTES - 1; i++)
-        line[i] = ((const volatile char *)gba_command_line)[i];
-    argument[count++] = at;         /* the program's name: none */
-    while (*at != '\0' && count < MAX_ARGUMENTS) {
-        while (*at == ' ')
-            *at++ = '\0';
-        if (*at == '\0')
-            break;
-        argument[count++] = at;
-        while (*at != '\0' && *at != ' ')
-            at++;
-    }
-    leave(main(count, argument));
+    for (int at = 8; at < COMMAND_LINE_BYTES - 1; at++)
+        line[at] = ((const volatile char *)gba_command_line)[at - 8];
+    leave(main(arguments_split(line, argument), argument));
 }

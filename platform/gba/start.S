@@ -49,7 +49,7 @@ boot:
     bl      fill
     ldr     r1, =link_stack_limit
     mov     r2, sp
-    ldr     r3, =0x5ac35ac3         @ STACK_PAINT of platform.c
+    ldr     r3, =0x5ac35ac3         @ STACK_PAINT of stack.h
     bl      fill
     ldr     r3, =gba_main
     mov     lr, pc

@@ -20,7 +20,7 @@ $(BUILD)/src/%.o $(BUILD)/platform/common/%.o: CFLAGS += -marm
 # What is large and hot is made small, so that it fits into fast memory.
 $(BUILD)/src/blur_%.o $(BUILD)/src/raster.o: CFLAGS += -Os
 
-PLATFORM_SRC := platform/gba/platform.c platform/common/memory.c
+PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o
 RUN_NEEDS    := $(BUILD)/gbarun
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* cost.c - see cost.h.
  *
- * Instructions per piece of work are what `make TARGET=... cost-model` prints: fitted to frames whose
- * instructions were counted. They are a third off in the mean of squares and up to three quarters in single
- * frames: what is drawn over and over is not counted. Cycles per instruction
- * are assumptions about code that runs from cached flash or from RAM; on the ARM7TDMI, whose data lies
- * behind wait states, they weigh most. The M7 and the ARM7TDMI run the M4's and M3's instructions. */
+ * Instructions per piece of work are what `make TARGET=... cost-model` prints: fitted to frames
+ * whose instructions were counted. They are a third off in the mean of squares and up to three
+ * quarters in single frames: what is drawn over and over is not counted. Cycles per instruction
+ * are assumptions about code that runs from cached flash or from RAM; on the ARM7TDMI, whose
+ * data lies behind wait states, they weigh most. The M7 and the ARM7TDMI run the M4's and M3's
+ * instructions. */
 #include "cost.h"
 
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* golden.h - frames by their CRC: printed, or held against a file that was accepted before.
  *
- * A file is text: `frame=0 crc32=0297a34a`, one line for each picture in the order shown; lines that
- * begin with # are comments. Beside FILE lie the accepted pictures, FILE.0000.png and so on by
- * line number; where one differs, FILE.0000.got.png and FILE.0000.difference.png are written. */
+ * A file is text: `frame=0 crc32=0297a34a`, one line for each picture in the order shown; lines
+ * that begin with # are comments. Beside FILE lie the accepted pictures, FILE.0000.png and so on
+ * by line number; where one differs, FILE.0000.got.png and FILE.0000.difference.png are written. */
 #ifndef SMEAR_TOOLS_VIEW_GOLDEN_H
 #define SMEAR_TOOLS_VIEW_GOLDEN_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lane.h - one way of drawing the scene: options, the device that draws with them, its last frame.
- * A split screen has two. All drawing goes through what `render` uses: setup.h, present.h, device.h;
- * so equal options give equal bits. */
+/* lane.h - one way of drawing the scene: options, the device that draws with them, its last
+ * frame. A split screen has two. All drawing goes through what `render` uses: setup.h,
+ * present.h, device.h; so equal options give equal bits. */
 #ifndef SMEAR_TOOLS_VIEW_LANE_H
 #define SMEAR_TOOLS_VIEW_LANE_H
 

@@ -26,8 +26,8 @@ void orbit_move(struct orbit *orbit, double factor);
 void orbit_reset(struct orbit *orbit);
 bool orbit_is_turned(const struct orbit *orbit);
 
-/* How far away things are that the camera sees at `time`: the middle of the depths of the draws near
- * its line of sight. */
+/* How far away things are that the camera sees at `time`: the middle of the depths of the draws
+ * near its line of sight. */
 bool orbit_find_focus(struct orbit *orbit, double time, struct failure *f);
 
 #endif

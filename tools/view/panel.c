@@ -87,7 +87,7 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-struct panel_place panel_fit(const struct panel_look *look, int width, int height,
+struct panel_place panel_place_on(const struct panel_look *look, int width, int height,
                              const struct surface *s)
 {
     int w = look->turns & 1 ? height : width, h = look->turns & 1 ? width : height;

@@ -39,7 +39,7 @@ struct panel_place {
     int zoom;                   /* 0: shrunk */
 };
 
-struct panel_place panel_fit(const struct panel_look *look, int width, int height,
+struct panel_place panel_place_on(const struct panel_look *look, int width, int height,
                              const struct surface *s);
 
 /* Fills the whole surface: the picture (width x height codes) in its place, the rest dark. */

@@ -19,8 +19,9 @@ struct text {
 
 /* Printable ASCII keys are themselves; Enter is 13, Tab 9, Escape 27. */
 enum key {
-    KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_PAGE_UP, KEY_PAGE_DOWN, KEY_HOME, KEY_END,
-    KEY_ENTER = 13, KEY_TAB = 9, KEY_ESCAPE = 27
+    SCREEN_LEFT = 256, SCREEN_RIGHT, SCREEN_UP, SCREEN_DOWN, SCREEN_PAGE_UP, SCREEN_PAGE_DOWN,
+    SCREEN_HOME, SCREEN_END,
+    SCREEN_ENTER = 13, SCREEN_TAB = 9, SCREEN_ESCAPE = 27
 };
 
 enum event_kind {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* screen_drm.c - a display through the kernel's mode setting: the first connector that has something
- * plugged in, in the mode that it prefers, two buffers, flipped at the refresh. */
+/* screen_drm.c - a display through the kernel's mode setting: the first connector that has
+ * something plugged in, in the mode that it prefers, two buffers, flipped at the refresh. */
 #include "screen.h"
 
 #include "console.h"

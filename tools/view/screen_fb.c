@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* screen_fb.c - a Linux framebuffer device: $FRAMEBUFFER, or /dev/fb0. Where the device has room for
- * two pictures they are shown in turn. */
+/* screen_fb.c - a Linux framebuffer device: $FRAMEBUFFER, or /dev/fb0. Where the device has room
+ * for two pictures they are shown in turn. */
 #include "screen.h"
 
 #include "console.h"

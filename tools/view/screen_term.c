@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* screen_term.c - a terminal as a screen: two pixels in each cell, the upper half block in the colour
- * of the upper one on the colour of the lower one. Only cells that have changed are written. */
+/* screen_term.c - a terminal as a screen: two pixels in each cell, the upper half block in the
+ * colour of the upper one on the colour of the lower one. Only cells that have changed are
+ * written. */
 #define _DEFAULT_SOURCE                 /* SIGWINCH */
 #include "screen.h"
 

@@ -323,13 +323,13 @@ static int key_of_keysym(uint32_t keysym)
         uint32_t keysym;
         int key;
     } named[] = {
-        { 0xff51, KEY_LEFT },      { 0xff52, KEY_UP },        { 0xff53, KEY_RIGHT },
-        { 0xff54, KEY_DOWN },      { 0xff55, KEY_PAGE_UP },   { 0xff56, KEY_PAGE_DOWN },
-        { 0xff50, KEY_HOME },      { 0xff57, KEY_END },       { 0xff0d, KEY_ENTER },
-        { 0xff8d, KEY_ENTER },     { 0xff09, KEY_TAB },       { 0xff1b, KEY_ESCAPE },
-        { 0xff96, KEY_LEFT },      { 0xff97, KEY_UP },        { 0xff98, KEY_RIGHT },
-        { 0xff99, KEY_DOWN },      { 0xff9a, KEY_PAGE_UP },   { 0xff9b, KEY_PAGE_DOWN },
-        { 0xff95, KEY_HOME },      { 0xff9c, KEY_END },
+        { 0xff51, SCREEN_LEFT },      { 0xff52, SCREEN_UP },        { 0xff53, SCREEN_RIGHT },
+        { 0xff54, SCREEN_DOWN },      { 0xff55, SCREEN_PAGE_UP },   { 0xff56, SCREEN_PAGE_DOWN },
+        { 0xff50, SCREEN_HOME },      { 0xff57, SCREEN_END },       { 0xff0d, SCREEN_ENTER },
+        { 0xff8d, SCREEN_ENTER },     { 0xff09, SCREEN_TAB },       { 0xff1b, SCREEN_ESCAPE },
+        { 0xff96, SCREEN_LEFT },      { 0xff97, SCREEN_UP },        { 0xff98, SCREEN_RIGHT },
+        { 0xff99, SCREEN_DOWN },      { 0xff9a, SCREEN_PAGE_UP },   { 0xff9b, SCREEN_PAGE_DOWN },
+        { 0xff95, SCREEN_HOME },      { 0xff9c, SCREEN_END },
     };
     for (size_t i = 0; i < sizeof named / sizeof *named; i++)
         if (named[i].keysym == keysym)

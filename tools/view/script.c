@@ -18,10 +18,10 @@ static const struct {
     const char *name;
     int key;
 } named[] = {
-    { "left", KEY_LEFT },         { "right", KEY_RIGHT },         { "up", KEY_UP },
-    { "down", KEY_DOWN },         { "pageup", KEY_PAGE_UP },      { "pagedown", KEY_PAGE_DOWN },
-    { "home", KEY_HOME },         { "end", KEY_END },             { "enter", KEY_ENTER },
-    { "tab", KEY_TAB },           { "escape", KEY_ESCAPE },       { "space", ' ' },
+    { "left", SCREEN_LEFT },         { "right", SCREEN_RIGHT },         { "up", SCREEN_UP },
+    { "down", SCREEN_DOWN },         { "pageup", SCREEN_PAGE_UP },      { "pagedown", SCREEN_PAGE_DOWN },
+    { "home", SCREEN_HOME },         { "end", SCREEN_END },             { "enter", SCREEN_ENTER },
+    { "tab", SCREEN_TAB },           { "escape", SCREEN_ESCAPE },       { "space", ' ' },
 };
 enum { NAMED = sizeof named / sizeof *named };
 

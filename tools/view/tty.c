@@ -108,12 +108,12 @@ static bool is_final(unsigned char c)
 static int key_of_letter(unsigned char letter)
 {
     switch (letter) {
-    case 'A': return KEY_UP;
-    case 'B': return KEY_DOWN;
-    case 'C': return KEY_RIGHT;
-    case 'D': return KEY_LEFT;
-    case 'H': return KEY_HOME;
-    case 'F': return KEY_END;
+    case 'A': return SCREEN_UP;
+    case 'B': return SCREEN_DOWN;
+    case 'C': return SCREEN_RIGHT;
+    case 'D': return SCREEN_LEFT;
+    case 'H': return SCREEN_HOME;
+    case 'F': return SCREEN_END;
     default: return 0;
     }
 }
@@ -121,10 +121,10 @@ static int key_of_letter(unsigned char letter)
 static int key_of_number(int number)
 {
     switch (number) {
-    case 1: case 7: return KEY_HOME;
-    case 4: case 8: return KEY_END;
-    case 5: return KEY_PAGE_UP;
-    case 6: return KEY_PAGE_DOWN;
+    case 1: case 7: return SCREEN_HOME;
+    case 4: case 8: return SCREEN_END;
+    case 5: return SCREEN_PAGE_UP;
+    case 6: return SCREEN_PAGE_DOWN;
     default: return 0;
     }
 }
@@ -183,15 +183,15 @@ int tty_decode(const unsigned char *bytes, int count, bool is_last, struct event
     if (count == 0)
         return 0;
     unsigned char c = bytes[0];
-    if (c == KEY_ESCAPE && count == 1) {
-        make_key(out, KEY_ESCAPE);
+    if (c == SCREEN_ESCAPE && count == 1) {
+        make_key(out, SCREEN_ESCAPE);
         return is_last ? 1 : 0;
     }
-    if (c == KEY_ESCAPE && bytes[1] == '[') {
+    if (c == SCREEN_ESCAPE && bytes[1] == '[') {
         int taken = decode_sequence(bytes, count, out);
         return taken == 0 && is_last ? count : taken;
     }
-    if (c == KEY_ESCAPE && bytes[1] == 'O') {
+    if (c == SCREEN_ESCAPE && bytes[1] == 'O') {
         if (count < 3)
             return is_last ? count : 0;
         make_key(out, key_of_letter(bytes[2]));
@@ -200,7 +200,7 @@ int tty_decode(const unsigned char *bytes, int count, bool is_last, struct event
     if (c == CTRL_C || c == CTRL_BACKSLASH)
         out->kind = EVENT_CLOSE;
     else if (c == '\n')
-        make_key(out, KEY_ENTER);
+        make_key(out, SCREEN_ENTER);
     else if (c < 127)
         make_key(out, c);
     return 1;

@@ -19,12 +19,12 @@ void tty_close(void);
 /* The terminal's file; -1: there is none. */
 int tty_file(void);
 
-/* The next event within wait_ms (-1: for ever). `suspend` is called for Ctrl-Z; null: it is ignored.
- * Ctrl-C and Ctrl-backslash are EVENT_CLOSE; the end of the terminal is EVENT_LOST. */
+/* The next event within wait_ms (-1: for ever). `suspend` is called for Ctrl-Z; null: it is
+ * ignored. Ctrl-C and Ctrl-backslash are EVENT_CLOSE; the end of the terminal is EVENT_LOST. */
 bool tty_event(int wait_ms, void (*suspend)(void), struct event *out);
 
-/* The next event in bytes from a terminal: how many bytes it took, 0 when more may follow. The event's
- * kind is EVENT_EXPOSE when the bytes mean nothing. `is_last`: nothing follows soon. */
+/* The next event in bytes from a terminal: how many bytes it took, 0 when more may follow. The
+ * event's kind is EVENT_EXPOSE when the bytes mean nothing. `is_last`: nothing follows soon. */
 int tty_decode(const unsigned char *bytes, int count, bool is_last, struct event *out);
 
 /* Writes it all; false when nobody reads any more. */

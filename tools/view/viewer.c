@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* viewer.c - the loop of `smear view`: input, time, a frame, the screen. Start reading at loop(). */
+/* viewer.c - the loop of `smear view`: input, time, a frame, the screen. Start reading at
+ * loop(). */
 #include "view.h"
 
 #include "clock.h"
@@ -336,7 +337,7 @@ static bool show(struct view *v)
     if (!v->screen->kind->surface(v->screen, &s, &f))
         return give_up(v, v->screen->kind->name, &f);
     double start = clock_us();
-    v->place = panel_fit(&v->look, v->width, v->height, &s);
+    v->place = panel_place_on(&v->look, v->width, v->height, &s);
     compose(v, &s, &text);
     double composed = clock_us();
     if (!v->screen->kind->show(v->screen, &text, &f))

@@ -40,18 +40,19 @@ uint32_t x11_new_id(struct x11 *x);
 void x11_send(struct x11 *x, const void *head, size_t head_size, const void *body,
               size_t body_size);
 
-/* The reply to the request sent last; *body (malloc'ed, for the caller to free) is what follows its 32
- * bytes, and `body` may be null. False when it was refused or the server is lost. */
+/* The reply to the request sent last; *body (malloc'ed, for the caller to free) is what follows
+ * its 32 bytes, and `body` may be null. False when it was refused or the server is lost. */
 bool x11_reply(struct x11 *x, uint8_t reply[X11_PACKET], uint8_t **body, size_t *body_size);
 
-/* Waits until the server has taken all requests; false when the one sent last before was refused. */
+/* Waits until the server has taken all requests; false when the one sent last before was
+ * refused. */
 bool x11_check(struct x11 *x);
 
 /* The next event within wait_ms (-1: for ever); false when none has come, or the server is lost. */
 bool x11_event(struct x11 *x, int wait_ms, uint8_t event[X11_PACKET]);
 
-/* Waits for an event of this kind, keeping all others; false when the request sent last was refused,
- * the server is lost, or the program is asked to end. */
+/* Waits for an event of this kind, keeping all others; false when the request sent last was
+ * refused, the server is lost, or the program is asked to end. */
 bool x11_wait(struct x11 *x, uint8_t kind);
 
 uint32_t x11_atom(struct x11 *x, const char *name);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* semihost.c - semihosting calls by BKPT 0xAB: the operation in r0, its argument or a block of them
- * in r1, the result in r0. "Semihosting for AArch32 and AArch64", Arm, release 2.0. */
+/* semihost.c - semihosting calls: the operation in the first register, its argument or a block of them
+ * in the second, the result in the first. "Semihosting for AArch32 and AArch64", Arm, release 2.0;
+ * "RISC-V Semihosting", RISC-V International. */
 #include "semihost.h"
 
 enum {
@@ -15,6 +16,18 @@ enum {
 
 #define APPLICATION_EXIT 0x20026u
 
+#ifdef __riscv
+/* Three instructions of four bytes on one page. */
+static __attribute__((noinline)) uint32_t call(uint32_t operation, const void *argument)
+{
+    register uint32_t a0 __asm("a0") = operation;
+    register const void *a1 __asm("a1") = argument;
+    __asm volatile(".balign 16\n\t.option push\n\t.option norvc\n\t"
+                   "slli x0, x0, 0x1f\n\tebreak\n\tsrai x0, x0, 7\n\t.option pop"
+                   : "+r"(a0) : "r"(a1) : "memory");
+    return a0;
+}
+#else
 static uint32_t call(uint32_t operation, const void *argument)
 {
     register uint32_t r0 __asm("r0") = operation;
@@ -22,6 +35,7 @@ static uint32_t call(uint32_t operation, const void *argument)
     __asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
     return r0;
 }
+#endif
 
 static uint32_t length_of(const char *text)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* semihost.h - ARM semihosting on M-profile cores: a debugger or emulator does input and output. */
-#ifndef SMEAR_CORTEXM_SEMIHOST_H
-#define SMEAR_CORTEXM_SEMIHOST_H
+/* semihost.h - semihosting: a debugger or emulator does input and output. */
+#ifndef SMEAR_SEMIHOST_H
+#define SMEAR_SEMIHOST_H
 
 #include <stddef.h>
 #include <stdint.h>
