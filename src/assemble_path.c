@@ -53,7 +53,8 @@ static uint16_t code_above(int32_t depth)
 static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a, const struct smear_assembly *d,
                         const struct smear_screen *const corner[3])
 {
-    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, travel = 0, bend = 0;
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0, travel = 0,
+            bend = 0;
     for (int i = 0; i < 3; i++) {
         const struct smear_screen *p = corner[i];
         for (int key = 0; key < KEYS; key++) {
@@ -63,6 +64,9 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
             y1 = max_i32(y1, p[key].y);
             depth = max_i32(depth, p[key].depth);
         }
+        /* Halved; below zero the parabola may peak between its places, by at most an eighth of the whole. */
+        int32_t dip = p[MIDDLE].depth - (int32_t)(((uint32_t)p[OPEN].depth + (uint32_t)p[CLOSE].depth) >> 1);
+        overshoot = max_i32(overshoot, dip >> 2);
         int32_t dx = abs_i32(p[CLOSE].x - p[OPEN].x), dy = abs_i32(p[CLOSE].y - p[OPEN].y);
         travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
         bend = max_i32(bend, abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x));
@@ -77,7 +81,8 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         return false;
     *b = (struct smear_path_bounds){
         .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
-        .travel = sixteenths(travel), .bend = sixteenths(bend), .nearest = code_above(depth),
+        .travel = sixteenths(travel), .bend = sixteenths(bend),
+        .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
         .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
                             | (d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
     };

@@ -21,9 +21,9 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 80, 2, 6, 4, 8, 2, 768 },
-        { SMEAR_BALANCED, 40, 3, 6, 11, 16, 4, 512 },
-        { 0, 12, 6, 8, 20, 32, 6, 256 }
+        { SMEAR_DRAFT, 64, 2, 2, 6, 8, 2, 768 },
+        { SMEAR_BALANCED, 16, 4, 0, 11, 16, 4, 512 },
+        { 0, 8, 6, 0, 20, 32, 6, 256 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -47,7 +47,8 @@ static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int
  * a pixel wrong. Over texels that is nothing new, and taps along the way of a texture are dear for every other method. */
 static bool wants_smooth(const struct smear_chooser *chooser, const struct smear_tile_load *load)
 {
-    return chooser->target >= SMEAR_DRAFT || (load->flags & PATH_TEXTURED) != 0;
+    return chooser->target >= SMEAR_DRAFT
+        || (chooser->target >= SMEAR_BALANCED && (load->flags & PATH_TEXTURED) != 0);
 }
 
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,

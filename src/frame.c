@@ -246,23 +246,13 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
 
 /* ------------------------------------------------------------------ raster */
 
-static void fill_words(uint32_t *p, uint32_t value, int32_t n)
-{
-    int32_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int32_t k = 0; k < 8; k++)
-            p[i + k] = value;
-    for (; i < n; i++)
-        p[i] = value;
-}
-
 static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t x0, int32_t x1)
 {
     struct smear_window *w = &c->window;
     uint32_t clear = c->frame.clear & 0xffffffu;
     for (int32_t y = y0; y < y1; y++) {
         int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
-        fill_words(w->color + at, clear, n);
+        pixels_fill(w->color + at, clear, n);
         __builtin_memset(w->depth + at, 0, (size_t)n * 2);
         if (w->velocity8 != NULL)
             __builtin_memset(w->velocity8 + 2 * at, 0, (size_t)n * 2);
@@ -645,7 +635,7 @@ static void prepare(struct smear_context *c)
         s->triangles_in += d->mesh->triangle_count;
     }
     c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
-                         && (textured || c->frame.target >= SMEAR_DRAFT);
+                         && c->frame.target >= (textured ? SMEAR_BALANCED : SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)

@@ -24,20 +24,34 @@ struct smear_shutter {
  * segment->motion those at open and at close, in the same units: q8 px, q8 px, q11 depth units. */
 enum { PATH_X, PATH_Y, PATH_DEPTH, PATH_POSE_WORDS, PATH_WORDS = 2 * PATH_POSE_WORDS };
 
-/* middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2 with u = 2 time - 1. */
-static inline int32_t path_value(int32_t open, int32_t middle, int32_t close, int32_t time)
+/* A time as the parabola wants it: -1 at open, 1 at close, q30. */
+static inline int32_t path_phase(int32_t time)
 {
-    int32_t u = time - SHUTTER_CLOSE / 2;       /* q15 */
-    int64_t slope = (int64_t)close - open, bend = (int64_t)open + close - 2 * (int64_t)middle;
-    return middle + (int32_t)((slope + (bend * u >> 15)) * u >> 16);
+    return (time - SHUTTER_CLOSE / 2) * 32768;
+}
+
+/* A coordinate on its way: middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a floor would move
+ * all edges up and left by half a step. Places lie within the guard band, so differences have 21 bits; sums in q6. */
+static inline int32_t path_coordinate(int32_t open, int32_t middle, int32_t close, int32_t u)
+{
+    int32_t slope = close - open, bend = open + close - 2 * middle;
+    return middle + ((mulh_i32((slope * 64 + mulh_i32(bend * 256, u)) * 8, u) + 128) >> 8);
+}
+
+/* The same for a depth, q11 units below 2^30.1, good to 8 steps. */
+static inline int32_t path_depth(int32_t open, int32_t middle, int32_t close, int32_t u)
+{
+    int32_t bend = (int32_t)(((uint32_t)open + (uint32_t)close) >> 1) - middle;         /* halved */
+    return middle + mulh_i32((((close - open) >> 3) + mulh_i32(bend, u)) * 4, u) * 4;
 }
 
 /* The vertex at a time of the exposure: x, y, depth. */
 static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
 {
-    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;
-    for (int i = 0; i < 3; i++)
-        out[i] = path_value(open[i], record[i], close[i], time);
+    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS, u = path_phase(time);
+    out[PATH_X] = path_coordinate(open[PATH_X], record[VERTEX_X], close[PATH_X], u);
+    out[PATH_Y] = path_coordinate(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], u);
+    out[PATH_DEPTH] = path_depth(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], u);
 }
 
 /* Time within the part of the exposure for which a triangle's places hold (struct smear_path_bounds.piece); false at other

@@ -55,4 +55,15 @@ static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, b
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
+/* Sets n words. */
+static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
+{
+    int32_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int32_t k = 0; k < 8; k++)
+            p[i + k] = value;
+    for (; i < n; i++)
+        p[i] = value;
+}
+
 #endif

@@ -89,13 +89,6 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     write(s, p);
 }
 
-/* How many of n pixels come before the first one beyond the break of the depth code, which lies among them. */
-static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
-{
-    int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
-    return clamp_i32(before, 1, n - 1);
-}
-
 /* The code bends within the span: draws up to the first pixel beyond the break. Returns that pixel. */
 static SMEAR_NOINLINE int32_t draw_to_bend(const struct setup *s, struct span *p, const struct row *r,
                                            int32_t units, smear_span_fn *write)
@@ -251,6 +244,58 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
             edge_step(&d.right);
             row_next(&r, s);
         } while (r.y < stop);
+    }
+}
+
+/* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
+struct gather {
+    struct span_rows rows;
+    int32_t slot;               /* of the row that comes next */
+};
+
+static inline void gather_start(struct gather *g, const struct setup *s, int32_t y)
+{
+    const struct smear_raster_target *t = s->target;
+    g->slot = t->window_rows.slot0 + (y - t->y0);
+    if (g->slot >= t->window_rows.ring)
+        g->slot -= t->window_rows.ring;
+    g->rows.y = y;
+    g->rows.count = 0;
+}
+
+static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
+{
+    g->rows.at = (g->slot - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
+    draw(s, &g->rows);
+    g->rows.y += g->rows.count;
+    g->rows.count = 0;
+    if (g->slot == s->target->window_rows.ring)
+        g->slot = 0;
+}
+
+static void cover_rows(const struct setup *s, smear_rows_fn *draw)
+{
+    struct sides d;
+    struct gather g;
+    if (!sides_start(&d, s))
+        return;
+    gather_start(&g, s, d.y);
+    while (g.rows.y < d.end) {
+        int32_t stop = sides_part(&d, g.rows.y);
+        while (g.rows.y < stop) {
+            int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.slot);
+            for (int32_t i = 0; i < n; i++) {
+                int32_t edge = edge_pixel(&d.right);
+                g.rows.side[i].left = max_i32(edge_pixel(&d.left), 0);
+                g.rows.side[i].right = min_i32(edge, s->frame->width);
+                g.rows.side[i].edge = edge;
+                edge_step(&d.left);
+                edge_step(&d.right);
+            }
+            g.rows.count = n;
+            g.slot += n;
+            gather_draw(&g, s, draw);
+        }
     }
 }
 
@@ -490,6 +535,26 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 
 /* ------------------------------------------------------------------ a triangle */
 
+/* Without a texture and opaque: one colour throughout, which is then s->color. Faces of boxes have such vertices. */
+static bool is_flat(struct setup *s)
+{
+    const int at = s->segment->color;
+    if (s->segment->uv != 0 || s->draw->alpha != SMEAR_OPAQUE)
+        return false;
+    if (s->segment->shade != SHADE_GOURAUD)
+        return true;
+    if (s->v[0][at] != s->v[1][at] || s->v[0][at] != s->v[2][at]
+        || (((s->v[0][at + 1] ^ s->v[1][at + 1]) | (s->v[0][at + 1] ^ s->v[2][at + 1])) & 0xffff) != 0)
+        return false;
+    uint32_t code[3];
+    for (int c = 0; c < 3; c++) {
+        uint32_t value = (uint32_t)channel_value(s, 0, c);
+        code[c] = s->frame->linear ? smear_srgb_encode[value >> 12] : value >> 16;
+    }
+    s->color = pixel_make(0, code[0], code[1], code[2]);
+    return true;
+}
+
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
                                          const struct smear_segment *segment, uint32_t color,
@@ -532,17 +597,23 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     }
     smear_setup_area(&s, area);
     smear_setup_depth(&s);
-    if (s.segment->uv == 0 && s.segment->shade == SHADE_FLAT && !s.writes_velocity
-        && s.draw->alpha == SMEAR_OPAQUE && (width > SMALL_PX || height > SMALL_PX)) {
+    const bool flat = is_flat(&s);
+    if (flat && !s.writes_velocity && (width > SMALL_PX || height > SMALL_PX)) {
         cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
         return;
     }
-    smear_setup_color(&s);
+    if (!flat)
+        smear_setup_color(&s);
     if (s.segment->uv != 0)
         smear_setup_texture(&s);
     if (s.writes_velocity)
         smear_setup_velocity(&s);
-    smear_span_fn *write = smear_span_choose(&s);
+    smear_rows_fn *rows = smear_rows_choose(&s);
+    if (rows != NULL && (width > SMALL_PX || height > SMALL_PX)) {
+        cover_rows(&s, rows);
+        return;
+    }
+    smear_span_fn *write = flat ? smear_span_flat : smear_span_general;
     if (width <= SMALL_PX && height <= SMALL_PX)
         cover_small(&s, (int32_t)area, left, right, top, bottom, write);
     else

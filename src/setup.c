@@ -7,6 +7,25 @@
 
 /* ------------------------------------------------------------------ gradients */
 
+/* Products of 64 bits: where the core has none, from two of 32. */
+static inline int64_t product(int32_t a, int32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (int64_t)a * b;
+#else
+    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
+#endif
+}
+
+static inline uint64_t product_u32(uint32_t a, uint32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (uint64_t)a * b;
+#else
+    return (uint64_t)mulh_u32(a, b) << 32 | a * b;
+#endif
+}
+
 /* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1
  * and a2 along the two edges; to nearest, clamped. recip: 1 / area, or that times a mantissa. */
 static int32_t gradient(int64_t n, uint32_t recip, int shift)
@@ -29,8 +48,8 @@ static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int
     p->dx = p->dy = 0;
     if ((d1 | d2) == 0)
         return;
-    int32_t dx = gradient((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1, recip, s->area_zeros + shift);
-    int32_t dy = gradient((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2, recip, s->area_zeros + shift);
+    int32_t dx = gradient(product(d1, s->y2) - product(d2, s->y1), recip, s->area_zeros + shift);
+    int32_t dy = gradient(product(d2, s->x1) - product(d1, s->x2), recip, s->area_zeros + shift);
     if (dx <= steep && dx >= -steep && dy <= steep && dy >= -steep) {
         p->dx = dx;
         p->dy = dy;
@@ -137,7 +156,7 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
 {
     int zeros = count_leading_zeros(c);
     uint32_t over = mulh_u32(a, recip_norm(c << zeros));        /* a / c 2^(29 - zeros) */
-    uint64_t r = (uint64_t)over * b;
+    uint64_t r = product_u32(over, b);
     int shift = 29 - zeros;
     r = shift >= 0 ? r >> shift : r << -shift;
     return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
@@ -314,17 +333,21 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     int down = max_i32(0, bits + bits_q - 30);              /* what brings c q into 31 bits */
     int32_t a[3], b[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = (int32_t)((int64_t)cu[i] * q[i] >> down);
-        b[i] = (int32_t)((int64_t)cv[i] * q[i] >> down);
+        a[i] = (int32_t)(product(cu[i], q[i]) >> down);
+        b[i] = (int32_t)(product(cv[i], q[i]) >> down);
     }
     int to_units = 45 - zeros - fine - down;                /* times recip_u, then right: U with 16 more bits */
     uint32_t slope_recip = mulh_u32(s->area_recip << 1, recip_u << 1);
     plane_slopes(s, &t->u, a[1] - a[0], a[2] - a[0], slope_recip, 30 - to_units, INT32_MAX - 1);
     plane_slopes(s, &t->v, b[1] - b[0], b[2] - b[0], slope_recip, 30 - to_units, INT32_MAX - 1);
     plane_slopes(s, &t->q, q[0] - q[1], q[0] - q[2], mulh_u32(s->area_recip << 1, r << 1), zeros + 1, INT32_MAX - 1);
-    plane_place(s, &t->u, (int32_t)((int64_t)a[0] * (int32_t)recip_u >> to_units));
-    plane_place(s, &t->v, (int32_t)((int64_t)b[0] * (int32_t)recip_u >> to_units));
-    plane_place(s, &t->q, (int32_t)(0x80000000u - (uint32_t)((uint64_t)(uint32_t)q[0] * r >> (29 - zeros))));
+    plane_place(s, &t->u, (int32_t)(product(a[0], (int32_t)recip_u) >> to_units));
+    plane_place(s, &t->v, (int32_t)(product(b[0], (int32_t)recip_u) >> to_units));
+    plane_place(s, &t->q, (int32_t)(0x80000000u - (uint32_t)(product_u32((uint32_t)q[0], r) >> (29 - zeros))));
+    for (int i = 0; i < 3; i++) {           /* their upper halves are read: to nearest */
+        struct plane *p = i == 0 ? &t->u : i == 1 ? &t->v : &t->q;
+        p->at = add_wrap(p->at, 0x8000);
+    }
     if (t->turns) {
         t->u_base = shl_wrap(middle_u, 15 + fine);
         t->v_base = shl_wrap(middle_v, 15 + fine);
@@ -338,7 +361,7 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     uint32_t rate = max_u32(magnitude_i32(t->u.dx), magnitude_i32(t->v.dx)) + (change >> 2 >> (14 - bits - fine));
     off = (uint64_t)mulh_u32(change, rate) * texels >> (4 + fine + m->uv_shift);
     off += off * (3 * e) >> 16;
-    t->slope = clamp_i32((int32_t)((int64_t)-t->q.dx * (int32_t)(k >> 14) >> 30), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX);
+    t->slope = clamp_i32((int32_t)(product(-t->q.dx, (int32_t)(k >> 14)) >> 30), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX);
     choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen->width,
                   min_u32(change >> 16, 0xffffu) + (change >> 18));
     return true;

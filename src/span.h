@@ -19,8 +19,40 @@ struct span {
 /* Writes colour and depth where the span passes the depth test (and cutout, blend). */
 typedef void smear_span_fn(const struct setup *s, const struct span *p);
 
-/* The loop for a triangle: the plainest that does it. */
-smear_span_fn *smear_span_choose(const struct setup *s);
+/* One colour, opaque; and everything. */
+smear_span_fn smear_span_flat, smear_span_general;
+
+/* Plain texels in rows of their own: three to four times as fast as in blocks, of the same bits, and 2.5 kB larger. */
+#ifndef SMEAR_SPAN_ROWS
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_SPAN_ROWS 0
+#else
+#define SMEAR_SPAN_ROWS 1
+#endif
+#endif
+
+/* Whole spans of rows one below the other, from row y on. */
+enum { SPAN_ROWS = 16 };
+
+struct span_rows {
+    int32_t y, count;
+    int32_t at;                 /* index of column 0 of the first row in the planes: colour and depth lie alike */
+    struct {
+        int32_t left, right;    /* as the frame shows them; there may be none */
+        int32_t edge;           /* right, wherever that is */
+    } side[SPAN_ROWS];
+};
+
+/* Draws rows at once, velocities included. Null where there is no such loop for a triangle. */
+typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
+smear_rows_fn *smear_rows_choose(const struct setup *s);
+
+/* How many of n pixels come before the first one beyond the break of the depth code, which lies among them. */
+static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
+{
+    int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
+    return clamp_i32(before, 1, n - 1);
+}
 
 /* Writes velocities where the span will pass the depth test; comes before the colours, which write depth. With a mask it
  * comes after them and goes by the mask. */

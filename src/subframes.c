@@ -145,21 +145,13 @@ static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
     return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
-/* As path_value, to nearest: a floor would move all edges up and left by half a step. Coordinates lie within the guard
- * band, so products fit 32 x 32 bits. `u` is q30, -1 at shutter open and 1 at close. */
-static inline int32_t coordinate_at(int32_t open, int32_t middle, int32_t close, int32_t u)
-{
-    int32_t slope = close - open, bend = open + close - 2 * middle;
-    return middle + ((mulh_i32((slope + mulh_i32(bend * 4, u)) * 4, u) + 1) >> 1);
-}
-
 /* Coordinate VERTEX_X or VERTEX_Y of all three. Between places within the guard band a parabola may leave it. */
 static inline struct range place(struct posed *p, int axis, int32_t u, int32_t middle)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
     const int open = p->segment->motion + axis;
     for (int i = 0; i < 3; i++)
-        p->record[i][axis] = coordinate_at(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS], u);
+        p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS], u);
     struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
     if (r.low < middle - guard || r.high > middle + guard)
         for (int i = 0; i < 3; i++)
@@ -180,7 +172,7 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
         return false;
     for (int i = 0; i < 3; i++)
         p->v[i] = geometry_vertex(frame->geometry, s, t->vertex[i]);
-    const int32_t u = (time - SHUTTER_CLOSE / 2) * 32768;
+    const int32_t u = path_phase(time);
     struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
                              : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
     x = pixels_of(x, tile->x0, tile->x1);
@@ -200,7 +192,7 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
         return false;
     for (int i = 0; i < 3; i++) {
         const int32_t *v = p->v[i], *open = v + s->motion, *close = open + PATH_POSE_WORDS;
-        int32_t depth = path_value(open[PATH_DEPTH], v[VERTEX_DEPTH], close[PATH_DEPTH], time);
+        int32_t depth = path_depth(open[PATH_DEPTH], v[VERTEX_DEPTH], close[PATH_DEPTH], u);
         p->record[i][VERTEX_DEPTH] = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
         for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
             p->record[i][k] = v[k];

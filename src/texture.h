@@ -42,6 +42,11 @@ static inline uint64_t packed_step(uint32_t du, uint32_t dv)
     return ((uint64_t)du << 32) + (uint64_t)(int64_t)(int32_t)dv;
 }
 
+/* Turns of u have 24 bits; what v carries and borrows stays in the others, so that within a block of 17 pixels it makes
+ * no difference whether u and v are stepped together or each alone. */
+static inline uint32_t turns_start(uint32_t u) { return (u & ~255u) | 128u; }
+static inline uint32_t turns_step(uint32_t du) { return du & ~255u; }
+
 /* With turns: the texel at (u, v). */
 static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, uint32_t v)
 {

@@ -9,6 +9,8 @@
  * Smooth tiles take pixels from their neighbours, so a row is finished when the one below it has been drawn. */
 #include "timed.h"
 
+#include "pixel.h"
+
 /* ------------------------------------------------------------------ lists */
 
 static struct smear_row_movers *movers_of(struct smear_context *c, int row)
@@ -110,9 +112,7 @@ static void clear(const struct smear_raster_target *t, uint32_t color)
         int32_t slot = t->window_rows.slot0 + (y - t->y0);
         if (slot >= t->window_rows.ring)
             slot -= t->window_rows.ring;
-        uint32_t *p = t->color + slot * t->window_rows.stride + t->x0;
-        for (int32_t i = 0; i < n; i++)
-            p[i] = color;
+        pixels_fill(t->color + slot * t->window_rows.stride + t->x0, color, n);
         __builtin_memset(t->depth + slot * t->window_rows.stride + t->x0, 0, (size_t)n * 2);
     }
 }

@@ -130,7 +130,7 @@ static struct smear_path_bounds bounds_of(const struct corners *c)
     for (int32_t time = 0; time <= SHUTTER_CLOSE; time += 64)
         for (int k = 0; k < 3; k++)
             for (int j = 0; j < 2; j++) {
-                int32_t at = path_value(c->at[0][k][j], c->at[1][k][j], c->at[2][k][j], time);
+                int32_t at = path_coordinate(c->at[0][k][j], c->at[1][k][j], c->at[2][k][j], path_phase(time));
                 low[j] = at < low[j] ? at : low[j];
                 high[j] = at > high[j] ? at : high[j];
             }
@@ -216,15 +216,10 @@ static void pose_triangle(uint32_t i, int32_t time)
     }
     for (int k = 0; k < 3; k++) {
         const int32_t *v = (const int32_t *)pool + from->vertex[k];
-        for (int j = 0; j < 3; j++) {
-            if (s->path) {
-                int64_t u = 2 * (int64_t)time - SHUTTER_CLOSE, o = v[s->motion + j], c = v[s->motion + 3 + j];
-                int64_t way = (c - o + ((o + c - 2 * (int64_t)v[j]) * u >> 16)) * u;
-                place[k][j] = v[j] + (int32_t)((j < 2 ? way + 65536 : way) >> 17);      /* pixels to nearest */
-            } else {
-                place[k][j] = v[j];
-            }
-        }
+        if (s->path)
+            path_at(place[k], v, s, time);
+        for (int j = 0; j < 3 && !s->path; j++)
+            place[k][j] = v[j];
         const int32_t guard = SMEAR_GUARD_PX << 8;
         place[k][0] = clamp_i32(place[k][0], W * 128 - guard, W * 128 + guard);
         place[k][1] = clamp_i32(place[k][1], H * 128 - guard, H * 128 + guard);

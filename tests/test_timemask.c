@@ -940,7 +940,7 @@ static void test_a_shutter_that_is_not_a_box_weighs_time(void)
         }
         struct motion m = { between(-4000, 4000), between(-4000, 4000), 0, 0 };
         add_mesh(FLAT, between(1, 4), 1500, W * 128, H * 128, depth_middle, 0, &m, 0xffe0c0u);
-        if (!check_against_truth(32, 16, 3, 3000))
+        if (!check_against_truth(32, 16, 3, 4000))
             return;
     }
 }

@@ -81,7 +81,7 @@ struct chart_value {
     double rmse, flip, ssim;    /* against the truth rounded to 8 bits, as `smear compare` says */
     double rmse_mean;           /* against the truth as it is */
     double flicker;             /* likewise, codes */
-    double ms;                  /* wall clock; 0: not measured */
+    double ms, cpu_ms;          /* on the wall, and of the processor; 0: not measured */
     uint32_t crc;               /* of the picture */
     double arena;               /* bytes of the context */
 };
@@ -115,8 +115,8 @@ bool chart_measure(struct chart *chart, const struct chart_choice *choice,
 
 /* ------------------------------------------------------------------ files */
 
-/* `program` is a number that stands for the program that measured. Reading skips lines of other
- * programs unless it is null; a file that is not there is empty. */
+/* `program` is a number that stands for the program that measured. With it, reading skips lines of
+ * other programs and what it does not understand, and a file that is not there is empty. */
 bool chart_write_csv(const struct chart *chart, const struct chart_choice *choice,
                      uint32_t program, const char *path, struct failure *f);
 bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *path,
@@ -131,7 +131,7 @@ struct chart_mean {
     bool known;                 /* on every scene of the set */
     int scenes;
     double cost, rmse, rmse_mean, flip, ssim, flicker;
-    double time;                /* relative to `none`; 0: not measured */
+    double time, cpu;           /* relative to `none`; 0: not measured */
     double worst;               /* rmse */
     int worst_kind;
 };
@@ -143,6 +143,7 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
 /* Relative to `none`; 0 when either is not known. */
 double chart_cost(const struct chart *chart, int condition, int kind, int setting);
 double chart_time(const struct chart *chart, int condition, int kind, int setting);
+double chart_cpu(const struct chart *chart, int condition, int kind, int setting);
 
 /* A point of a plane of cost and error; `setting` is its setting. */
 struct chart_point {
@@ -164,6 +165,8 @@ struct chart_verdict {
 };
 
 void chart_print_means(FILE *out, const struct chart *chart, int condition);
+/* Instructions per pixel of the sharp frame, on all scenes together. */
+void chart_print_none(FILE *out, const struct chart *chart, int condition);
 void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
 /* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
 void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,

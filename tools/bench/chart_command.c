@@ -205,10 +205,12 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
     for (int k = 0; k < KINDS && o->few_scenes; k++)
         if (o->choice.kind[k])
             chart_print_scene(stdout, chart, CHART_MAIN, k);
-    if (!o->few_scenes) {
-        chart_print_means(stdout, chart, CHART_MAIN);
-        printf("\n");
-    }
+    for (int c = 0; c < CHART_CONDITIONS && !o->few_scenes; c++)
+        if (o->choice.condition[c]) {
+            chart_print_means(stdout, chart, c);
+            chart_print_none(stdout, chart, c);
+            printf("\n");
+        }
     chart_print_bars(stdout, chart, !o->is_part, 10, verdict);
     printf("\n%d bars met, %d missed, %d not measured. Tables and pictures: %s\n", verdict->met,
            verdict->missed, verdict->unknown, o->out);

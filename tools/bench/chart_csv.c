@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_FILE = 1 << 24, COLUMNS = 19, MAX_LINE = 512 };
+enum { MAX_FILE = 1 << 24, COLUMNS = 21, MAX_LINE = 512 };
 
 static const char header[] =
     "light,poses,scene,group,setting,pixels,instructions,per_pixel,cost,rmse,rmse_mean,flip,ssim,"
-    "flicker,ms,time,crc32,arena_bytes,program\n";
+    "flicker,ms,time,cpu_ms,cpu,crc32,arena_bytes,program\n";
 
 static int format_line(char *out, size_t room, const struct chart *chart, int c, int k, int s,
                        uint32_t program)
@@ -20,12 +20,13 @@ static int format_line(char *out, size_t room, const struct chart *chart, int c,
     const struct chart_value *v = &chart->value[c][k][s];
     return snprintf(out, room,
                     "%s,%s,%s,%s,%s,%.0f,%.0f,%.2f,%.4f,%.4f,%.4f,%.5f,%.5f,%.4f,%.4f,%.4f,"
-                    "%08" PRIx32 ",%.0f,%08" PRIx32 "\n",
+                    "%.4f,%.4f,%08" PRIx32 ",%.0f,%08" PRIx32 "\n",
                     chart_conditions[c].light, chart_conditions[c].poses, kinds[k].name,
                     kind_group_name[kinds[k].group], chart_settings[s].name, v->pixels,
                     v->instructions, v->instructions / v->pixels, chart_cost(chart, c, k, s),
                     v->rmse, v->rmse_mean, v->flip, v->ssim, v->flicker, v->ms,
-                    chart_time(chart, c, k, s), v->crc, v->arena, program);
+                    chart_time(chart, c, k, s), v->cpu_ms, chart_cpu(chart, c, k, s), v->crc,
+                    v->arena, program);
 }
 
 bool chart_write_csv(const struct chart *chart, const struct chart_choice *choice,
@@ -70,7 +71,7 @@ static bool read_line(struct chart *chart, char *line, const uint32_t *program)
         return false;
     int c = chart_find_condition(column[0], column[1]), k = kind_find(column[2]);
     int s = chart_find_setting(column[4]);
-    if (program != NULL && strtoul(column[18], NULL, 16) != *program)
+    if (program != NULL && strtoul(column[20], NULL, 16) != *program)
         return true;
     if (c < 0 || k < 0)
         return false;
@@ -80,7 +81,8 @@ static bool read_line(struct chart *chart, char *line, const uint32_t *program)
         .known = true, .pixels = atof(column[5]), .instructions = atof(column[6]),
         .rmse = atof(column[9]), .rmse_mean = atof(column[10]), .flip = atof(column[11]),
         .ssim = atof(column[12]), .flicker = atof(column[13]), .ms = atof(column[14]),
-        .crc = (uint32_t)strtoul(column[16], NULL, 16), .arena = atof(column[17])
+        .cpu_ms = atof(column[16]),
+        .crc = (uint32_t)strtoul(column[18], NULL, 16), .arena = atof(column[19])
     };
     return true;
 }
@@ -104,7 +106,7 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
         char *end = strchr(line, '\n'), *next = end != NULL ? end + 1 : line + strlen(line);
         if (end != NULL)
             *end = '\0';
-        if (number > 1 && !read_line(chart, line, program))
+        if (number > 1 && !read_line(chart, line, program) && program == NULL)
             ok = fail(f, "not a line of a chart (line %d)", number);
         line = next;
     }

@@ -30,6 +30,12 @@ double chart_time(const struct chart *chart, int condition, int kind, int settin
     return value[chart_none].ms > 0.0 ? value[setting].ms / value[chart_none].ms : 0.0;
 }
 
+double chart_cpu(const struct chart *chart, int condition, int kind, int setting)
+{
+    const struct chart_value *value = chart->value[condition][kind];
+    return value[chart_none].cpu_ms > 0.0 ? value[setting].cpu_ms / value[chart_none].cpu_ms : 0.0;
+}
+
 static double least(double error)
 {
     return error > least_error ? error : least_error;
@@ -39,7 +45,8 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
                                 int setting)
 {
     struct chart_mean mean = { .known = true };
-    double cost[KINDS], rmse[KINDS], rmse_mean[KINDS], flip[KINDS], flicker[KINDS], time[KINDS];
+    double cost[KINDS], rmse[KINDS], rmse_mean[KINDS], flip[KINDS], flicker[KINDS];
+    double time[KINDS], cpu[KINDS];
     bool timed = true;
     int n = 0;
     for (int k = 0; k < KINDS; k++) {
@@ -54,7 +61,8 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
         flip[n] = least(100.0 * v->flip) / 100.0;
         flicker[n] = least(v->flicker);
         time[n] = chart_time(chart, condition, k, setting);
-        timed = timed && time[n] > 0.0;
+        cpu[n] = chart_cpu(chart, condition, k, setting);
+        timed = timed && time[n] > 0.0 && cpu[n] > 0.0;
         mean.ssim += v->ssim;
         if (v->rmse >= mean.worst) {
             mean.worst = v->rmse;
@@ -69,6 +77,7 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
     mean.flip = geometric_mean(flip, n);
     mean.flicker = geometric_mean(flicker, n);
     mean.time = timed ? geometric_mean(time, n) : 0.0;
+    mean.cpu = timed ? geometric_mean(cpu, n) : 0.0;
     mean.ssim /= n;
     return mean;
 }

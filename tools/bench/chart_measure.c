@@ -166,7 +166,7 @@ static bool measure(struct run *run, const struct job *job, struct failure *f)
 static bool take_times(struct run *run, const struct job *job, struct failure *f)
 {
     static struct rig rig[CHART_MAX_SETTINGS];
-    static double ms[CHART_MAX_SETTINGS][TIME_ROUNDS];
+    static double ms[CHART_MAX_SETTINGS][TIME_ROUNDS], cpu_ms[CHART_MAX_SETTINGS][TIME_ROUNDS];
     struct missing missing;
     int open = 0;
     bool ok = true;
@@ -185,13 +185,17 @@ static bool take_times(struct run *run, const struct job *job, struct failure *f
     }
     for (int round = 0; round < TIME_ROUNDS && ok; round++)
         for (int i = 0; i < open && ok; i++) {
-            double start = wall_seconds();
+            double start = wall_seconds(), cpu_start = process_seconds();
             ok = rig_draw(&rig[i], f);
+            cpu_ms[i][round] = 1e3 * (process_seconds() - cpu_start);
             ms[i][round] = 1e3 * (wall_seconds() - start);
         }
-    for (int i = 0; i < open && ok; i++)
-        run->chart->value[job->condition][job->kind][missing.setting[i]].ms =
-            median(ms[i], TIME_ROUNDS);
+    for (int i = 0; i < open && ok; i++) {
+        struct chart_value *out = &run->chart->value[job->condition][job->kind]
+                                                    [missing.setting[i]];
+        out->ms = median(ms[i], TIME_ROUNDS);
+        out->cpu_ms = median(cpu_ms[i], TIME_ROUNDS);
+    }
     for (int i = 0; i < open; i++)
         rig_close(&rig[i]);
     return ok;

@@ -44,7 +44,7 @@ static void include(double *low, double *high, double value)
     *high = fmax(*high, value);
 }
 
-void panel_fit(struct panel *panel, int panels)
+void chart_panel_fit(struct panel *panel, int panels)
 {
     double x[2] = { INFINITY, 0.0 }, y[2] = { INFINITY, 0.0 };
     for (int i = 0; i < panels; i++)
@@ -302,7 +302,7 @@ static bool draw_labels(struct svg *svg, const struct panel *p, struct failure *
     return true;
 }
 
-bool panel_draw(struct svg *svg, const struct panel *p, struct failure *f)
+bool chart_panel_draw(struct svg *svg, const struct panel *p, struct failure *f)
 {
     const struct box *b = &p->box;
     draw_frontier(svg, p, true);

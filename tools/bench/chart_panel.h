@@ -28,8 +28,8 @@ struct panel {
 };
 
 /* Gives some panels one scale, which shows all of their points. */
-void panel_fit(struct panel *panel, int panels);
+void chart_panel_fit(struct panel *panel, int panels);
 
-bool panel_draw(struct svg *svg, const struct panel *panel, struct failure *f);
+bool chart_panel_draw(struct svg *svg, const struct panel *panel, struct failure *f);
 
 #endif

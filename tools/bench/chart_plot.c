@@ -30,13 +30,13 @@ static bool draw_set(const struct chart *chart, enum chart_set set, const char *
     p.points = chart_points_of_set(chart, CHART_MAIN, set, p.point);
     if (p.points == 0)
         return true;
-    panel_fit(&p, 1);
+    chart_panel_fit(&p, 1);
     if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
         return false;
     svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
     svg_text(&svg, LEFT, 50, ANCHOR_START, (struct svg_font){ .size = 13.5, .color = PANEL_PALE },
              what);
-    bool ok = panel_draw(&svg, &p, f);
+    bool ok = chart_panel_draw(&svg, &p, f);
     svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis_font,
              cost_axis);
     svg_text_up(&svg, 20, TOP + p.box.height / 2.0, axis_font, error_axis);
@@ -65,12 +65,12 @@ static bool draw_both(const struct chart *chart, const char *path, struct failur
         if (panel[i].points == 0)
             return true;
     }
-    panel_fit(panel, 2);
+    chart_panel_fit(panel, 2);
     if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
         return false;
     svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
     for (int i = 0; i < 2; i++) {
-        ok = ok && panel_draw(&svg, &panel[i], f);
+        ok = ok && chart_panel_draw(&svg, &panel[i], f);
         svg_text(&svg, panel[i].box.x, TOP - 10, ANCHOR_START,
                  (struct svg_font){ .size = 14.5, .color = PANEL_INK, .bold = true },
                  half[i].what);
@@ -123,14 +123,14 @@ static bool draw_scenes(const struct chart *chart, const char *path, struct fail
     int rows = (n + COLUMNS - 1) / COLUMNS, height = TOP + rows * CELL_H + FOOT;
     if (n == 0)
         return true;
-    panel_fit(panel, n);
+    chart_panel_fit(panel, n);
     if (!svg_begin(&svg, WIDTH, height, title, f))
         return false;
     svg_text(&svg, 20, 28, ANCHOR_START, title_font, title);
     draw_legend(&svg, 20, WIDTH - 8, 54);
     bool ok = true;
     for (int i = 0; i < n; i++) {
-        ok = ok && panel_draw(&svg, &panel[i], f);
+        ok = ok && chart_panel_draw(&svg, &panel[i], f);
         svg_text(&svg, panel[i].box.x, panel[i].box.y - 5.0, ANCHOR_START,
                  (struct svg_font){ .size = 13.0, .color = PANEL_INK, .bold = true },
                  kinds[kind[i]].name);

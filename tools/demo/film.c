@@ -10,24 +10,16 @@ static struct present_options options_of(const struct scene *scene, enum film_lo
 {
     return (struct present_options){
         .fps = scene->fps, .shutter_degrees = 180, .exposure = SMEAR_CENTRED,
-        .shutter_poses = true, .method = look == FILM_SHARP ? SMEAR_NONE : SMEAR_RECONSTRUCT,
-        .samples = FILM_TAPS, .light = SMEAR_LIGHT_LINEAR, .clear = scene->clear,
-        .reconstruct = SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM,
+        .shutter_poses = true, .method = look == FILM_SHARP ? SMEAR_NONE : SMEAR_AUTO,
+        .light = SMEAR_LIGHT_LINEAR, .clear = scene->clear,
     };
-}
-
-/* A streak of a tenth of a small display's height is hardly one: there, the filter reaches
- * farther. */
-static int reach_of(int height)
-{
-    return height < 160 ? FILM_SMALL_REACH : 0;
 }
 
 bool film_open(struct film *film, struct scene *scene, int width, int height, smear_format format,
                struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .format = format,
-                                        .reach = reach_of(height), .threads = FILM_THREADS };
+                                        .sharp = true, .timed = true, .threads = FILM_THREADS };
     *film = (struct film){ .scene = scene };
     film->presenter = presenter_new(scene, f);
     return film->presenter != NULL && device_open(&film->device, &setup, f);

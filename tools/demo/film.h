@@ -15,14 +15,12 @@
 
 enum film_look {
     FILM_SHARP,                 /* the instant */
-    FILM_BLURRED,               /* the reconstruction filter */
+    FILM_BLURRED,               /* by SMEAR_AUTO */
     FILM_EXACT                  /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
 };
 
 enum {
     FILM_INSTANTS = 64,
-    FILM_TAPS = 32,             /* more than the filter takes for the reach of these displays */
-    FILM_SMALL_REACH = 8,       /* pixels */
     FILM_THREADS = 2
 };
 
