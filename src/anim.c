@@ -192,7 +192,9 @@ static void local_of(smear_transform *out, const smear_model *m, uint32_t index,
     }
     for (int i = 0; i < 10; i++)
         trs[i] = n->rest[i];
-    for (; c->channel != c->end && c->channel->path != SMEAR_PATH_WEIGHTS && c->channel->target == index; c->channel++) {
+    for (; c->channel != c->end && c->channel->target == index; c->channel++) {
+        if (c->channel->path == SMEAR_PATH_WEIGHTS)
+            break;
         static const uint8_t first[3] = { 0, 6, 3 };        /* of translation, rotation, scale */
         struct between b = find_in(m, c);
         for (uint32_t k = 0; k < c->channel->width; k++)

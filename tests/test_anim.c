@@ -173,7 +173,8 @@ static void test_an_empty_clip_and_rest_are_the_pose_at_rest(void)
 static void test_a_model_stands_where_it_is_placed(void)
 {
     /* a quarter turn about y, half as large, at (10, 20, 30) */
-    const smear_transform place = { { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0 }, { 10 << 16, 20 << 16, 30 << 16 } };
+    const smear_transform place = { { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0 },
+                                    { 10 << 16, 20 << 16, 30 << 16 } };
     const int32_t want[12] = { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0, 10 << 16, (20 << 16) + 32768, 29 << 16 };
     smear_actor *actor = make(&hand_model, 1);
     smear_draw draw;
@@ -305,7 +306,8 @@ static void test_one_joint_moves_a_vertex_rigidly(void)
 }
 
 /* (sum of weight x (row v / 2^10 + origin)) / 2^12, in 64 bits */
-static int32_t skinned(const struct smear_joint_matrix *joint, const uint8_t *at, uint32_t n, int row, const int16_t v[3])
+static int32_t skinned(const struct smear_joint_matrix *joint, const uint8_t *at, uint32_t n, int row,
+                       const int16_t v[3])
 {
     int64_t sum = 0;
     int32_t first = 256;
@@ -381,7 +383,9 @@ static void test_skinned_normals_turn_and_keep_their_length(void)
     CHECK_NEAR(out[4], 90, 1);
     CHECK_EQ(out[6] | out[7] | out[8], 0);
     /* half and half of two joints of one size: half way */
-    struct smear_joint_matrix same[2] = { joint[0], { { { 0, -16384, 0, 0 }, { 16384, 0, 0, 0 }, { 0, 0, 16384, 0 } } } };
+    struct smear_joint_matrix same[2] = {
+        joint[0], { { { 0, -16384, 0, 0 }, { 16384, 0, 0, 0 }, { 0, 0, 16384, 0 } } }
+    };
     const uint8_t half[3] = { 0, 1, 128 };
     influences = (struct smear_influences){ half, 2, 1 };
     smear_skin_normals(out, in, &influences, same);

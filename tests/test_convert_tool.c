@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_convert_tool.c - models as firmware data (tools/convert): every file at hand converts, what comes out is checked,
- * opened, compiled and played by the animation module (src/anim.c), and looks like the file itself. Needs files, so it
+/* test_convert_tool.c - models as firmware data (tools/convert): every file at hand converts, and what comes out is
+ * checked, opened, compiled and played by the animation module (src/anim.c), and looks like the file itself. Needs files, so it
  * runs on hosts only; test_anim.c plays the same data on every target. */
 #include "accuracy.h"
 
@@ -1020,7 +1020,8 @@ static void test_triangles_are_ordered_for_the_vertex_cache(void)
     if (CHECK(order_triangles(&mesh, false, pile, &f))) {
         for (int i = 0; i < n; i++)
             after[i] = mesh.index[i];
-        say("    vertices per triangle: %.3f, after %.3f\n", count_transforms(before, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE),
+        say("    vertices per triangle: %.3f, after %.3f\n",
+            count_transforms(before, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE),
             count_transforms(after, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE));
         CHECK(count_transforms(after, 2 * EDGE * EDGE) < 0.62 * 2 * EDGE * EDGE);
         for (int t = 0; t < 2 * EDGE * EDGE; t++) {     /* still the sheet, each triangle the same way round */

@@ -406,7 +406,8 @@ static void put_top(struct header_writer *w, const char *from)
         w->c->texture_count, m->node_count, m->clip_count,
         w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
     put(w, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
-           "#if SMEAR_MODEL_FORMAT != %d\n#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
+           "#if SMEAR_MODEL_FORMAT != %d\n"
+           "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
         w->upper, w->upper, SMEAR_MODEL_FORMAT);
     put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper, m->draw_count);
     put(w, "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32 ", %u, (poses))\n\n",

@@ -12,7 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Places of a model lie within this many of its units; the device has room for eight times as many, for what a joint takes there. */
+/* Places of a model lie within this many of its units; the device has room for eight times as many, for what its joints
+ * take there. */
 #define MODEL_UNITS 256.0
 
 /* Q16.16 ends at 32768. */
