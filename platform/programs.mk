@@ -65,6 +65,24 @@ $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+# ---------------------------------------------------------------------- template
+
+# platform/template with one core and with two, on a board of threads; and for a real core.
+TEMPLATE_SRC := platform/template/firmware.c tests/target_template.c tools/image/crc32.c
+
+$(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
+	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
+
+.PHONY: template-test
+template-test: $(BUILD)/template-1 $(BUILD)/template-2
+	timeout 120 $(BUILD)/template-1
+	timeout 120 $(BUILD)/template-2
+	! command -v arm-none-eabi-gcc >/dev/null || for cores in 1 2; do \
+	    arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c11 -Os -ffreestanding -Wall -Wextra \
+	        -Wconversion -Werror -Iinclude -DBOARD_CORES=$$cores -c -o $(BUILD)/template.o \
+	        platform/template/firmware.c || exit 1; \
+	done
+
 # ---------------------------------------------------------------------- demo
 
 DISPLAY_SRC ?= platform/host/display.c

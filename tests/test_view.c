@@ -453,7 +453,7 @@ static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
     CHECK(orbit_find_focus(&orbit, 0.4, &f) && orbit.focus > 1.0 && orbit.focus < 60.0);
     orbit_turn(&orbit, 0.3, 0.2);
     orbit_turn(&orbit, -0.3, -0.2);
-    orbit_reset(&orbit);
+    CHECK(orbit.focus > 0.0);
     CHECK(scene_pose(&scene, 0.4, &a, &f) && scene_pose(&orbit.scene, 0.4, &b, &f));
     CHECK(memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
     scene_instant_free(&scene, &a);

@@ -3,6 +3,8 @@
  * something plugged in, in the mode that it prefers, two buffers, flipped at the refresh. */
 #include "screen.h"
 
+#ifdef __linux__
+
 #include "console.h"
 #include "drm.h"
 
@@ -247,3 +249,16 @@ static struct screen *display_open(const struct screen_wish *wish, struct failur
 
 const struct screen_kind screen_drm = { "drm", display_open, display_surface, display_show,
                                         console_event, display_close };
+
+#else
+
+static struct screen *no_drm(const struct screen_wish *wish, struct failure *f)
+{
+    (void)wish;
+    fail(f, "there is none but on Linux");
+    return NULL;
+}
+
+const struct screen_kind screen_drm = { .name = "drm", .open = no_drm };
+
+#endif

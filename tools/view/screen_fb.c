@@ -3,6 +3,8 @@
  * for two pictures they are shown in turn. */
 #include "screen.h"
 
+#ifdef __linux__
+
 #include "console.h"
 
 #include <errno.h>
@@ -176,3 +178,16 @@ static struct screen *fb_open(const struct screen_wish *wish, struct failure *f)
 
 const struct screen_kind screen_fb = { "fb", fb_open, fb_surface, fb_show, console_event,
                                        fb_close };
+
+#else
+
+static struct screen *no_fb(const struct screen_wish *wish, struct failure *f)
+{
+    (void)wish;
+    fail(f, "there is none but on Linux");
+    return NULL;
+}
+
+const struct screen_kind screen_fb = { .name = "fb", .open = no_fb };
+
+#endif
