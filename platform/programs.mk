@@ -65,6 +65,24 @@ $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+# ---------------------------------------------------------------------- template
+
+# platform/template with one core and with two, on a board of threads; and for a real core.
+TEMPLATE_SRC := platform/template/firmware.c tests/target_template.c tools/image/crc32.c
+
+$(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
+	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
+
+.PHONY: template-test
+template-test: $(BUILD)/template-1 $(BUILD)/template-2
+	timeout 120 $(BUILD)/template-1
+	timeout 120 $(BUILD)/template-2
+	! command -v arm-none-eabi-gcc >/dev/null || for cores in 1 2; do \
+	    arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c11 -Os -ffreestanding -Wall -Wextra \
+	        -Wconversion -Werror -Iinclude -DBOARD_CORES=$$cores -c -o $(BUILD)/template.o \
+	        platform/template/firmware.c || exit 1; \
+	done
+
 # ---------------------------------------------------------------------- demo
 
 DISPLAY_SRC ?= platform/host/display.c
@@ -114,6 +132,32 @@ demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 
 ## what its frames cost on TARGET
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+
+# ---------------------------------------------------------------------- a model of one's own
+
+# What `smear convert FILE --name model -o build/model.h` wrote.
+MODEL ?= build/model.h
+
+MODEL_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/model.o
+
+$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="../$(MODEL)"'
+$(BUILD)/platform/model.o: $(MODEL)
+
+$(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
+
+.PHONY: model-firmware model-run model-cost
+## a converted model (MODEL=build/model.h) as firmware for TARGET
+model-firmware: $(BUILD)/model$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it
+model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(RUN) $< show
+
+## what its frames cost on TARGET
+model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)

@@ -112,7 +112,7 @@ static void choose_segments(struct job *j)
             bend = max_i32(bend, b->bend << 3);
         }
     }
-    bend >>= 2;                                 /* what edges that follow parabolas leave of it */
+    bend >>= 4;                                 /* what edges that follow parabolas leave of it, about */
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (bend >> (2 * log2) > j->settings->bend
@@ -126,9 +126,20 @@ static void choose_segments(struct job *j)
 
 /* ------------------------------------------------------------------ triangles */
 
+/* The triangle at a time: 0 .. SHUTTER_CLOSE. Most often it is asked for one of the places that are kept. */
 static void pose_at(struct timemask_pose *p, const struct job *j, const struct mover *m, int32_t time)
 {
     int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
+    if ((time & (SHUTTER_CLOSE / 2 - 1)) == 0) {
+        int at = time == SHUTTER_CLOSE / 2 ? 0 : m->segment->motion + (time != 0 ? PATH_POSE_WORDS : 0);
+        for (int i = 0; i < 3; i++) {
+            const int32_t *place = m->record[i] + at;
+            p->x[i] = place[PATH_X] - x;
+            p->y[i] = place[PATH_Y] - y;
+            p->depth[i] = place[PATH_DEPTH];
+        }
+        return;
+    }
     for (int i = 0; i < 3; i++) {
         int32_t place[3];
         path_at(place, m->record[i], m->segment, time);
@@ -160,55 +171,77 @@ static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, 
     return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
 
+/* Slots [0, i). */
+static const uint32_t below[33] = {
+    0, 0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff, 0x1ff, 0x3ff, 0x7ff, 0xfff, 0x1fff, 0x3fff, 0x7fff, 0xffff, 0x1ffff,
+    0x3ffff, 0x7ffff, 0xfffff, 0x1fffff, 0x3fffff, 0x7fffff, 0xffffff, 0x1ffffff, 0x3ffffff, 0x7ffffff, 0xfffffff,
+    0x1fffffff, 0x3fffffff, 0x7fffffff, 0xffffffff
+};
+
+/* How depth codes follow from units q4, below and from code 32768. */
+struct code_slope {
+    int32_t add, shift;
+    int32_t slope, size;        /* per slot, 1/16, as it is kept; its magnitude */
+    uint32_t kept;
+};
+
 /* What fragments of a triangle in a segment share. */
 struct painter {
-    struct job *j;
     const struct timemask_shade *shade;
-    uint32_t kept[2];           /* slopes of depth codes as they are kept, below and from code 32768 */
-    int32_t slope[2];
+    struct code_slope code[2];
     int32_t first;              /* slot */
     int32_t last_slot;          /* of the exposure, less 2 `first` */
     int32_t time_shift;         /* from twice a slot to time */
 };
 
 /* The fragments of a row of runs. */
-SMEAR_INLINE void paint_row(const struct painter *p, int32_t y, const uint32_t *run, int32_t n, const uint16_t *still,
-                            bool plain)
+SMEAR_INLINE uint32_t paint_row(struct timemask_slots *slots, const struct painter *p, int32_t y, const uint32_t *run,
+                                int32_t n, const uint16_t *still, bool plain, bool turns)
 {
+    /* Own copies: what is written might be anything. */
     const struct timemask_shade *s = p->shade;
-    struct timemask_slots *slots = &p->j->slots;
-    const struct timemask_here row = timemask_here(&s->depth, 0, y);
+    const struct timemask_timed depth = s->depth;
+    const struct timemask_here row = timemask_here(&depth, 0, y);
+    const int32_t low = s->depth_low, high = s->depth_high, first = p->first, last_slot = p->last_slot + 1;
+    const int32_t time_shift = p->time_shift;
+    const uint32_t flat = s->color;
+    struct timemask_slots own = *slots;
+    uint32_t fragments = 0, pixel = (uint32_t)(y * TIMEMASK_WIDTH);
     for (int32_t i = 0; i < n; i++) {
         int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
-        const struct timemask_here here = { add_wrap(row.at, mul_wrap(s->depth.dx, x)),
-                                            add_wrap(row.change, mul_wrap(s->depth.change_dx, x)) };
-        int32_t time = ((from + to) << p->time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
-        int32_t code = timemask_code(clamp_i32(timemask_value(&s->depth, &here, time), s->depth_low, s->depth_high));
-        int32_t high = code >> 15, slope = p->slope[high], reach = abs_i32(slope) * (to - from - 1) >> 5;
-        struct timemask_fragment f;
-        f.high = code + reach;
-        if (f.high <= still[x])
+        int32_t time = ((from + to) << time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
+        int32_t change = row.change;
+        if (turns)
+            change = add_wrap(change, add_wrap(mul_wrap(depth.change_dx, x), timemask_part(depth.curve, time)));
+        int32_t units = add_wrap(add_wrap(row.at, mul_wrap(depth.dx, x)), timemask_part(change, time));
+        units = clamp_i32(units, low, high);
+        const struct code_slope *c = &p->code[units >= 32768 << 4];
+        int32_t code = (units + c->add) >> c->shift, slope = c->slope, reach = c->size * (to - from - 1) >> 5;
+        int32_t behind = still[x];
+        if (code + reach <= behind)
             continue;
+        struct timemask_fragment f;
         f.low = max_i32(code - reach, 0);
-        f.mask = UINT32_MAX >> (32 - (to - from)) << (p->first + from);
-        if (f.low <= still[x]) {
-            f.mask = slots_before_still((code - still[x]) * 32 - slope * (to - from - 1), slope, p->first + from, to - from);
+        f.mask = below[first + to] ^ below[first + from];
+        if (code - reach <= behind) {
+            f.mask = slots_before_still((code - behind) * 32 - slope * (to - from - 1), slope, first + from, to - from);
             if (f.mask == 0)
                 continue;
         }
         /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
-        f.depth = code + (slope * (p->last_slot - (from + to - 1)) >> 5);
+        f.depth = code + (slope * (last_slot - (from + to)) >> 5);
         f.slope = slope;
-        f.color = p->kept[high];
+        f.color = c->kept;
         if ((uint32_t)f.depth > 65535u) {
             f.depth = code;
             f.slope = 0;
             f.color = 0;
         }
-        f.color |= plain ? s->color : smear_timemask_color(s, y, run[i]);
-        timemask_slots_add(slots, (uint32_t)(y * TIMEMASK_WIDTH + x), &f);
-        p->j->fragments++;
+        f.color |= plain ? flat : smear_timemask_color(s, y, run[i]);
+        timemask_slots_add(&own, pixel + (uint32_t)x, f, code + reach);
+        fragments++;
     }
+    return fragments;
 }
 
 /* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
@@ -221,21 +254,28 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     uint32_t run[TIMEMASK_RUNS];
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle, pose, slots_log2, j->settings->tap);
-    struct painter p = { .j = j, .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, m->record, pose, slots_log2,
+                         j->settings->tap);
+    struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
                          .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
     for (int i = 0; i < 2; i++) {
-        p.kept[i] = smear_timemask_slope(s.slope[i]) << 24;
-        p.slope[i] = timemask_slope_of(p.kept[i]);
+        struct code_slope *k = &p.code[i];
+        k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
+        k->shift = i == 0 ? 4 : 8;
+        k->kept = smear_timemask_slope(i == 0 ? s.slope : s.slope >> 4) << 24;
+        k->slope = timemask_slope_of(k->kept);
+        k->size = abs_i32(k->slope);
     }
-    const bool plain = !s.gouraud && s.sampler == NULL;
+    const bool plain = !s.gouraud && s.sampler == NULL, turns = (s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
-        if (plain)
-            paint_row(&p, y, run, n, depth, true);
+        if (!plain)
+            j->fragments += paint_row(&j->slots, &p, y, run, n, depth, false, true);
+        else if (turns)
+            j->fragments += paint_row(&j->slots, &p, y, run, n, depth, true, true);
         else
-            paint_row(&p, y, run, n, depth, false);
+            j->fragments += paint_row(&j->slots, &p, y, run, n, depth, true, false);
     }
 }
 

@@ -46,14 +46,13 @@ static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
 
 /* ------------------------------------------------------------------ edges */
 
-/* An edge function at one end of the segment, q8 px^2 rounded down: exact in its sign. */
-static struct timemask_plane edge_at(int32_t ax, int32_t ay, int32_t bx, int32_t by)
+/* An edge function at one time, q8 px^2 rounded down: exact in its sign. */
+SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i, int j)
 {
-    int32_t dx = bx - ax, dy = by - ay;
-    /* A centre on the edge counts for edges that go up and those that go right. */
-    int32_t bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
-    int64_t here = (int64_t)dy * ax - (int64_t)dx * ay + bias;
-    here >>= 8;
+    int32_t ax = p->x[i], ay = p->y[i], dx = p->x[j] - ax, dy = p->y[j] - ay;
+    /* A centre on the edge counts (0, else -1) for edges that go up and those that go right. */
+    int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
+    int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
     /* Steps are below 2^22: far beyond 2^26 the sign is the same all over the block. Differences of two still fit. */
     const int32_t most = (1 << 30) - (1 << 28);
     int32_t at = here > most ? most : here < -most ? -most : (int32_t)here;
@@ -72,16 +71,11 @@ static bool is_before(const struct timemask_pose *a, const struct timemask_pose 
     return b->x[i] < b->x[j];
 }
 
-static inline int32_t plane_low(const struct timemask_plane *p, const struct timemask_cover *c)
+/* Twice the value in the middle of the pixels that may be covered; more or less by `reach` at their corners. */
+SMEAR_INLINE int32_t plane_middle(const struct timemask_plane *p, const struct timemask_cover *c, int32_t *reach)
 {
-    return p->at + (p->dx < 0 ? p->dx * (c->x1 - 1) : p->dx * c->x0)
-                 + (p->dy < 0 ? p->dy * (c->y1 - 1) : p->dy * c->y0);
-}
-
-static inline int32_t plane_high(const struct timemask_plane *p, const struct timemask_cover *c)
-{
-    return p->at + (p->dx > 0 ? p->dx * (c->x1 - 1) : p->dx * c->x0)
-                 + (p->dy > 0 ? p->dy * (c->y1 - 1) : p->dy * c->y0);
+    *reach = abs_i32(p->dx) * (c->x1 - 1 - c->x0) + abs_i32(p->dy) * (c->y1 - 1 - c->y0);
+    return 2 * p->at + p->dx * (c->x0 + c->x1 - 1) + p->dy * (c->y0 + c->y1 - 1);
 }
 
 /* The other side of an edge: -e - 1, so that >= 0 is exactly what was < 0. */
@@ -186,16 +180,16 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
         i = j;
         j = keep;
     }
-    w.start = edge_at(a->x[i], a->y[i], a->x[j], a->y[j]);
-    w.end = edge_at(b->x[i], b->y[i], b->x[j], b->y[j]);
-    struct timemask_plane middle = edge_at(m->x[i], m->y[i], m->x[j], m->y[j]);
+    w.start = edge_at(a, i, j);
+    w.end = edge_at(b, i, j);
+    struct timemask_plane middle = edge_at(m, i, j);
     w.bow = bow_of(&w.start, &middle, &w.end);
     w.bows = plane_size(&w.bow);
-    int32_t low = min_i32(plane_low(&w.start, c), plane_low(&w.end, c));
-    int32_t high = max_i32(plane_high(&w.start, c), plane_high(&w.end, c));
-    if (low - (w.bows >> 1) >= 0)
+    int32_t reach_start, reach_end;
+    int32_t start = plane_middle(&w.start, c, &reach_start), end = plane_middle(&w.end, c, &reach_end);
+    if (min_i32(start - reach_start, end - reach_end) >= w.bows)
         return !w.reversed;     /* inside everywhere, or outside */
-    if (high + (w.bows >> 1) < 0)
+    if (max_i32(start + reach_start, end + reach_end) < -w.bows)
         return w.reversed;
 
     int32_t mx = w.start.dx + w.end.dx, my = w.start.dy + w.end.dy;
@@ -203,15 +197,19 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     w.d = w.start.at - w.end.at + ddx * MIDDLE_X + ddy * MIDDLE_Y;
     w.h = abs_i32(ddx) * MIDDLE_X + abs_i32(ddy) * MIDDLE_Y;
     w.length = (abs_i32(mx) + abs_i32(my)) >> 1;
-    if (abs_i32(w.d) + w.h + w.bows <= w.length >> 7) {     /* moves by less than 1/128 px */
-        struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
-        if (w.reversed)
-            p = other_side(&p);
+    int32_t moves = abs_i32(w.d) + w.h + w.bows;
+    if (moves > w.length >> 7 && crossing_add(c, &w, edge))
+        return true;
+    struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
+    if (w.reversed)
+        p = other_side(&p);
+    if (moves <= w.length >> 7) {       /* by less than 1/128 px */
         c->still[c->stills++] = p;
-        bound_add(c, &p);
-    } else if (!crossing_add(c, &w, edge)) {
+    } else {
         c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
+        p.at = add_wrap(p.at, (moves >> 1) + 1);
     }
+    bound_add(c, &p);
     return true;
 }
 
@@ -266,45 +264,53 @@ static inline uint32_t below(int32_t n)
     return n >= 32 ? UINT32_MAX : (1u << n) - 1u;
 }
 
-/* Slots in which start + (end - start) u + 2 bow u (1 - u) >= 0, one after the other. */
-static uint32_t mask_by_slots(int32_t start, int32_t end, int32_t bow, int32_t slots_log2)
+/* e(u) = start + (end - start) u + 2 bow u (1 - u), brought to 18 bits and times 4 n^2, which fits. */
+struct parabola {
+    int32_t start, end, bow;    /* 2 n start, 2 n end, 2 bow */
+    int32_t slots;
+};
+
+/* In the middle of a slot. */
+static inline int32_t parabola_at(const struct parabola *p, int32_t slot)
 {
-    /* Brought to 18 bits: times 4 n^2 and a sum of four it fits. */
-    uint32_t size = (uint32_t)abs_i32(start) | (uint32_t)abs_i32(end) | (uint32_t)abs_i32(bow) | 1u;
-    int shift = count_leading_zeros(size) - 14;
-    int32_t a = shift >= 0 ? shl_wrap(start, shift) : start >> -shift;
-    int32_t b = shift >= 0 ? shl_wrap(end, shift) : end >> -shift;
-    int32_t c = shift >= 0 ? shl_wrap(bow, shift) : bow >> -shift;
-    int32_t n = 1 << slots_log2;
-    uint32_t mask = 0;
-    for (int32_t k = 0; k < n; k++) {
-        int32_t u = 2 * k + 1, rest = 2 * n - u;
-        int32_t e = a * rest * 2 * n + b * u * 2 * n + 2 * c * u * rest;
-        mask |= (uint32_t)(e >= 0) << k;
-    }
-    return mask;
+    int32_t u = 2 * slot + 1, rest = 2 * p->slots - u;
+    return rest * (p->start + p->bow * u) + p->end * u;
 }
 
-/* The same, for all cases. */
+/* The first slot of (low, high] whose sign is that of `high`; that of `low` is the other one. */
+static int32_t sign_change(const struct parabola *p, int32_t low, int32_t high)
+{
+    int32_t sign = high < p->slots ? parabola_at(p, high) : p->end;
+    while (high - low > 1) {
+        int32_t middle = (low + high) >> 1;
+        if ((parabola_at(p, middle) ^ sign) >= 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return high;
+}
+
+/* Slots in which e >= 0. */
 static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t slots_log2)
 {
-    int32_t d = start - end;
-    if ((start ^ end) >= 0 || abs_i32(bow) > abs_i32(d) >> 2)
-        return mask_by_slots(start, end, bow, slots_log2);
-    /* It crosses once, at r = start / d + 2 bow / d r (1 - r). */
-    bool from_inside = start >= 0;
-    uint32_t a = 2u * (uint32_t)(from_inside ? start : ~start) + 1u, size = 2u * (uint32_t)abs_i32(d);     /* a < size */
-    int zeros = count_leading_zeros(size);
-    uint32_t recip = recip_norm(size << zeros);
-    int32_t first = (int32_t)(mulh_u32(a << zeros, recip) >> 13);          /* q16 */
-    int32_t curve = (int32_t)(mulh_u32((uint32_t)abs_i32(bow) << zeros, recip) >> 12);     /* 2 bow / d / 2, q16 */
-    int32_t r = first;
-    if ((bow < 0) == from_inside)
-        curve = -curve;
-    for (int i = 0; i < 3 && curve != 0; i++)
-        r = clamp_i32(first + (curve * (r * (65536 - r) >> 17) >> 14), 0, 65536);
-    uint32_t before = below((r + (1 << (15 - slots_log2))) >> (16 - slots_log2));
-    return from_inside ? before : below(1 << slots_log2) & ~before;
+    const int32_t slots = 1 << slots_log2;
+    uint32_t size = (uint32_t)abs_i32(start) | (uint32_t)abs_i32(end) | (uint32_t)abs_i32(bow) | 1u;
+    int shift = count_leading_zeros(size) - 14, up = max_i32(shift, 0), down = max_i32(-shift, 0);
+    struct parabola p = { (shl_wrap(start, up) >> down) * 2 * slots, (shl_wrap(end, up) >> down) * 2 * slots,
+                          (shl_wrap(bow, up) >> down) * 2, slots };
+    if ((start ^ end) < 0) {    /* it crosses once */
+        uint32_t before = below(sign_change(&p, -1, slots));
+        return start >= 0 ? before : ~before;
+    }
+    /* Not at all, or twice: around u = 1/2 + (end - start) / (4 bow), where it is farthest off. */
+    if (p.bow == 0)
+        return start >= 0 ? UINT32_MAX : 0;
+    int32_t top = clamp_i32((slots >> 1) + (p.end - p.start) / (4 * p.bow), 0, slots - 1);
+    if ((parabola_at(&p, top) ^ start) >= 0)
+        return start >= 0 ? UINT32_MAX : 0;
+    uint32_t away = below(sign_change(&p, top, slots)) & ~below(sign_change(&p, -1, top));
+    return start >= 0 ? ~away : away;
 }
 
 /* Writes the runs of a mask. */

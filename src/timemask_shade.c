@@ -6,49 +6,58 @@
 
 enum {
     MOST_SLOPE = 1 << 20,
-    AFFINE_OFF = 8,             /* 1/64 texel, or 1/64 code: what perspective may matter and be left out */
+    STEEP = 1 << 28,            /* a plane so steep has no exact pixels, its triangle is a sliver */
+    LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
+    TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
+    LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
+    COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
 
-/* ------------------------------------------------------------------ planes */
+/* ------------------------------------------------------------------ slopes */
 
-/* A triangle at one end of a segment, as setup.c sees it: the vertices in an order that makes its area positive. */
-struct pose_setup {
-    struct setup setup;
-    int32_t record[3][VERTEX_BASE_WORDS];
-    uint8_t order[3];
+/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
+struct shape {
+    int32_t x1, y1, x2, y2;
+    int shift;
 };
 
-static uint64_t pose_start(struct pose_setup *p, const struct timemask_pose *pose)
+/* False when it has no area. */
+static bool shape_make(struct shape *s, const struct timemask_pose *p)
 {
-    struct setup *s = &p->setup;
-    for (int i = 0; i < 3; i++) {
-        p->record[i][VERTEX_X] = pose->x[i];
-        p->record[i][VERTEX_Y] = pose->y[i];
-        p->record[i][VERTEX_DEPTH] = pose->depth[i];
-        p->order[i] = (uint8_t)i;
-        s->v[i] = p->record[i];
-    }
-    int64_t area = (int64_t)setup_edges(s);
-    if (area < 0) {
-        s->v[1] = p->record[2];
-        s->v[2] = p->record[1];
-        p->order[1] = 2;
-        p->order[2] = 1;
-        area = (int64_t)setup_edges(s);
-    }
-    if (area > 0)
-        smear_setup_area(s, (uint64_t)area);
-    return (uint64_t)area;
+    int32_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
+    int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    if (area == 0)
+        return false;
+    uint64_t size = (uint64_t)(area < 0 ? -area : area);
+    int zeros = count_leading_zeros_64(size);
+    int32_t r = (int32_t)recip_norm_precise((uint32_t)(size << zeros >> 32));       /* 1 / size = r 2^(zeros - 93) */
+    if (area < 0)
+        r = -r;
+    uint32_t longest = (uint32_t)abs_i32(x1) | (uint32_t)abs_i32(y1) | (uint32_t)abs_i32(x2) | (uint32_t)abs_i32(y2);
+    int down = 31 - count_leading_zeros(longest);
+    s->x1 = (int32_t)((int64_t)x1 * r >> down);
+    s->y1 = (int32_t)((int64_t)y1 * r >> down);
+    s->x2 = (int32_t)((int64_t)x2 * r >> down);
+    s->y2 = (int32_t)((int64_t)y2 * r >> down);
+    s->shift = clamp_i32(93 - 8 - zeros - down, 0, 63);
+    return true;
 }
 
-/* Poses of a segment, and which of them has an area to take slopes from. */
-struct segment_setup {
-    struct pose_setup pose[3];
-    const struct pose_setup *shape[3];
-    bool turns;                 /* slopes are not the same */
-    int32_t x, y, x_change, y_change;       /* a point that attributes go with: q8 px from the block's first centre */
+/* Per pixel. */
+struct slopes {
+    int32_t dx, dy;
 };
+
+static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
+{
+    int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
+    int64_t dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> s->shift;
+    int64_t dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> s->shift;
+    if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
+        return (struct slopes){ 0, 0 };
+    return (struct slopes){ (int32_t)dx, (int32_t)dy };
+}
 
 /* At the point that attributes go with. */
 static inline int32_t point_of(const int32_t a[3])
@@ -56,10 +65,50 @@ static inline int32_t point_of(const int32_t a[3])
     return (int32_t)(((int64_t)a[0] + a[0] + a[1] + a[2]) >> 2);
 }
 
-static void slopes_of(struct plane *p, const struct pose_setup *shape, const int32_t value[3])
+/* ------------------------------------------------------------------ planes in time */
+
+/* How a triangle goes through a segment. */
+struct course {
+    bool started;
+    bool turns;                 /* its shape is another one at the end */
+    struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
+    int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
+};
+
+/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or, where texels
+ * or colours go with the surface, by more than 1/4 px: elsewhere in a large triangle so much is all there is of its motion),
+ * or depths along them by more than a part of depth. */
+static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b, bool is_plain)
 {
-    const uint8_t *o = shape->order;
-    smear_plane_make(&shape->setup, p, value[o[0]], value[o[1]], value[o[2]]);
+    int32_t change = 0, deeper = 0, size = 0;
+    for (int i = 1; i < 3; i++) {
+        int32_t ex = a->x[i] - a->x[0], ey = a->y[i] - a->y[0], ez = a->depth[i] - a->depth[0];
+        int32_t fx = b->x[i] - b->x[0], fy = b->y[i] - b->y[0], fz = b->depth[i] - b->depth[0];
+        size = max_i32(size, max_i32(abs_i32(ex), abs_i32(ey)));
+        change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
+        deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
+    }
+    return change > (is_plain ? size >> 3 : 64) || deeper > a->depth[0] >> TURN_LOG2;
+}
+
+static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool is_plain)
+{
+    c->started = true;
+    bool seen = shape_make(&c->shape, pose[1]);
+    c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
+    if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
+        bool at_start = shape_make(&c->start, pose[0]), at_end = shape_make(&c->end, pose[2]);
+        if (!seen)
+            c->shape = at_start ? c->start : c->end;
+        if (!at_start)
+            c->start = c->shape;
+        if (!at_end)
+            c->end = c->shape;
+    }
+    c->x = point_of(pose[1]->x);
+    c->y = point_of(pose[1]->y);
+    c->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
+    c->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
 }
 
 /* |change| + |curve| all over the block. */
@@ -74,26 +123,24 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
  *
  *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
  *
- * A plane that changes by more than there are bits for is so steep that it has no exact pixels: it becomes one value. */
-static void timed_make(struct timemask_timed *t, const struct segment_setup *s, const int32_t *const value[3])
+ * A plane that changes by more than there are bits for becomes one value. */
+static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
-    struct plane p, start, end;
-    slopes_of(&p, s->shape[1], value[1]);
+    struct slopes g = slopes_of(&c->shape, value[1]);
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
-    int64_t at = v - (((int64_t)p.dx * s->x + (int64_t)p.dy * s->y) >> 8);
-    int64_t change = v_change - (((int64_t)p.dx * s->x_change + (int64_t)p.dy * s->y_change) >> 8), curve = 0;
+    int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
+    int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
-    if (s->turns) {
-        slopes_of(&start, s->shape[0], value[0]);
-        slopes_of(&end, s->shape[2], value[2]);
+    if (c->turns) {
+        struct slopes start = slopes_of(&c->start, value[0]), end = slopes_of(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
-        change -= ((int64_t)t->change_dx * s->x + (int64_t)t->change_dy * s->y) >> 8;
-        curve = -(((int64_t)t->change_dx * s->x_change + (int64_t)t->change_dy * s->y_change) >> 8);
+        change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
+        curve = -(((int64_t)t->change_dx * c->x_change + (int64_t)t->change_dy * c->y_change) >> 8);
     }
-    t->dx = p.dx;
-    t->dy = p.dy;
+    t->dx = g.dx;
+    t->dy = g.dy;
     if (change_size(change, t->change_dx, t->change_dy, curve) >= INT32_MAX) {
         at = v;
         change = curve = 0;
@@ -104,38 +151,11 @@ static void timed_make(struct timemask_timed *t, const struct segment_setup *s, 
     t->curve = (int32_t)curve;
 }
 
-static void range_of(int32_t *low, int32_t *high, const int32_t *const value[3])
-{
-    *low = INT32_MAX;
-    *high = INT32_MIN;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++) {
-            *low = min_i32(*low, value[k][i]);
-            *high = max_i32(*high, value[k][i]);
-        }
-}
+static inline int32_t least_of(const int32_t a[3]) { return min_i32(a[0], min_i32(a[1], a[2])); }
+static inline int32_t most_of(const int32_t a[3]) { return max_i32(a[0], max_i32(a[1], a[2])); }
+static inline uint32_t spread(const int32_t a[3]) { return (uint32_t)most_of(a) - (uint32_t)least_of(a); }
 
-static inline uint32_t spread(const int32_t a[3])
-{
-    return (uint32_t)max_i32(a[0], max_i32(a[1], a[2])) - (uint32_t)min_i32(a[0], min_i32(a[1], a[2]));
-}
-
-/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest, or depths
- * along them by more than 1/512 of depth. */
-static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b)
-{
-    int32_t change = 0, deeper = 0, size = 0;
-    for (int i = 1; i < 3; i++) {
-        int32_t ex = a->x[i] - a->x[0], ey = a->y[i] - a->y[0], ez = a->depth[i] - a->depth[0];
-        int32_t fx = b->x[i] - b->x[0], fy = b->y[i] - b->y[0], fz = b->depth[i] - b->depth[0];
-        size = max_i32(size, max_i32(abs_i32(ex), abs_i32(ey)));
-        change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
-        deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
-    }
-    return change > size >> 3 || deeper > a->depth[0] >> 10;
-}
-
-/* ------------------------------------------------------------------ set-up */
+/* ------------------------------------------------------------------ values over w */
 
 /* floor(a q / 2^15), a of 16 bits. */
 static int32_t times_q15(int32_t a, int32_t q)
@@ -143,161 +163,203 @@ static int32_t times_q15(int32_t a, int32_t q)
     return a * (q >> 15) + (a * (q & 0x7fff) >> 15);
 }
 
-/* Channel c of a vertex, q16: see channel_value in setup.h. */
-static int32_t channel_of(const int32_t *record, const struct smear_segment *g, int c, bool linear)
+/* Whether interpolation on the screen is off by more than `off`; both in 1/64 of what counts. */
+static bool needs_w(const struct timemask_pose *const pose[3], uint32_t range, uint32_t off)
 {
-    uint32_t word = (uint32_t)record[g->color + (c >> 1)];
-    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return linear ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+    for (int k = 0; k < 3; k += 2) {
+        int32_t low = least_of(pose[k]->depth);
+        if (smear_times_over(spread(pose[k]->depth), range, (uint32_t)low) >> 2 > off)
+            return true;
+    }
+    return false;
 }
 
-static uint32_t channels_pixel(const int32_t c[3], bool linear)
+/* 1/w at all poses, scaled. */
+struct over_w {
+    int32_t q[3][3];
+};
+
+static void over_w_make(struct timemask_shade *s, struct over_w *w, const struct course *c,
+                        const struct timemask_pose *const pose[3])
 {
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[c[0] >> 12], smear_srgb_encode[c[1] >> 12], smear_srgb_encode[c[2] >> 12]);
-    return pixel_make(0, (uint32_t)c[0] >> 16, (uint32_t)c[1] >> 16, (uint32_t)c[2] >> 16);
+    int32_t high = max_i32(most_of(pose[0]->depth), max_i32(most_of(pose[1]->depth), most_of(pose[2]->depth)));
+    int up = count_leading_zeros((uint32_t)high) - 6;       /* room for changes */
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            w->q[k][i] = up >= 0 ? pose[k]->depth[i] << up : pose[k]->depth[i] >> -up;
+    const int32_t *value[3] = { w->q[0], w->q[1], w->q[2] };
+    timed_make(&s->q, c, value);
 }
 
-/* Values of the vertices that go into planes, times 1/w where that is wanted. */
-static void values_make(struct timemask_timed *t, const struct segment_setup *poses, const int32_t (*q)[3],
-                        const int32_t a[3])
+/* An attribute that stays with the vertices; over w when that is given. */
+static void attribute_make(struct timemask_timed *t, const struct course *c, const struct over_w *w, const int32_t a[3])
 {
     int32_t over[3][3];
     const int32_t *value[3] = { a, a, a };
-    for (int k = 0; k < 3 && q != NULL; k++) {
+    for (int k = 0; k < 3 && w != NULL; k++) {
         for (int i = 0; i < 3; i++)
-            over[k][i] = times_q15(a[i], q[k][i]);
+            over[k][i] = times_q15(a[i], w->q[k][i]);
         value[k] = over[k];
     }
-    timed_make(t, poses, value);
+    timed_make(t, c, value);
 }
 
-/* Whether interpolation on the screen is off by too much: range of the values, in 1/64 of what counts. */
-static bool needs_w(const struct timemask_pose *p, uint32_t range)
-{
-    int32_t low = min_i32(p->depth[0], min_i32(p->depth[1], p->depth[2]));
-    int32_t high = max_i32(p->depth[0], max_i32(p->depth[1], p->depth[2]));
-    return smear_times_over((uint32_t)(high - low), range, (uint32_t)low) >> 2 > AFFINE_OFF;
-}
+/* ------------------------------------------------------------------ set-up */
 
-static void shade_depth(struct timemask_shade *s, const struct segment_setup *poses,
-                        const struct timemask_pose *const pose[3])
+static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3],
+                        bool is_plain)
 {
     int32_t depth[3][3];
-    for (int k = 0; k < 3; k++)
+    s->depth_low = INT32_MAX;
+    s->depth_high = INT32_MIN;
+    for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++)
             depth[k][i] = pose[k]->depth[i] >> 7;
-    const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-    timed_make(&s->depth, poses, value);
-    range_of(&s->depth_low, &s->depth_high, value);
+        s->depth_low = min_i32(s->depth_low, least_of(depth[k]));
+        s->depth_high = max_i32(s->depth_high, most_of(depth[k]));
+    }
+    if (s->depth_high - s->depth_low <= s->depth_high >> LEVEL_LOG2) {
+        s->depth = (struct timemask_timed){ .at = point_of(depth[1]), .change = point_of(depth[2]) - point_of(depth[0]) };
+    } else {
+        const int32_t *value[3] = { depth[0], depth[1], depth[2] };
+        course_start(c, pose, is_plain);
+        timed_make(&s->depth, c, value);
+    }
     int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
-    change = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
-    s->slope[0] = change;
-    s->slope[1] = change >> 4;
+    s->slope = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
-void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, const struct smear_triangle *triangle,
-                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
+static uint32_t channels_pixel(int32_t red, int32_t green, int32_t blue, bool linear)
 {
-    struct segment_setup poses;
-    const int32_t *record[3];
-    s->frame = frame;
-    s->segment = segment;
-    s->slots_log2 = slots_log2;
-    s->tap = tap;
-    s->color = triangle->color;
-    s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment->shade == SHADE_GOURAUD;
+    if (linear)
+        return pixel_make(0, smear_srgb_encode[red >> 12], smear_srgb_encode[green >> 12], smear_srgb_encode[blue >> 12]);
+    return pixel_make(0, (uint32_t)red >> 16, (uint32_t)green >> 16, (uint32_t)blue >> 16);
+}
+
+/* Channels of the vertices, q16 (see channel_value in setup.h). */
+struct channels {
+    int32_t value[3][3];
+};
+
+static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear)
+{
     for (int i = 0; i < 3; i++)
-        record[i] = geometry_vertex(frame->geometry, segment, triangle->vertex[i]);
-
-    /* Slopes of the middle, unless it is seen from its edge then. */
-    uint64_t area = pose_start(&poses.pose[1], pose[1]);
-    poses.turns = area == 0 || shape_turns(pose[0], pose[2]);
-    poses.shape[1] = &poses.pose[1];
-    if (poses.turns) {
-        uint64_t area_a = pose_start(&poses.pose[0], pose[0]), area_b = pose_start(&poses.pose[2], pose[2]);
-        const struct pose_setup *some = &poses.pose[area != 0 ? 1 : area_a != 0 ? 0 : 2];
-        poses.shape[0] = area_a != 0 ? &poses.pose[0] : some;
-        poses.shape[1] = some;
-        poses.shape[2] = area_b != 0 ? &poses.pose[2] : some;
-    }
-    poses.x = point_of(pose[1]->x);
-    poses.y = point_of(pose[1]->y);
-    poses.x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
-    poses.y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
-    shade_depth(s, &poses, pose);
-
-    int32_t channel[3][3];
-    if (s->gouraud) {
-        bool equal = true;
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < 3; i++) {
-                channel[c][i] = channel_of(record[i], segment, c, frame->linear);
-                equal = equal && channel[c][i] == channel[c][0];
-            }
-        if (equal && s->sampler == NULL) {
-            const int32_t one[3] = { channel[0][0], channel[1][0], channel[2][0] };
-            s->color = channels_pixel(one, frame->linear);
-            s->gouraud = false;
+        for (int c = 0; c < 3; c++) {
+            uint32_t word = (uint32_t)record[i][g->color + (c >> 1)];
+            int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
+            out->value[c][i] = linear ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
         }
-    }
-    s->color &= 0xffffffu;
-    if (!s->gouraud && s->sampler == NULL)
-        return;
+}
 
-    /* Mesh units, and how far they reach in texels. */
+/* All three vertices have one colour, or nearly. */
+static bool shade_level(struct timemask_shade *s, const int32_t *const record[3])
+{
+    const int at = s->segment->color;
+    const bool same = ((record[0][at] ^ record[1][at]) | (record[0][at] ^ record[2][at])
+                       | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
+                       | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
+    struct channels k;
+    channels_read(&k, s->segment, record, s->frame->linear);
+    uint32_t code[3], sum = 0;
+    for (int i = 0; i < (same ? 1 : 3); i++)
+        code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], s->frame->linear);
+    if (same) {
+        s->color = code[0];
+        return true;
+    }
+    for (int shift = 0; shift < 24; shift += 8) {
+        const int32_t a[3] = { (int32_t)(code[0] >> shift & 255u), (int32_t)(code[1] >> shift & 255u),
+                               (int32_t)(code[2] >> shift & 255u) };
+        if (spread(a) > LEVEL_COLOR)
+            return false;
+        sum |= (uint32_t)((least_of(a) + most_of(a)) >> 1) << shift;
+    }
+    s->color = sum;
+    return true;
+}
+
+static void shade_channels(struct timemask_shade *s, const struct course *c, const struct over_w *w, struct channels *k)
+{
+    for (int i = 0; i < 3; i++) {
+        int32_t *value = k->value[i];
+        s->channel_low[i] = least_of(value);
+        s->channel_high[i] = most_of(value);
+        for (int n = 0; n < 3 && w != NULL; n++)
+            value[n] >>= 8;
+        attribute_make(&s->channel[i], c, w, value);
+    }
+}
+
+static void shade_gouraud(struct timemask_shade *s, const struct course *c, const struct timemask_pose *const pose[3],
+                          const int32_t *const record[3])
+{
+    struct channels k;
+    struct over_w w;
+    channels_read(&k, s->segment, record, s->frame->linear);
+    uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
+    s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
+    if (s->over_w)
+        over_w_make(s, &w, c, pose);
+    shade_channels(s, c, s->over_w ? &w : NULL, &k);
+}
+
+static void shade_texture(struct timemask_shade *s, const struct course *c, const struct timemask_pose *const pose[3],
+                          const int32_t *const record[3])
+{
     const struct smear_sampler *m = s->sampler;
+    struct channels k;
+    struct over_w w;
     int32_t u[3], v[3];
-    uint32_t range = 0;
-    if (m != NULL) {
-        for (int i = 0; i < 3; i++) {
-            u[i] = (int16_t)(record[i][segment->uv] & 0xffff);
-            v[i] = record[i][segment->uv] >> 16;
-        }
-        range = magnitude_i32(smear_sampler_texel_u(m, (int32_t)spread(u) * 16384) >> 10);
-        range = max_u32(range, magnitude_i32(smear_sampler_texel_v(m, (int32_t)spread(v) * 16384) >> 10));
+    for (int i = 0; i < 3; i++) {       /* mesh units */
+        u[i] = (int16_t)(record[i][s->segment->uv] & 0xffff);
+        v[i] = record[i][s->segment->uv] >> 16;
     }
-    for (int c = 0; c < 3 && s->gouraud; c++)
-        range = max_u32(range, spread(channel[c]) >> 10);
-    int32_t over[3][3];
-    const int32_t (*q)[3] = NULL;
-    s->over_w = !segment->flat_depth && (needs_w(pose[0], range) || needs_w(pose[2], range));
-    if (s->over_w) {
-        int32_t high = 0;
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++)
-                high = max_i32(high, pose[k]->depth[i]);
-        int up = count_leading_zeros((uint32_t)high) - 6;          /* room for changes */
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++)
-                over[k][i] = up >= 0 ? pose[k]->depth[i] << up : pose[k]->depth[i] >> -up;
-        const int32_t *value[3] = { over[0], over[1], over[2] };
-        q = (const int32_t (*)[3])over;
-        timed_make(&s->q, &poses, value);
+    uint32_t range = max_u32(magnitude_i32(smear_sampler_texel_u(m, (int32_t)spread(u) * 16384) >> 10),
+                             magnitude_i32(smear_sampler_texel_v(m, (int32_t)spread(v) * 16384) >> 10));
+    s->over_w = !s->segment->flat_depth && needs_w(pose, range, TEXEL_OFF);
+    if (s->over_w)
+        over_w_make(s, &w, c, pose);
+    if (s->gouraud) {
+        channels_read(&k, s->segment, record, s->frame->linear);
+        shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
-    for (int c = 0; c < 3 && s->gouraud; c++) {
-        const int32_t *value[3] = { channel[c], channel[c], channel[c] };
-        range_of(&s->channel_low[c], &s->channel_high[c], value);
-        for (int i = 0; i < 3 && s->over_w; i++)
-            channel[c][i] >>= 8;
-        values_make(&s->channel[c], &poses, q, channel[c]);
-    }
-    if (m == NULL)
-        return;
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
     for (int i = 0; i < 3 && !s->over_w; i++) {
         u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
         v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
     }
-    values_make(&s->u, &poses, q, u);
-    values_make(&s->v, &poses, q, v);
+    attribute_make(&s->u, c, s->over_w ? &w : NULL, u);
+    attribute_make(&s->v, c, s->over_w ? &w : NULL, v);
     s->travel = 0;
     for (int i = 0; i < 3; i++) {
         int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
         s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
     }
+}
+
+void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
+                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
+                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
+{
+    struct course course;
+    course.started = false;
+    s->frame = frame;
+    s->segment = segment;
+    s->slots_log2 = slots_log2;
+    s->tap = tap;
+    s->color = color & 0xffffffu;
+    s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
+    s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
+    const bool is_plain = !s->gouraud && s->sampler == NULL;
+    shade_depth(s, &course, pose, is_plain);
+    if (is_plain)
+        return;
+    if (!course.started)
+        course_start(&course, pose, false);
+    if (s->sampler != NULL)
+        shade_texture(s, &course, pose, record);
+    else
+        shade_gouraud(s, &course, pose, record);
 }
 
 /* ------------------------------------------------------------------ colours */
@@ -329,13 +391,15 @@ static int32_t quotient_of(const struct quotient *w, int32_t a)
 
 static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t out[3])
 {
-    struct quotient w = { 0, 0 };
-    if (s->over_w)
-        w = quotient_at(s, x, y, time);
-    for (int c = 0; c < 3; c++) {
-        int32_t value = value_at(&s->channel[c], x, y, time);
-        out[c] = clamp_i32(s->over_w ? quotient_of(&w, value) >> 4 : value, s->channel_low[c], s->channel_high[c]);
+    for (int c = 0; c < 3; c++)
+        out[c] = value_at(&s->channel[c], x, y, time);
+    if (s->over_w) {
+        struct quotient w = quotient_at(s, x, y, time);
+        for (int c = 0; c < 3; c++)
+            out[c] = quotient_of(&w, out[c]) >> 4;
     }
+    for (int c = 0; c < 3; c++)
+        out[c] = clamp_i32(out[c], s->channel_low[c], s->channel_high[c]);
 }
 
 /* Coordinates in turns or texels q16, as samplers take them. */
@@ -405,7 +469,7 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
         if (s->sampler == NULL)
-            return channels_pixel(light, s->frame->linear);
+            return channels_pixel(light[0], light[1], light[2], s->frame->linear);
     } else if (s->segment->shade == SHADE_FLAT) {
         for (int c = 0; c < 3; c++) {
             uint32_t code = s->color >> (16 - 8 * c) & 255u;

@@ -29,7 +29,7 @@ struct timemask_shade {
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
-    int32_t slope[2];                       /* of depth codes below and from 32768, 1/16 per slot */
+    int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
@@ -40,7 +40,7 @@ struct timemask_shade {
 
 /* From the poses at a segment's start, middle and end. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, const struct smear_triangle *triangle,
+                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
                           const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap);
 
 /* Colour of a pixel of the block over a run. */
@@ -78,12 +78,6 @@ static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t r
 {
     return ((timemask_run_from(run) + timemask_run_to(run)) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2))
          - (1 << (TIMEMASK_TIME_LOG2 - 1));
-}
-
-/* Depth code of units q4. */
-static inline int32_t timemask_code(int32_t units)
-{
-    return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
 }
 
 #endif

@@ -143,7 +143,7 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
             first = i;
         }
     }
-    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > ALIKE; i++)
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > 4 * ALIKE; i++)
         for (uint32_t j = i + 1; j < TIMEMASK_ENTRIES; j++) {
             uint32_t d = apart(&all[i], &all[j]);
             if (d < least) {
@@ -165,7 +165,7 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
 
 /* ------------------------------------------------------------------ fragments */
 
-void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, const struct timemask_fragment *f)
 {
     const int32_t last_slot = (1 << b->slots_log2) - 1;
     uint32_t mask = f->mask, n = b->count[pixel];
@@ -193,7 +193,7 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, stru
         b->farthest[pixel] = (uint16_t)f->low;
     for (uint32_t i = n; i-- > 0;) {
         uint32_t at = (i << b->pixels_log2) + pixel;
-        if (timemask_is_same(b, at, f)) {
+        if (timemask_is_same(b, at, f->color, f->depth)) {
             b->held[at] |= mask;
             return;
         }

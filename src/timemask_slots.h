@@ -32,7 +32,7 @@ struct timemask_fragment {
     uint32_t color;             /* as it is kept */
     int32_t depth;              /* code in the middle of the exposure */
     int32_t slope;              /* timemask_slope_of(color) */
-    int32_t low, high;          /* codes it keeps to */
+    int32_t low;                /* code it keeps above */
 };
 
 static inline size_t timemask_slots_bytes(uint32_t pixels)
@@ -57,37 +57,40 @@ static inline int32_t timemask_slope_of(uint32_t color)
 }
 
 /* Whether an entry is of the same colour and, as far as that matters, the same surface. */
-static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, const struct timemask_fragment *f)
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, uint32_t color, int32_t depth)
 {
-    return (b->color[at] ^ f->color) << 8 == 0 && (uint32_t)abs_i32((int32_t)b->depth[at] - f->depth) <= (uint32_t)f->depth >> 6;
+    return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
 }
 
 /* timemask_slots_add, where others have a say or entries run out. */
-void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f);
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, const struct timemask_fragment *f);
 
-static inline void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment *f)
+/* `high`: code that is not exceeded. */
+SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
-    if ((any & f->mask) != 0 && f->high <= b->farthest[pixel]) {
-        f->mask &= ~any;
-        if (f->mask == 0)
+    int32_t farthest = b->farthest[pixel];
+    if ((any & f.mask) != 0 && high <= farthest) {
+        f.mask &= ~any;
+        if (f.mask == 0)
             return;
     }
-    if ((any & f->mask) != 0 || n == TIMEMASK_ENTRIES) {
-        smear_timemask_slots_contest(b, pixel, f);
+    if ((any & f.mask) != 0 || n == TIMEMASK_ENTRIES) {
+        const struct timemask_fragment contested = f;
+        smear_timemask_slots_contest(b, pixel, &contested);
         return;
     }
-    uint32_t at = (n << b->pixels_log2) + pixel;
-    b->any[pixel] = any | f->mask;
-    if (f->low < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)f->low;
-    if (n != 0 && timemask_is_same(b, at - (1u << b->pixels_log2), f)) {
-        b->held[at - (1u << b->pixels_log2)] |= f->mask;
+    uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
+    b->any[pixel] = any | f.mask;
+    if (f.low < farthest)
+        b->farthest[pixel] = (uint16_t)f.low;
+    if (n != 0 && timemask_is_same(b, before, f.color, f.depth)) {
+        b->held[before] |= f.mask;
         return;
     }
-    b->held[at] = f->mask;
-    b->color[at] = f->color;
-    b->depth[at] = (uint16_t)f->depth;
+    b->held[at] = f.mask;
+    b->color[at] = f.color;
+    b->depth[at] = (uint16_t)f.depth;
     b->count[pixel] = (uint8_t)(n + 1);
 }
 

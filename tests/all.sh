@@ -84,6 +84,7 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
 fi
 suite golden-host $make -s TARGET=host target-test
+suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
@@ -92,6 +93,7 @@ if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
     suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
+    suite demo-linux $make -s TARGET=linux demo-test
 fi
 suite build-sanitized $make -s SAN=1 all
 suite view-sanitized sh tests/view.sh build/host-san/smear

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 # target_demo.sh FOLDER PROGRAM SCREEN:STEP...
 # The demo on a target: every STEPth frame of its loop has the bits that the host draws. RUN runs a
-# program there. Then, where SHOT takes a screenshot (SHOT PROGRAM FRAME OUT.ppm [KEY]), the display
-# shows the host's frame SHOT_FRAMES of SHOT_SCREEN to the bit, every pixel SHOT_ZOOM times as
-# large, and the sharp frame while the key SHOT_KEY is held; and another frame is told from it.
+# program there. Then, where SHOT takes a screenshot (SHOT PROGRAM FRAME OUT.ppm [DISPLAY]), the
+# display shows the host's frames SHOT_FRAMES (FRAME or DISPLAY:FRAME) of SHOT_SCREEN to the bit,
+# every pixel SHOT_ZOOM times as large, and another frame is told from them. With SHOT_KEY, SHOT
+# presses that key (its last argument), and the frame becomes sharp.
 set -u
 folder=$1 program=$2
 shift 2
@@ -34,9 +35,14 @@ done
 if [ -n "${SHOT:-}" ]; then
     for frame in $SHOT_FRAMES; do
         shot=$folder/shot-$frame.ppm
-        $SHOT "$program" "$frame" "$shot" &&
+        display=
+        case $frame in
+        *:*) display=${frame%:*} frame=${frame#*:} shot=$folder/shot-$display.ppm ;;
+        esac
+        # shellcheck disable=SC2086
+        $SHOT "$program" "$frame" "$shot" $display &&
             $screen compare "$SHOT_SCREEN" "$frame" 180 "$shot" "$SHOT_ZOOM"
-        count $? "screenshot of frame $frame"
+        count $? "screenshot of frame $frame${display:+ on $display}"
     done
     if $screen compare "$SHOT_SCREEN" "$((frame + 1))" 180 "$shot" "$SHOT_ZOOM" 2>/dev/null; then
         count 1 "a screenshot is as good as another"

@@ -528,7 +528,8 @@ static void test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them(v
     for (int n = 0; n < 60; n++) {
         scene_begin(n & 1);
         add_mesh(n % 3 == 0 ? GOURAUD : FLAT, between(1, 6), between(60, 2000), between(0, W * 256),
-                 between(0, H * 256), depth_middle, between(0, 100000), &(struct motion){ 0, 0, 0, between(0, 0) }, 0);
+                 between(0, H * 256), depth_middle, between(0, 1) * between(300000, 600000),      /* level, or not */
+                 &(struct motion){ 0, 0, 0, 0 }, 0);
         for (int i = 0; i < W * H; i++)
             still_depth[i] = (uint16_t)between(19000, 21000);
         draw_movers(8 << n % 3, 16, 64, 256);
@@ -631,7 +632,7 @@ static void test_meshes_that_turn_and_grow_come_near_the_truth_as_segments_get_s
         truth(32);
         draw_movers(32, 16, 8192, 256);
         struct difference chord = compare();
-        if (!check_against_truth(32, 8, 4, 500))
+        if (!check_against_truth(32, 2, 5, 500))
             return;
         struct difference d = compare();
         if (!CHECK(d.squares <= chord.squares + 200))
