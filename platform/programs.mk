@@ -141,6 +141,32 @@ footprint:
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
+# ---------------------------------------------------------------------- a model of one's own
+
+# What `smear convert FILE --name model -o build/model.h` wrote.
+MODEL ?= build/model.h
+
+MODEL_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/model.o
+
+$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="../$(MODEL)"'
+$(BUILD)/platform/model.o: $(MODEL)
+
+$(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
+
+.PHONY: model-firmware model-run model-cost
+## a converted model (MODEL=build/model.h) as firmware for TARGET
+model-firmware: $(BUILD)/model$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it
+model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(RUN) $< show
+
+## what its frames cost on TARGET
+model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
 ## unit tests and golden frames on TARGET
