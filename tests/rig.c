@@ -17,7 +17,11 @@ int take_band(void *user, const smear_band *band)
     if (r->picture_size + band->size <= r->picture_room)
         memcpy(r->picture + r->picture_size, band->pixels, band->size);
     r->picture_size += band->size;
-    return r->bands++ == r->fail_at ? r->fail_with : 0;
+    if (r->bands++ == r->fail_at)
+        return r->fail_with;
+    if (r->reports_sent)
+        smear_band_done(r->ctx);
+    return 0;
 }
 
 static void take_row(void *user, int y, const uint32_t *color, const uint16_t *depth, const int32_t *velocity)

@@ -25,6 +25,7 @@ struct rig {
     int bands, next_row;
     bool bands_in_order;
     int fail_at, fail_with;     /* flush of band fail_at returns fail_with; -1: none */
+    bool reports_sent;          /* with two bands: each counts as sent at once */
     uint32_t *color;            /* inspected rows */
     uint16_t *depth;
     int32_t *velocity;

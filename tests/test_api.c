@@ -58,21 +58,26 @@ static void test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_
 {
     static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 64, 48 }, { 100, 70 } };
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
-        for (int variant = 0; variant < 8; variant++) {
+        for (int variant = 0; variant < 14; variant++) {
             smear_desc desc = small_desc(size[i][0], size[i][1]);
-            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant);
-            desc.sharp = variant == 1;
-            desc.bands = variant == 2 ? 1 : 0;
+            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant % 8);
+            desc.timed = variant >= 8;
+            desc.tile = (int16_t)(variant >= 10 ? 8 << (variant - 10) : 0);
+            desc.sharp = variant == 1 || variant == 9 || variant == 11;
+            desc.bands = variant == 2 ? 1 : variant == 12 ? 2 : 0;
             desc.reach = variant == 3 ? 20 : 8;
             desc.accumulate = variant == 4;
-            desc.max_triangles = variant == 5 ? 1 : 60;
+            desc.max_triangles = variant == 5 || variant == 13 ? 1 : 60;
             struct rig r;
             if (rig_begin(&r, &desc, variant & 1)) {
                 smear_context *other = (smear_context *)&r;
                 CHECK_EQ(smear_init(&other, &r.desc, r.block + GUARD, r.bytes - 1), SMEAR_ERR_MEMORY);
                 CHECK(other == NULL);
                 for (int k = 0; k < 3; k++) {
-                    CHECK_EQ(render_scene(&r, k * 0.2, desc.accumulate ? SMEAR_ACCUMULATE : 0), SMEAR_OK);
+                    int method = desc.accumulate ? SMEAR_ACCUMULATE : desc.timed ? SMEAR_SUBFRAMES + k : 0;
+                    if (desc.bands == 2)
+                        r.reports_sent = true;
+                    CHECK_EQ(render_scene(&r, k * 0.2, method), SMEAR_OK);
                     CHECK(guards_intact(&r));
                 }
             }
@@ -203,7 +208,12 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(r.ctx, NULL), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(NULL, &s.frame), SMEAR_ERR_ARG);
-        f = (smear_frame){ .camera = &good, .method = SMEAR_RECONSTRUCT + 1 };
+        for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO + 1; method++) {       /* desc.timed is 0 */
+            f = (smear_frame){ .camera = &good, .method = (uint8_t)method };
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
+        f = (smear_frame){ .camera = &good, .shutter = closed };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         f = (smear_frame){ .camera = &good, .method = SMEAR_ACCUMULATE };       /* desc.accumulate is 0 */
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
@@ -441,15 +451,16 @@ static smear_mesh make_heap(void)
 
 static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
     smear_mesh heap = make_heap();
-    for (int m = 0; m < 2; m++)
+    for (int m = 0; m < 5; m++)
         for (int alpha = SMEAR_OPAQUE; alpha <= SMEAR_BLEND; alpha += SMEAR_BLEND) {
             struct rig ample, tight;
             smear_desc desc = small_desc(64, 128);
             desc.max_triangles = 2000;
+            desc.timed = method[m] >= SMEAR_SUBFRAMES;
             smear_desc small = desc;
-            small.max_triangles = 220;
+            small.max_triangles = desc.timed ? 150 : 220;
             if (rig_begin(&ample, &desc, false) && rig_begin(&tight, &small, false)) {
                 for (int k = 0; k < 3; k++) {
                     smear_transform pose = pose_at(0.1 * k, 0, -2, 0.1 * k, 0);
@@ -525,15 +536,15 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
     enum { WILD = sizeof wild / sizeof wild[0] };
     struct rig r;
     smear_desc desc = small_desc(40, 24);
-    desc.accumulate = 1;
+    desc.accumulate = desc.timed = 1;
     if (!rig_begin(&r, &desc, true)) {
         rig_end(&r);
         return;
     }
     uint32_t random = 1;
-    for (int n = 0; n < 1500; n++) {
+    for (int n = 0; n < 2400; n++) {
         struct scene s;
-        make_scene(&s, 0.1 * (n % 7), 1 + n % 3);
+        make_scene(&s, 0.1 * (n % 7), 1 + n % 6);
         for (int i = 0; i < SCENE_DRAWS; i++)
             for (int e = 0; e < 12; e++) {
                 random = random * 1664525u + 1013904223u;
@@ -671,13 +682,17 @@ static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
 
 static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT };
-    for (int m = 0; m < 3; m++) {
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
+                                      SMEAR_AUTO, SMEAR_AUTO };
+    for (int m = 0; m < 7; m++) {
         struct rig r, fresh;
         smear_desc desc = small_desc(48, 64);
-        desc.accumulate = 1;
+        desc.accumulate = desc.timed = 1;
+        desc.bands = m & 1 ? 2 : 1;
+        desc.sharp = m == 6;
         if (rig_begin(&r, &desc, false) && rig_begin(&fresh, &desc, false)) {
             int bands = 0;
+            r.reports_sent = fresh.reports_sent = desc.bands == 2;
             for (int k = 0; k < 12; k++) {
                 CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
                 bands = fresh.bands;
@@ -757,9 +772,10 @@ static void yield(void *user)
 
 static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_AUTO };
     struct rig one, two;
     smear_desc desc = small_desc(64, 50);
+    desc.timed = 1;
     smear_desc twice = desc;
     twice.bands = 2;
     twice.flush = hand_to_slow_display;
@@ -770,8 +786,8 @@ static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void
         pthread_t thread;
         if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
             for (int k = 0; k < 8; k++) {
-                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 1]), SMEAR_OK);
-                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 1]), SMEAR_OK);
+                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 3]), SMEAR_OK);
+                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 3]), SMEAR_OK);
                 same_picture(&one, two.picture);
             }
             atomic_store(&display.over, true);
@@ -801,15 +817,16 @@ static void *help(void *argument)
 
 static void test_any_number_of_workers_draws_the_same_picture(void)
 {
-    enum { FRAMES = 6 };
-    static const uint8_t method[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE };
+    enum { FRAMES = 9, METHODS = 6 };
+    static const uint8_t method[METHODS] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES,
+                                             SMEAR_TIMEMASK, SMEAR_AUTO };
     uint8_t *picture[FRAMES] = { NULL };
     smear_stats first[FRAMES];
     for (int workers = 1; workers <= 8; workers++) {
         struct rig r;
         smear_desc desc = small_desc(150, 60);
         desc.workers = (uint8_t)workers;
-        desc.accumulate = 1;
+        desc.accumulate = desc.timed = 1;
         desc.crc = 1;
         desc.max_triangles = 50;
         desc.idle = yield;
@@ -823,7 +840,7 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
             }
             for (int k = 0; k < FRAMES; k++) {
                 smear_stats stats;
-                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % 3]), SMEAR_OK);
+                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % METHODS]), SMEAR_OK);
                 smear_get_stats(r.ctx, &stats);
                 if (workers == 1) {
                     first[k] = stats;
@@ -835,6 +852,8 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
                     CHECK_EQ(stats.samples, first[k].samples);
                     CHECK_EQ(stats.triangles_drawn, first[k].triangles_drawn);
                     CHECK_EQ(stats.tiles_complex, first[k].tiles_complex);
+                    CHECK_EQ(stats.tiles_smooth, first[k].tiles_smooth);
+                    CHECK_EQ(stats.tiles_subframes, first[k].tiles_subframes);
                 }
             }
             for (int i = 1; i < workers; i++)
@@ -1154,7 +1173,7 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
         for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
             struct rig r;
             smear_desc desc = small_desc(size[i][0], size[i][1]);
-            desc.accumulate = 1;
+            desc.accumulate = desc.timed = 1;
             if (rig_begin(&r, &desc, false)) {
                 struct scene s;
                 make_scene(&s, 0.2, SMEAR_NONE);
@@ -1170,6 +1189,16 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
                     smear_get_stats(r.ctx, &stats);
                     CHECK_EQ(stats.samples, 0);
                     CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                    for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
+                        s.frame.method = (uint8_t)method;
+                        s.frame.target = (uint16_t)n;
+                        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                        same_picture(&r, sharp);
+                        smear_get_stats(r.ctx, &stats);
+                        CHECK_EQ(stats.samples, 0);
+                        CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                        CHECK_EQ(stats.tiles_none, stats.tiles_still);
+                    }
                     if (n > 100)
                         continue;
                     s.frame.method = SMEAR_ACCUMULATE;
