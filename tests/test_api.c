@@ -472,7 +472,7 @@ static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
                     CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
                     smear_stats stats;
                     smear_get_stats(tight.ctx, &stats);
-                    CHECK(stats.triangles_split > 1);
+                    CHECK(stats.triangles_split >= (desc.timed ? 1u : 2u));
                     CHECK_EQ(stats.triangles_dropped, 0);
                     same_picture(&ample, tight.picture);
                 }
