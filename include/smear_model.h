@@ -146,6 +146,7 @@ typedef struct smear_model {
     uint16_t normals;                           /* 1: some deformed mesh has normals */
     uint32_t deformed_vertices;
     int32_t unit_shift;
+    int32_t center[3], radius;                  /* Q16.16 world units: a ball around all poses of all clips */
 } smear_model;
 
 /* ------------------------------------------------------------------ blobs */

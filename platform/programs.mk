@@ -65,6 +65,24 @@ $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+# ---------------------------------------------------------------------- template
+
+# platform/template with one core and with two, on a board of threads; and for a real core.
+TEMPLATE_SRC := platform/template/firmware.c tests/target_template.c tools/image/crc32.c
+
+$(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
+	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
+
+.PHONY: template-test
+template-test: $(BUILD)/template-1 $(BUILD)/template-2
+	timeout 120 $(BUILD)/template-1
+	timeout 120 $(BUILD)/template-2
+	! command -v arm-none-eabi-gcc >/dev/null || for cores in 1 2; do \
+	    arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c11 -Os -ffreestanding -Wall -Wextra \
+	        -Wconversion -Werror -Iinclude -DBOARD_CORES=$$cores -c -o $(BUILD)/template.o \
+	        platform/template/firmware.c || exit 1; \
+	done
+
 # ---------------------------------------------------------------------- demo
 
 DISPLAY_SRC ?= platform/host/display.c
@@ -90,7 +108,7 @@ $(PROPS)/props.c: $(PROPS)/demo_props
 	$(PROPS)/demo_props $@
 
 $(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
-	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
 SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
@@ -99,7 +117,7 @@ SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c
 $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(SCREEN_SRC) -lm
 
-.PHONY: demo-firmware demo-run demo-cost demo-test
+.PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
 ## the demo as firmware for TARGET
 demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
@@ -112,8 +130,41 @@ demo-run: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 	RUN="$(RUN)" sh tests/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
 
+print-run:
+	@echo $(RUN)
+
+## flash, RAM and worst stack of the library on every target
+footprint:
+	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
+
 ## what its frames cost on TARGET
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+
+# ---------------------------------------------------------------------- a model of one's own
+
+# What `smear convert FILE --name model -o build/model.h` wrote.
+MODEL ?= build/model.h
+
+MODEL_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/model.o
+
+$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="../$(MODEL)"'
+$(BUILD)/platform/model.o: $(MODEL)
+
+$(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
+
+.PHONY: model-firmware model-run model-cost
+## a converted model (MODEL=build/model.h) as firmware for TARGET
+model-firmware: $(BUILD)/model$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it
+model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(RUN) $< show
+
+## what its frames cost on TARGET
+model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)

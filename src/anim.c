@@ -192,7 +192,9 @@ static void local_of(smear_transform *out, const smear_model *m, uint32_t index,
     }
     for (int i = 0; i < 10; i++)
         trs[i] = n->rest[i];
-    for (; c->channel != c->end && c->channel->path != SMEAR_PATH_WEIGHTS && c->channel->target == index; c->channel++) {
+    for (; c->channel != c->end && c->channel->target == index; c->channel++) {
+        if (c->channel->path == SMEAR_PATH_WEIGHTS)
+            break;
         static const uint8_t first[3] = { 0, 6, 3 };        /* of translation, rotation, scale */
         struct between b = find_in(m, c);
         for (uint32_t k = 0; k < c->channel->width; k++)
@@ -260,14 +262,14 @@ static void pose_joints(struct smear_actor *a, const smear_model_skin *skin)
         for (int row = 0; row < 3; row++) {
             const int32_t *basis = w->basis + 3 * row, *origin = joint->origin;
             for (int k = 0; k < 3; k++)             /* q20 to q14 */
-                out->basis[3 * row + k] = clamp_i32(
+                out->row[row][k] = clamp_i32(
                     scale_sat(add_wrap(add_wrap(mulh_i32(shl_wrap(basis[0], 4), joint->basis[k]),
                                                 mulh_i32(shl_wrap(basis[1], 4), joint->basis[3 + k])),
                                        mulh_i32(shl_wrap(basis[2], 4), joint->basis[6 + k])), -6),
                     -SMEAR_JOINT_LIMIT, SMEAR_JOINT_LIMIT);
             int32_t at = within_factor(add_wrap(w->origin[row], row_times(basis, origin[0], origin[1], origin[2])));
             int32_t step = scale_sat(mulh_i32(shl_wrap(at, 4), skin->steps), skin->shift);
-            out->origin[row] = clamp_i32(within_factor(step) - skin->offset[row], -SMEAR_JOINT_ORIGIN_LIMIT,
+            out->row[row][3] = clamp_i32(within_factor(step) - skin->offset[row], -SMEAR_JOINT_ORIGIN_LIMIT,
                                          SMEAR_JOINT_ORIGIN_LIMIT);
         }
     }

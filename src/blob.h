@@ -33,6 +33,7 @@ struct smear_blob_head {
     uint16_t transform_count, deformed_count, joint_count, normals;
     uint32_t deformed_vertices;
     int32_t unit_shift;
+    int32_t center[3], radius;
     struct smear_blob_table table[BLOB_TABLES];
 };
 
@@ -59,7 +60,7 @@ struct smear_blob_material {
     uint8_t alpha, cutoff, unlit, double_sided, bilinear, zero;
 };
 
-_Static_assert(sizeof(struct smear_blob_head) == 32 + 8 * BLOB_TABLES, "no padding");
+_Static_assert(sizeof(struct smear_blob_head) == 48 + 8 * BLOB_TABLES, "no padding");
 _Static_assert(sizeof(struct smear_blob_mesh) == 48, "no padding");
 _Static_assert(sizeof(struct smear_blob_texture) == 20, "no padding");
 _Static_assert(sizeof(struct smear_blob_material) == 12, "no padding");

@@ -432,7 +432,8 @@ int smear_model_open(smear_model *model, const void *blob, size_t bytes, void *m
         .clip_count = (uint16_t)blob_count(&b, BLOB_CLIP), .weight_count = (uint16_t)blob_count(&b, BLOB_WEIGHT),
         .transform_count = b.head->transform_count, .deformed_count = b.head->deformed_count,
         .joint_count = b.head->joint_count, .normals = b.head->normals,
-        .deformed_vertices = b.head->deformed_vertices, .unit_shift = b.head->unit_shift
+        .deformed_vertices = b.head->deformed_vertices, .unit_shift = b.head->unit_shift,
+        .center = { b.head->center[0], b.head->center[1], b.head->center[2] }, .radius = b.head->radius
     };
     return SMEAR_OK;
 }

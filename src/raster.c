@@ -247,6 +247,7 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
     }
 }
 
+#if SMEAR_SPAN_ROWS
 /* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
 struct gather {
     struct span_rows rows;
@@ -408,6 +409,7 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
         d.right = right;
     }
 }
+#endif
 
 /* ------------------------------------------------------------------ small triangles */
 
@@ -598,21 +600,26 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     smear_setup_area(&s, area);
     smear_setup_depth(&s);
     const bool flat = is_flat(&s);
-    if (flat && !s.writes_velocity && (width > SMALL_PX || height > SMALL_PX)) {
+#if SMEAR_SPAN_ROWS
+    const bool small = width <= SMALL_PX && height <= SMALL_PX;
+    if (flat && !s.writes_velocity && !small) {
         cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
         return;
     }
+#endif
     if (!flat)
         smear_setup_color(&s);
     if (s.segment->uv != 0)
         smear_setup_texture(&s);
     if (s.writes_velocity)
         smear_setup_velocity(&s);
+#if SMEAR_SPAN_ROWS
     smear_rows_fn *rows = smear_rows_choose(&s);
-    if (rows != NULL && (width > SMALL_PX || height > SMALL_PX)) {
+    if (rows != NULL && !small) {
         cover_rows(&s, rows);
         return;
     }
+#endif
     smear_span_fn *write = flat ? smear_span_flat : smear_span_general;
     if (width <= SMALL_PX && height <= SMALL_PX)
         cover_small(&s, (int32_t)area, left, right, top, bottom, write);

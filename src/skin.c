@@ -4,57 +4,56 @@
 
 #include "fixmath.h"
 
-/* Row of a joint times a vertex: |sum| <= 3 x 21845 x 32768 < 2^31. */
-static inline int32_t skin_row(const int32_t row[3], int32_t x, int32_t y, int32_t z)
-{
-    return row[0] * x + row[1] * y + row[2] * z;
-}
-
+/* To int16; two instructions where nothing is to be done. */
 static inline int16_t clamp_step(int32_t x)
 {
-    return (int16_t)clamp_i32(x, -32767, 32767);
+    return (int16_t)((int16_t)x == x ? x : x < 0 ? -32768 : 32767);
 }
 
 /* What the first weight is: the others' lack to 256. */
-static uint32_t first_weight(const uint8_t *weight, uint32_t per_vertex)
+static inline int32_t first_weight(const uint8_t *weight, uint32_t per_vertex)
 {
-    uint32_t first = 256;
+    int32_t first = 256;
     for (uint32_t k = 1; k < per_vertex; k++)
         first -= weight[k - 1];
     return first;
+}
+
+/* A vertex by a row of a joint: q4, below 2^23. The sum of products stays below 3 x 21845 x 32768 < 2^31. */
+static inline int32_t by_row(const int32_t row[4], int32_t x, int32_t y, int32_t z)
+{
+    return ((row[0] * x + row[1] * y + row[2] * z) >> 10) + row[3];
 }
 
 void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_influences *influences,
                           const struct smear_joint_matrix *joint)
 {
     const uint8_t *at = influences->at;
+    const int16_t *end = in + 3 * influences->count;
     uint32_t n = influences->per_vertex;
-    for (uint32_t i = influences->count; i > 0; i--, in += 3, out += 3, at += 2 * n - 1) {
+    for (; in != end; in += 3, out += 3, at += 2 * n - 1) {
         int32_t x = in[0], y = in[1], z = in[2];
         const struct smear_joint_matrix *j = joint + at[0];
-        int32_t px = (skin_row(j->basis, x, y, z) >> 10) + j->origin[0];        /* q4, below 2^23 */
-        int32_t py = (skin_row(j->basis + 3, x, y, z) >> 10) + j->origin[1];
-        int32_t pz = (skin_row(j->basis + 6, x, y, z) >> 10) + j->origin[2];
-        const uint8_t *weight = at + n;
-        if (n > 1 && weight[0] != 0) {
-            int32_t w = (int32_t)first_weight(weight, n);
-            px *= w;
-            py *= w;
-            pz *= w;
-            for (uint32_t k = 1; k < n && weight[k - 1] != 0; k++) {
-                w = weight[k - 1];
-                j = joint + at[k];
-                px += w * ((skin_row(j->basis, x, y, z) >> 10) + j->origin[0]);
-                py += w * ((skin_row(j->basis + 3, x, y, z) >> 10) + j->origin[1]);
-                pz += w * ((skin_row(j->basis + 6, x, y, z) >> 10) + j->origin[2]);
-            }
-            px = (px + 128) >> 8;
-            py = (py + 128) >> 8;
-            pz = (pz + 128) >> 8;
+        int32_t px = by_row(j->row[0], x, y, z), py = by_row(j->row[1], x, y, z), pz = by_row(j->row[2], x, y, z);
+        if (n == 1 || at[n] == 0) {
+            out[0] = clamp_step((px + 8) >> 4);
+            out[1] = clamp_step((py + 8) >> 4);
+            out[2] = clamp_step((pz + 8) >> 4);
+            continue;
         }
-        out[0] = clamp_step((px + 8) >> 4);
-        out[1] = clamp_step((py + 8) >> 4);
-        out[2] = clamp_step((pz + 8) >> 4);
+        int32_t w = first_weight(at + n, n);    /* of 256: weighted sums stay below 2^31 */
+        px *= w;
+        py *= w;
+        pz *= w;
+        for (uint32_t k = 1; k < n && (w = at[n + k - 1]) != 0; k++) {
+            j = joint + at[k];
+            px += w * by_row(j->row[0], x, y, z);
+            py += w * by_row(j->row[1], x, y, z);
+            pz += w * by_row(j->row[2], x, y, z);
+        }
+        out[0] = clamp_step((px + 2048) >> 12);
+        out[1] = clamp_step((py + 2048) >> 12);
+        out[2] = clamp_step((pz + 2048) >> 12);
     }
 }
 
@@ -83,11 +82,12 @@ void smear_skin_normals(int8_t *out, const int8_t *in, const struct smear_influe
     uint32_t n = influences->per_vertex;
     for (uint32_t i = influences->count; i > 0; i--, in += 3, out += 3, at += 2 * n - 1) {
         int32_t x = in[0], y = in[1], z = in[2], sum[3] = { 0, 0, 0 };
-        int32_t w = (int32_t)first_weight(at + n, n);
+        int32_t w = first_weight(at + n, n);
         for (uint32_t k = 0; k < n && w != 0; w = k + 1 < n ? at[n + k] : 0, k++) {
-            const int32_t *basis = joint[at[k]].basis;
-            for (int row = 0; row < 3; row++)
-                sum[row] += w * skin_row(basis + 3 * row, x, y, z);     /* at most 256 x 3 x 21845 x 127 < 2^31 */
+            for (int row = 0; row < 3; row++) {         /* at most 256 x 3 x 21845 x 128 < 2^31 */
+                const int32_t *r = joint[at[k]].row[row];
+                sum[row] += w * (r[0] * x + r[1] * y + r[2] * z);
+            }
         }
         unit_normal(out, sum[0], sum[1], sum[2]);
     }

@@ -7,10 +7,10 @@
 
 #include "fixed.h"
 
-/* From steps of the mesh at rest to steps of the posed mesh. */
+/* From steps of the mesh at rest to steps of the posed mesh. Each row: its basis, Q14, |entry| <= SMEAR_JOINT_LIMIT, so
+ * that it times a vertex stays below 2^31; then its origin in 1/16 step, +-2^22. */
 struct smear_joint_matrix {
-    int32_t basis[9];           /* Q14, |entry| <= SMEAR_JOINT_LIMIT: a row times a vertex stays below 2^31 */
-    int32_t origin[3];          /* 1/16 step, +-2^22 */
+    int32_t row[3][4];
 };
 
 #define SMEAR_JOINT_LIMIT 21845
@@ -23,7 +23,7 @@ struct smear_influences {
     uint32_t count;
 };
 
-/* out may be in. Positions are clamped to int16. About 45 instructions per vertex and joint on Cortex-M0+. */
+/* out may be in. Positions are clamped to int16. 12 products per vertex and joint, none of them wide. */
 void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_influences *influences,
                           const struct smear_joint_matrix *joint);
 

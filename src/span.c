@@ -347,11 +347,17 @@ SMEAR_INLINE void run_texels(uint32_t *color, uint16_t *depth, int32_t n, uint32
                              const uint32_t *texels, struct course course, int log2_width, int log2_height)
 {
 #if TEXELS_BY_HAND
-    if (__builtin_constant_p(log2_width) && __builtin_constant_p(log2_height)) {
+    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
         struct texel_pairs p = { dz, course.du, course.dv, 0u - course.bend_u, 0u - course.bend_v, depth + (n & ~1),
                                  color, depth, z, course.u, course.v, texels };
-        if (n >= 2)
-            pairs_by_hand(&p, log2_width, log2_height);
+        if (n >= 2) {
+            if (log2_width == 6)
+                pairs_by_hand(&p, 6, 6);
+            else if (log2_width == 7)
+                pairs_by_hand(&p, 7, 7);
+            else
+                pairs_by_hand(&p, 8, 8);
+        }
         if (n & 1)
             texel_pixel(p.color, p.depth, p.z, texels, packed_uv(p.u, p.v), log2_width, log2_height);
         return;
@@ -526,14 +532,16 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
     }
 }
 
-static void rows_texel_64(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 6, 6); }
-static void rows_texel_128(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 7, 7); }
-static void rows_texel_256(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 8, 8); }
-
 static void rows_texel_any(const struct setup *s, const struct span_rows *r)
 {
     rows_texel(s, r, s->draw->sampler.log2_width, s->draw->sampler.log2_height);
 }
+
+#if !TEXELS_BY_HAND
+static void rows_texel_64(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 6, 6); }
+static void rows_texel_128(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 7, 7); }
+static void rows_texel_256(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 8, 8); }
+#endif
 
 smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
@@ -541,16 +549,12 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
         || t->format != SMEAR_TEXEL_8888 || t->log2_width == 0 || t->log2_height == 0)
         return NULL;
-    if (t->width != t->height)
-        return rows_texel_any;
-    return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
-         : t->width == 256 ? rows_texel_256 : rows_texel_any;
-}
-#else
-smear_rows_fn *smear_rows_choose(const struct setup *s)
-{
-    (void)s;
-    return NULL;
+#if !TEXELS_BY_HAND
+    if (t->width == t->height)
+        return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
+             : t->width == 256 ? rows_texel_256 : rows_texel_any;
+#endif
+    return rows_texel_any;
 }
 #endif
 
@@ -600,28 +604,17 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
 {
-    bool linear = s->frame->linear;
+    const bool linear = s->frame->linear;
+    uint32_t c[4], d[4] = { 0, 0, 0, 0 };
     if (s->segment->shade == SHADE_FLAT) {
-        uint32_t r = pixel_red(s->color), g = pixel_green(s->color), b = pixel_blue(s->color);
-        uint32_t a = pixel_alpha(s->color);
-        if (linear) {
-            r = smear_srgb_decode[r];
-            g = smear_srgb_decode[g];
-            b = smear_srgb_decode[b];
+        for (int i = 0; i < 3; i++) {
+            uint32_t code = s->color >> (16 - 8 * i) & 255u;
+            c[i] = linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16;
         }
-        for (; n > 0; n--, texel++) {
-            uint32_t t = *texel;
-            *texel = linear ? pixel_make(code_times(pixel_alpha(t), a),
-                                         code_times_linear(pixel_red(t), r),
-                                         code_times_linear(pixel_green(t), g),
-                                         code_times_linear(pixel_blue(t), b))
-                            : pixel_make(code_times(pixel_alpha(t), a), code_times(pixel_red(t), r),
-                                         code_times(pixel_green(t), g), code_times(pixel_blue(t), b));
-        }
-        return;
+        c[3] = pixel_alpha(s->color) << 16;
+    } else {
+        channels_at(s, p, k, c, d);
     }
-    uint32_t c[4], d[4];
-    channels_at(s, p, k, c, d);
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;

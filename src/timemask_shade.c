@@ -79,9 +79,10 @@ struct course {
     int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
 };
 
-/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest, or depths
- * along them by more than a part of depth. */
-static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b)
+/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or, where texels
+ * or colours go with the surface, by more than 1/4 px: elsewhere in a large triangle so much is all there is of its motion),
+ * or depths along them by more than a part of depth. */
+static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b, bool is_plain)
 {
     int32_t change = 0, deeper = 0, size = 0;
     for (int i = 1; i < 3; i++) {
@@ -91,14 +92,14 @@ static bool shape_turns(const struct timemask_pose *a, const struct timemask_pos
         change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
         deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
     }
-    return change > size >> 3 || deeper > a->depth[0] >> TURN_LOG2;
+    return change > (is_plain ? size >> 3 : 64) || deeper > a->depth[0] >> TURN_LOG2;
 }
 
-static void course_start(struct course *c, const struct timemask_pose *const pose[3])
+static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool is_plain)
 {
     c->started = true;
     bool seen = shape_make(&c->shape, pose[1]);
-    c->turns = !seen || shape_turns(pose[0], pose[2]);
+    c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
     c->thin = false;
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
         bool at_start = shape_make(&c->start, pose[0]), at_end = shape_make(&c->end, pose[2]);
@@ -211,7 +212,8 @@ static void attribute_make(struct timemask_timed *t, const struct course *c, con
 
 /* ------------------------------------------------------------------ set-up */
 
-static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3])
+static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3],
+                        bool is_plain)
 {
     int32_t depth[3][3];
     s->depth_low = INT32_MAX;
@@ -226,8 +228,7 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
         s->depth = (struct timemask_timed){ .at = point_of(depth[1]), .change = point_of(depth[2]) - point_of(depth[0]) };
     } else {
         const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-        course_start(c, pose);
-        s->thin = c->thin;
+        course_start(c, pose, is_plain);
         timed_make(&s->depth, c, value);
     }
     int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
@@ -379,14 +380,14 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->thin = false;
     for (int k = 0; k < 3; k++)
         s->pose[k] = pose[k];
-    shade_depth(s, &course, pose);
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
-    if (!s->gouraud && s->sampler == NULL) {
-        s->thin = false;
+    const bool is_plain = !s->gouraud && s->sampler == NULL;
+    shade_depth(s, &course, pose, is_plain);
+    if (is_plain)
         return;
-    }
     if (!course.started)
-        course_start(&course, pose);
+        course_start(&course, pose, false);
+    s->thin = course.thin;
     if (s->thin) {
         shade_thin(s, record);
         return;

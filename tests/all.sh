@@ -84,6 +84,7 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
 fi
 suite golden-host $make -s TARGET=host target-test
+suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
@@ -101,6 +102,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
+    suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test

@@ -173,7 +173,8 @@ static void test_an_empty_clip_and_rest_are_the_pose_at_rest(void)
 static void test_a_model_stands_where_it_is_placed(void)
 {
     /* a quarter turn about y, half as large, at (10, 20, 30) */
-    const smear_transform place = { { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0 }, { 10 << 16, 20 << 16, 30 << 16 } };
+    const smear_transform place = { { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0 },
+                                    { 10 << 16, 20 << 16, 30 << 16 } };
     const int32_t want[12] = { 0, 0, ONE / 2, 0, ONE / 2, 0, -ONE / 2, 0, 0, 10 << 16, (20 << 16) + 32768, 29 << 16 };
     smear_actor *actor = make(&hand_model, 1);
     smear_draw draw;
@@ -284,8 +285,8 @@ static void test_one_joint_moves_a_vertex_rigidly(void)
 {
     /* a quarter turn about z, then 1000.5 steps along x */
     const struct smear_joint_matrix joint[2] = {
-        { { 16384, 0, 0, 0, 16384, 0, 0, 0, 16384 }, { 0, 0, 0 } },
-        { { 0, -16384, 0, 16384, 0, 0, 0, 0, 16384 }, { 16008, 0, 0 } },
+        { { { 16384, 0, 0, 0 }, { 0, 16384, 0, 0 }, { 0, 0, 16384, 0 } } },
+        { { { 0, -16384, 0, 16008 }, { 16384, 0, 0, 0 }, { 0, 0, 16384, 0 } } },
     };
     const int16_t in[6] = { 100, 200, 300, -32767, 32767, -5 };
     const uint8_t only[2] = { 0, 1 };
@@ -305,7 +306,8 @@ static void test_one_joint_moves_a_vertex_rigidly(void)
 }
 
 /* (sum of weight x (row v / 2^10 + origin)) / 2^12, in 64 bits */
-static int32_t skinned(const struct smear_joint_matrix *joint, const uint8_t *at, uint32_t n, int row, const int16_t v[3])
+static int32_t skinned(const struct smear_joint_matrix *joint, const uint8_t *at, uint32_t n, int row,
+                       const int16_t v[3])
 {
     int64_t sum = 0;
     int32_t first = 256;
@@ -315,11 +317,11 @@ static int32_t skinned(const struct smear_joint_matrix *joint, const uint8_t *at
         const struct smear_joint_matrix *j = joint + at[k];
         int64_t along = 0;
         for (int i = 0; i < 3; i++)
-            along += (int64_t)j->basis[3 * row + i] * v[i];
-        sum += (k == 0 ? first : at[n + k - 1]) * ((along >> 10) + j->origin[row]);
+            along += (int64_t)j->row[row][i] * v[i];
+        sum += (k == 0 ? first : at[n + k - 1]) * ((along >> 10) + j->row[row][3]);
     }
-    sum = (((sum + 128) >> 8) + 8) >> 4;
-    return (int32_t)(sum > 32767 ? 32767 : sum < -32767 ? -32767 : sum);
+    sum = (sum + 2048) >> 12;
+    return (int32_t)(sum > 32767 ? 32767 : sum < -32768 ? -32768 : sum);
 }
 
 static uint32_t state = 1;
@@ -342,9 +344,10 @@ static void test_weighted_joints_agree_with_wide_arithmetic(void)
         int32_t left = 255;
         for (int i = 0; i < 5; i++) {
             for (int k = 0; k < 9; k++)
-                joint[i].basis[k] = trial % 8 == 0 ? (random_in(0, 1) ? limit : -limit) : random_in(-limit, limit);
+                joint[i].row[k / 3][k % 3] = trial % 8 == 0 ? (random_in(0, 1) ? limit : -limit)
+                                                            : random_in(-limit, limit);
             for (int k = 0; k < 3; k++)
-                joint[i].origin[k] = random_in(-origin, origin);
+                joint[i].row[k][3] = random_in(-origin, origin);
         }
         for (uint32_t k = 0; k < n; k++)
             at[k] = (uint8_t)random_in(0, 4);
@@ -366,8 +369,8 @@ static void test_weighted_joints_agree_with_wide_arithmetic(void)
 static void test_skinned_normals_turn_and_keep_their_length(void)
 {
     const struct smear_joint_matrix joint[2] = {
-        { { 16384, 0, 0, 0, 16384, 0, 0, 0, 16384 }, { 0, 0, 0 } },
-        { { 0, -5000, 0, 5000, 0, 0, 0, 0, 5000 }, { 0, 0, 0 } },           /* smaller, a quarter about z */
+        { { { 16384, 0, 0, 0 }, { 0, 16384, 0, 0 }, { 0, 0, 16384, 0 } } },
+        { { { 0, -5000, 0, 0 }, { 5000, 0, 0, 0 }, { 0, 0, 5000, 0 } } },   /* smaller, a quarter about z */
     };
     const int8_t in[9] = { 127, 0, 0, 90, 90, 0, 0, 0, 0 };
     const uint8_t turned[3] = { 1, 1, 1 };
@@ -380,7 +383,9 @@ static void test_skinned_normals_turn_and_keep_their_length(void)
     CHECK_NEAR(out[4], 90, 1);
     CHECK_EQ(out[6] | out[7] | out[8], 0);
     /* half and half of two joints of one size: half way */
-    struct smear_joint_matrix same[2] = { joint[0], { { 0, -16384, 0, 16384, 0, 0, 0, 0, 16384 }, { 0, 0, 0 } } };
+    struct smear_joint_matrix same[2] = {
+        joint[0], { { { 0, -16384, 0, 0 }, { 16384, 0, 0, 0 }, { 0, 0, 16384, 0 } } }
+    };
     const uint8_t half[3] = { 0, 1, 128 };
     influences = (struct smear_influences){ half, 2, 1 };
     smear_skin_normals(out, in, &influences, same);

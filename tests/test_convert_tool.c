@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_convert_tool.c - models as firmware data (tools/convert): every file at hand converts, what comes out is checked,
- * opened, compiled and played by the animation module (src/anim.c), and looks like the file itself. Needs files, so it
+/* test_convert_tool.c - models as firmware data (tools/convert): every file at hand converts, and what comes out is
+ * checked, opened, compiled and played by the animation module (src/anim.c), and looks like the file itself. Needs files, so it
  * runs on hosts only; test_anim.c plays the same data on every target. */
 #include "accuracy.h"
 
@@ -335,6 +335,8 @@ static void check_blob(const struct conversion *c)
         CHECK_EQ(smear_model_open(&opened, blob, size, memory, bytes), SMEAR_OK);
         CHECK_EQ(opened.draw_count, c->model.draw_count);
         CHECK_EQ(opened.clip_count, c->model.clip_count);
+        CHECK_EQ(opened.radius, c->model.radius);
+        CHECK_EQ(opened.center[2], c->model.center[2]);
         smear_actor *a = make_actor(&c->model, 2), *b = make_actor(&opened, 2);
         for (int i = 0; a != NULL && b != NULL && i < opened.clip_count; i++) {
             const char *name = opened.text + opened.clip[i].name;
@@ -369,6 +371,33 @@ static void check_meshes(const struct conversion *c)
     }
 }
 
+/* The ball has every vertex at every time, and is not much larger than it must be. */
+static void check_ball(const struct conversion *c, const char *name)
+{
+    smear_actor *actor = make_actor(&c->model, 1);
+    double farthest = 0, radius = c->model.radius / 65536.0;
+    for (int i = 0; i < 40 * c->model.clip_count + 1; i++) {
+        smear_play play = { .rest = i == 0, .clip = (uint16_t)(i > 0 ? (i - 1) / 40 : 0) };
+        if (i > 0)
+            play.time = (int32_t)(c->model.clip[play.clip].duration / 39 * (uint32_t)((i - 1) % 40));
+        CHECK_EQ(smear_actor_advance(actor, &play), SMEAR_OK);
+        for (int k = 0; k < c->model.draw_count; k++) {
+            smear_draw draw;
+            CHECK_EQ(smear_actor_draw(actor, k, &draw), SMEAR_OK);
+            for (int v = 0; v < draw.mesh->vertex_count; v++) {
+                double p[3], sum = 0;
+                measured_point(p, &draw, v);
+                for (int axis = 0; axis < 3; axis++)
+                    sum += (p[axis] - c->model.center[axis] / 65536.0) * (p[axis] - c->model.center[axis] / 65536.0);
+                farthest = fmax(farthest, sqrt(sum));
+            }
+        }
+    }
+    CHECK_BAR(farthest, radius, name);
+    CHECK_BAR(radius, 2.2 * farthest, name);
+    free(actor);
+}
+
 static void check_file(const char *path)
 {
     struct converted_file file;
@@ -385,6 +414,7 @@ static void check_file(const char *path)
     CHECK(c->transformed <= c->transformed_in_file);
     CHECK(c->triangles <= c->triangles_in_file && c->triangles > 0);
     check_meshes(c);
+    check_ball(c, name_of(path));
     check_blob(c);
     close_file(&file);
 }
@@ -550,6 +580,8 @@ static void test_headers_compile_as_c99_and_as_cxx(void)
 
 /* ------------------------------------------------------------------ damaged blobs */
 
+enum { TABLES_AT = offsetof(struct smear_blob_head, table) };
+
 static const size_t crc_at = offsetof(struct smear_blob_head, crc32);
 
 static void set_crc(uint8_t *blob, size_t size)
@@ -639,8 +671,8 @@ static void test_every_kind_of_damage_has_its_reason(void)
     } wrong[] = {
         { -1, 0, 4, 0x12345678u, SMEAR_MODEL_ERR_MAGIC }, { -1, 4, 4, SMEAR_MODEL_FORMAT + 1, SMEAR_MODEL_ERR_FORMAT },
         { -1, 8, 4, 1u << 20, SMEAR_MODEL_ERR_SIZE }, { -1, 8, 4, 16, SMEAR_MODEL_ERR_SIZE },
-        { -1, 16, 2, 0, SMEAR_MODEL_ERR_TABLE }, { -1, 32 + 8 * BLOB_MESH, 4, 2, SMEAR_MODEL_ERR_TABLE },
-        { -1, 36 + 8 * BLOB_KEY_VALUE, 4, 1u << 31, SMEAR_MODEL_ERR_TABLE },
+        { -1, 16, 2, 0, SMEAR_MODEL_ERR_TABLE }, { -1, TABLES_AT + 8 * BLOB_MESH, 4, 2, SMEAR_MODEL_ERR_TABLE },
+        { -1, TABLES_AT + 4 + 8 * BLOB_KEY_VALUE, 4, 1u << 31, SMEAR_MODEL_ERR_TABLE },
         { BLOB_TEXTURE, 10, 2, 0, SMEAR_MODEL_ERR_TEXTURE }, { BLOB_TEXTURE, 10, 2, 4096, SMEAR_MODEL_ERR_TEXTURE },
         { BLOB_TEXTURE, 8, 2, 1, SMEAR_MODEL_ERR_TEXTURE }, { BLOB_TEXTURE, 14, 1, 3, SMEAR_MODEL_ERR_TEXTURE },
         { BLOB_MATERIAL, 0, 2, 7, SMEAR_MODEL_ERR_MATERIAL }, { BLOB_MATERIAL, 6, 1, 3, SMEAR_MODEL_ERR_MATERIAL },
@@ -988,7 +1020,8 @@ static void test_triangles_are_ordered_for_the_vertex_cache(void)
     if (CHECK(order_triangles(&mesh, false, pile, &f))) {
         for (int i = 0; i < n; i++)
             after[i] = mesh.index[i];
-        say("    vertices per triangle: %.3f, after %.3f\n", count_transforms(before, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE),
+        say("    vertices per triangle: %.3f, after %.3f\n",
+            count_transforms(before, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE),
             count_transforms(after, 2 * EDGE * EDGE) / (2.0 * EDGE * EDGE));
         CHECK(count_transforms(after, 2 * EDGE * EDGE) < 0.62 * 2 * EDGE * EDGE);
         for (int t = 0; t < 2 * EDGE * EDGE; t++) {     /* still the sheet, each triangle the same way round */

@@ -260,6 +260,8 @@ static void put_head(struct buffer *b, const smear_model *m)
     put_u16(b, m->normals);
     put_u32(b, m->deformed_vertices);
     put_u32(b, (uint32_t)m->unit_shift);
+    put_i32s(b, m->center, 3);
+    put_u32(b, (uint32_t)m->radius);
     for (int i = 0; i < 2 * BLOB_TABLES; i++)
         put_u32(b, 0);
 }
@@ -292,8 +294,8 @@ bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, 
         return fail(f, "is larger than a gigabyte");
     }
     for (size_t i = 0; i < BLOB_TABLES; i++) {
-        set_u32(&w.b, 32 + 8 * i, w.table[i].at);
-        set_u32(&w.b, 36 + 8 * i, w.table[i].count);
+        set_u32(&w.b, offsetof(struct smear_blob_head, table) + 8 * i, w.table[i].at);
+        set_u32(&w.b, offsetof(struct smear_blob_head, table) + 8 * i + 4, w.table[i].count);
     }
     set_u32(&w.b, 8, (uint32_t)w.b.size);
     set_u32(&w.b, 12, crc32_update(0, w.b.data + SMEAR_BLOB_CRC_FROM, w.b.size - SMEAR_BLOB_CRC_FROM));

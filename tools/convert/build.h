@@ -42,7 +42,6 @@ struct out_node {
     int parent;                 /* of the result, or NO_NODE */
     bool moves;
     double fixed[16];
-    double rest[16];            /* world at rest */
     double size;                /* largest column of the world's basis, at rest and in every clip */
     int exponent;               /* the device's basis is the world's x 2^-exponent */
 };
@@ -124,6 +123,7 @@ struct converter {
     int node_count, node_room;
     struct out_node *node;
     int *node_of;               /* per node of the model: node of the result that is just that, or -1 */
+    struct bounds all;          /* of everything, in the world, at all instants */
     int unit_exponent;          /* a model unit is 2^unit_exponent world units */
 
     int draw_count;

@@ -78,15 +78,15 @@ static void put_words(struct header_writer *w, const int32_t *value, int count)
         put(w, value[i] == INT32_MIN ? "%s(-2147483647 - 1)" : "%s%" PRId32, i > 0 ? ", " : "", value[i]);
 }
 
-/* A pointer member: `NAME_what_index`, or 0 where there is nothing. */
-static void put_pointer(struct header_writer *w, const char *what, int index, bool is_there)
+/* A pointer member: `NAME_what_index`, or 0 where there is nothing; then `after`. */
+static void put_pointer(struct header_writer *w, const char *what, int index, bool is_there, const char *after)
 {
     if (!is_there)
-        put(w, "0, ");
+        put(w, "0%s", after);
     else if (index >= 0)
-        put(w, "%s_%s_%d, ", w->name, what, index);
+        put(w, "%s_%s_%d%s", w->name, what, index, after);
     else
-        put(w, "%s_%s, ", w->name, what);
+        put(w, "%s_%s%s", w->name, what, after);
 }
 
 static void open_table(struct header_writer *w, const char *type, const char *what, int count)
@@ -128,8 +128,8 @@ static void put_textures(struct header_writer *w)
     for (int i = 0; i < c->texture_count; i++) {
         const smear_texture *t = &c->texture[i];
         put(w, "    { ");
-        put_pointer(w, "texels", c->same_texels[i], true);
-        put_pointer(w, "palette", c->same_texels[i], t->palette != NULL);
+        put_pointer(w, "texels", c->same_texels[i], true, ", ");
+        put_pointer(w, "palette", c->same_texels[i], t->palette != NULL, ", ");
         put(w, "%u, %u, %s, %s, %s },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v]);
     }
     close_table(w);
@@ -176,13 +176,13 @@ static void put_meshes(struct header_writer *w)
         const smear_mesh *mesh = &m->mesh[i];
         int arrays = mesh_with_arrays(m, i);
         put(w, "    { ");
-        put_pointer(w, "position", arrays, true);
-        put_pointer(w, "normal", arrays, mesh->normal != NULL);
-        put_pointer(w, "uv", arrays, mesh->uv != NULL);
-        put_pointer(w, "color", arrays, mesh->color != NULL);
-        put_pointer(w, "face_color", arrays, mesh->face_color != NULL);
-        put_pointer(w, "index", arrays, true);
-        put(w, "\n      %" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
+        put_pointer(w, "position", arrays, true, ", ");
+        put_pointer(w, "normal", arrays, mesh->normal != NULL, ", ");
+        put_pointer(w, "uv", arrays, mesh->uv != NULL, ", ");
+        put_pointer(w, "color", arrays, mesh->color != NULL, ", ");
+        put_pointer(w, "face_color", arrays, mesh->face_color != NULL, ", ");
+        put_pointer(w, "index", arrays, true, ",\n      ");
+        put(w, "%" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
             mesh->shift, mesh->uv_shift, mesh->scale);
         put_words(w, mesh->offset, 3);
         put(w, " } },\n");
@@ -313,28 +313,27 @@ static void put_model(struct header_writer *w)
     const struct conversion *c = w->c;
     const smear_model *m = &c->model;
     put(w, "static const smear_model %s_model = {\n    ", w->name);
-    put_pointer(w, "mesh", -1, m->mesh_count > 0);
-    put_pointer(w, "material", -1, m->material_count > 0);
-    put_pointer(w, "draw", -1, m->draw_count > 0);
-    put_pointer(w, "node", -1, m->node_count > 0);
-    put(w, "\n    ");
-    put_pointer(w, "joint", -1, c->joint_count > 0);
-    put_pointer(w, "skin", -1, c->skin_count > 0);
-    put_pointer(w, "influence", -1, c->influence_count > 0);
-    put_pointer(w, "target", -1, c->target_count > 0);
-    put(w, "\n    ");
-    put_pointer(w, "delta", -1, c->delta_count > 0);
-    put_pointer(w, "delta_normal", -1, c->delta_normals > 0);
-    put_pointer(w, "weight", -1, m->weight_count > 0);
-    put_pointer(w, "clip", -1, m->clip_count > 0);
-    put(w, "\n    ");
-    put_pointer(w, "channel", -1, c->channel_count > 0);
-    put_pointer(w, "key_time", -1, c->key_times > 0);
-    put_pointer(w, "key_value", -1, c->key_values > 0);
-    put_pointer(w, "text", -1, c->text_size > 0);
-    put(w, "\n    %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRId32 "\n};\n\n", m->mesh_count,
+    put_pointer(w, "mesh", -1, m->mesh_count > 0, ", ");
+    put_pointer(w, "material", -1, m->material_count > 0, ", ");
+    put_pointer(w, "draw", -1, m->draw_count > 0, ", ");
+    put_pointer(w, "node", -1, m->node_count > 0, ",\n    ");
+    put_pointer(w, "joint", -1, c->joint_count > 0, ", ");
+    put_pointer(w, "skin", -1, c->skin_count > 0, ", ");
+    put_pointer(w, "influence", -1, c->influence_count > 0, ", ");
+    put_pointer(w, "target", -1, c->target_count > 0, ",\n    ");
+    put_pointer(w, "delta", -1, c->delta_count > 0, ", ");
+    put_pointer(w, "delta_normal", -1, c->delta_normals > 0, ", ");
+    put_pointer(w, "weight", -1, m->weight_count > 0, ", ");
+    put_pointer(w, "clip", -1, m->clip_count > 0, ",\n    ");
+    put_pointer(w, "channel", -1, c->channel_count > 0, ", ");
+    put_pointer(w, "key_time", -1, c->key_times > 0, ", ");
+    put_pointer(w, "key_value", -1, c->key_values > 0, ", ");
+    put_pointer(w, "text", -1, c->text_size > 0, ",\n    ");
+    put(w, "%u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRId32 ",\n    { ", m->mesh_count,
         m->material_count, m->draw_count, m->node_count, m->clip_count, m->weight_count, m->transform_count,
         m->deformed_count, m->joint_count, m->normals, m->deformed_vertices, m->unit_shift);
+    put_words(w, m->center, 3);
+    put(w, " }, %" PRId32 "\n};\n\n", m->radius);
 }
 
 /* ------------------------------------------------------------------ names */
@@ -407,7 +406,8 @@ static void put_top(struct header_writer *w, const char *from)
         w->c->texture_count, m->node_count, m->clip_count,
         w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
     put(w, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
-           "#if SMEAR_MODEL_FORMAT != %d\n#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
+           "#if SMEAR_MODEL_FORMAT != %d\n"
+           "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
         w->upper, w->upper, SMEAR_MODEL_FORMAT);
     put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper, m->draw_count);
     put(w, "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32 ", %u, (poses))\n\n",

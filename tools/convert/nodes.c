@@ -12,7 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Places of a model lie within this many of its units; the device has room for eight times as many, for what a joint takes there. */
+/* Places of a model lie within this many of its units; the device has room for eight times as many, for what its joints
+ * take there. */
 #define MODEL_UNITS 256.0
 
 /* Q16.16 ends at 32768. */
@@ -339,6 +340,23 @@ static void bound_skinned(struct converter *c, const struct shape *s, const stru
     }
 }
 
+/* Rigid shapes where their nodes are; those without a node stand still. */
+static void bound_rigid(struct converter *c, const double (*world)[16])
+{
+    for (int i = 0; i < c->shape_count; i++) {
+        const struct shape *s = &c->shape[i];
+        for (int corner = 0; corner < 8 && s->skin < 0; corner++) {
+            const double at[3] = { (corner & 1 ? s->bounds.max : s->bounds.min)[0],
+                                   (corner & 2 ? s->bounds.max : s->bounds.min)[1],
+                                   (corner & 4 ? s->bounds.max : s->bounds.min)[2] };
+            double moved[3] = { at[0], at[1], at[2] };
+            if (s->node != NO_NODE)
+                transform_double(moved, world[s->node], at);
+            add_point(&c->all, moved);
+        }
+    }
+}
+
 static double largest_coordinate(const struct bounds *b)
 {
     double largest = 0;
@@ -381,7 +399,9 @@ bool find_bounds(struct converter *c)
     for (int i = 0; i < c->model->skin_count; i++)
         joints = joints > c->model->skin[i].joint_count ? joints : c->model->skin[i].joint_count;
     double (*joint)[16] = pile_alloc(c->pile, (size_t)joints, sizeof *joint, c->f);
-    if (joint == NULL || !list_instants(c) || !track_pose_alloc(&pose, c->model, c->f))
+    double (*world)[16] = pile_alloc(c->pile, (size_t)c->node_count, sizeof *world, c->f);
+    c->all = empty_bounds;
+    if (joint == NULL || world == NULL || !list_instants(c) || !track_pose_alloc(&pose, c->model, c->f))
         return false;
     for (int i = 0; i < c->instant_count; i++) {
         track_pose_set(&pose, c->model, c->instant[i].clip, c->instant[i].time, c->root);
@@ -390,21 +410,17 @@ bool find_bounds(struct converter *c)
                 bound_morphs(c, &c->shape[k], &pose);
         bound_skins(c, &pose, joint);
         for (int n = 0; n < c->node_count; n++) {
-            double world[16];
-            world_of(world, c, &c->node[n], &pose);
-            if (i == 0)
-                memcpy(c->node[n].rest, world, sizeof world);
-            c->node[n].size = fmax(c->node[n].size, largest_column(world));
+            world_of(world[n], c, &c->node[n], &pose);
+            c->node[n].size = fmax(c->node[n].size, largest_column(world[n]));
             for (int axis = 0; axis < 3; axis++)
-                farthest = fmax(farthest, fabs(world[12 + axis]));
+                farthest = fmax(farthest, fabs(world[n][12 + axis]));
         }
+        bound_rigid(c, (const double (*)[16])world);
     }
     track_pose_free(&pose);
     for (int i = 0; i < c->skin_count; i++)
-        farthest = fmax(farthest, largest_coordinate(&c->skin[i].out));
-    for (int i = 0; i < c->shape_count; i++)
-        if (c->shape[i].skin < 0 && c->shape[i].node == NO_NODE)
-            farthest = fmax(farthest, largest_coordinate(&c->shape[i].bounds));
+        add_bounds(&c->all, &c->skin[i].out);
+    farthest = fmax(farthest, largest_coordinate(&c->all));
     if (!(farthest <= WORLD_UNITS))
         return fail(c->f, "reaches %g units, more than %g: use --scale or --fit", farthest, WORLD_UNITS);
     c->unit_exponent = farthest > 0 ? exact_exponent(farthest / MODEL_UNITS) : 0;
@@ -422,6 +438,7 @@ bool write_nodes(struct converter *c)
     if (table == NULL || name == NULL)
         return false;
     const double factor = 7.9, place = 2047;
+    double radius = 0;
     for (int i = 0; i < c->node_count; i++) {
         struct out_node *n = &c->node[i];
         smear_model_node *out = &table[i];
@@ -454,6 +471,14 @@ bool write_nodes(struct converter *c)
     c->out->model.node = table;
     c->out->model.node_count = (uint16_t)c->node_count;
     c->out->model.unit_shift = c->unit_exponent;
+    for (int axis = 0; axis < 3; axis++) {
+        double half = (c->all.max[axis] - c->all.min[axis]) / 2;
+        radius += half * half;
+        if (!to_fixed(&c->out->model.center[axis], c->all.min[axis] + half, 16, 32767, c->f))
+            return false;
+    }
+    if (!to_fixed(&c->out->model.radius, fmin(sqrt(radius) * 1.01, 32767), 16, 32767, c->f))
+        return false;
     c->out->node_name = name;
     return true;
 }

@@ -256,5 +256,7 @@ bool order_triangles(struct raw_mesh *m, bool keep_order, struct convert_pile *p
         uses_all = uses_all && w.first[v + 1] > w.first[v];
     for (size_t i = 0; i < 3 * triangles; i++)
         index[1][i] = m->index[i];
-    return (uses_all && count_transforms(index[1], m->triangle_count) <= best) || reorder(m, order[0], index[0], pile, f);
+    if (uses_all && count_transforms(index[1], m->triangle_count) <= best)
+        return true;
+    return reorder(m, order[0], index[0], pile, f);
 }

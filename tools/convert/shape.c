@@ -379,7 +379,8 @@ static bool finish_mesh(struct converter *c, const struct shape *s, struct raw_m
         index[i] = raw->index[i];
     size_t vertices = (size_t)raw->vertex_count, triangles = (size_t)raw->triangle_count;
     smear_mesh mesh = {
-        .position = kept_copy(c, raw->position, vertices, 6, &ok), .normal = kept_copy(c, raw->normal, vertices, 3, &ok),
+        .position = kept_copy(c, raw->position, vertices, 6, &ok),
+        .normal = kept_copy(c, raw->normal, vertices, 3, &ok),
         .uv = kept_copy(c, raw->uv, vertices, 4, &ok), .color = kept_copy(c, raw->color, vertices, 4, &ok),
         .face_color = kept_copy(c, raw->face_color, triangles, 4, &ok),
         .index = kept_copy(c, raw->index, triangles, 6, &ok), .triangle_count = (uint32_t)triangles,

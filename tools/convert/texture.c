@@ -108,8 +108,8 @@ static void add_texel(struct color_sum *sum, const struct image *image, const st
 }
 
 /* The mean of the texels a triangle shows. */
-static void triangle_color(const struct shape *s, const struct image *image, const struct model_material *m, int triangle,
-                           float out[4])
+static void triangle_color(const struct shape *s, const struct image *image, const struct model_material *m,
+                           int triangle, float out[4])
 {
     const float *uv[3];
     double longest = 0;

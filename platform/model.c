@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT */
+/* model.c - a converted model on the target's display: its first clip, looped and blurred.
+ *
+ *     model show [SCREEN [FRAME]]    the clip at 30 frames per second; with FRAME, that frame, for ever
+ *     model check [SCREEN]           the CRC of 60 frames
+ *     model cost [SCREEN]            what they cost, in the units of platform.h's clock
+ *
+ * Keys: up and down nearer or farther; A sharp or blurred.
+ *
+ * The header is made by `smear convert FILE --name model -o build/model.h`; see programs.mk. */
+#include "display.h"
+#include "platform.h"
+
+#include "../tests/target_print.h"
+
+#include MODEL_HEADER
+
+#ifndef DEMO_SCREEN
+#define DEMO_SCREEN "pico"
+#endif
+
+enum { FPS = 30, FRAMES = 60 };
+
+struct model_screen {
+    const char *name;
+    smear_desc desc;
+};
+
+static const struct model_screen screens[] = {
+    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2 } },
+    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555 } },
+    { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
+    { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888 } },
+};
+
+static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
+static smear_actor *actor;
+static smear_context *ctx;
+static int32_t zoom = 158218;           /* Q16.16: how far the camera is, in radii; from 1 / tan(22.5 degrees) on */
+static bool is_sharp;
+
+static int failed(const char *what, int result)
+{
+    platform_print("model: ");
+    platform_print(what);
+    platform_print(" (error ");
+    print_signed(result);
+    platform_print(")\n");
+    return 1;
+}
+
+static bool is_word(const char *text, const char *word)
+{
+    while (*text != '\0' && *text == *word)
+        text++, word++;
+    return *text == *word;
+}
+
+/* As `smear render` looks at a file without a camera: from the right and above, the whole model in 45 degrees. */
+static smear_camera camera_for(const smear_model *model)
+{
+    static const int32_t basis[9] = {       /* columns: right, up, back along (0.5, 0.35, 1) */
+        15005998, -2241541, 7160341, 0, 16011010, 5012239, -7502999, -4483083, 14320683
+    };
+    smear_camera camera = { .focal = 158218, .near_plane = model->radius / 4 + 1 };
+    for (int i = 0; i < 9; i++)
+        camera.pose.basis[i] = basis[i];
+    int64_t distance = (int64_t)model->radius * zoom >> 16;
+    for (int i = 0; i < 3; i++)
+        camera.pose.origin[i] = model->center[i] + (int32_t)(distance * basis[3 * i + 2] >> 24);
+    return camera;
+}
+
+static int start(const struct model_screen *screen, smear_desc *desc)
+{
+    *desc = screen->desc;
+    desc->max_draws = MODEL_DRAWS;
+    desc->max_triangles = MODEL_TRIANGLES;
+    return smear_actor_init(&actor, &model_model, 2, actor_memory, sizeof actor_memory);
+}
+
+static int frame(uint32_t index, bool draw)
+{
+    const smear_camera camera = camera_for(&model_model);
+    const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
+                              .time = (int32_t)(index * 65536u / FPS) };
+    const smear_frame how = { .camera = &camera, .light = SMEAR_LIGHT_ENCODED, .shutter_degrees = 180,
+                              .method = is_sharp ? SMEAR_NONE : SMEAR_DEFAULT_METHOD };
+    int result = smear_actor_advance(actor, &play);
+    if (result == SMEAR_OK)
+        result = smear_begin(ctx, &how);
+    if (result == SMEAR_OK)
+        result = smear_actor_submit(actor, ctx);
+    return result == SMEAR_OK && draw ? smear_render(ctx) : result;
+}
+
+/* With as long a list of triangles as there is room for; about half of them face the camera. */
+static int open_context(smear_desc *desc)
+{
+    size_t room;
+    void *arena = platform_arena(&room);
+    while (smear_memory_size(desc) > room && desc->max_triangles > 16)
+        desc->max_triangles -= desc->max_triangles / 16;
+    return smear_init(&ctx, desc, arena, room);
+}
+
+static int show(const struct model_screen *screen, const char *only)
+{
+    smear_desc desc;
+    int result = start(screen, &desc);
+    if (!display_open(&desc))
+        return failed("there is no display for this screen", 0);
+    if (result == SMEAR_OK)
+        result = open_context(&desc);
+    if (result != SMEAR_OK)
+        return failed("start", result);
+    display_attach(ctx);
+    uint32_t index = 0;
+    for (const char *digit = only; digit != NULL && *digit >= '0' && *digit <= '9'; digit++)
+        index = index * 10 + (uint32_t)(*digit - '0');
+    if (only != NULL) {
+        result = frame(index == 0 ? 0 : index - 1, false);
+        if (result == SMEAR_OK)
+            result = frame(index, true);
+        if (result != SMEAR_OK)
+            return failed("frame", result);
+        display_show();
+        platform_print("shown\n");
+        while (display_wait())
+            ;
+        return 0;
+    }
+    for (unsigned before = display_keys(); result == SMEAR_OK; index++) {
+        unsigned held = display_keys(), pressed = held & ~before;
+        before = held;
+        if ((pressed & KEY_UP) != 0 && zoom > 1 << 16)
+            zoom -= zoom / 8;
+        if ((pressed & KEY_DOWN) != 0 && zoom < 8 << 16)
+            zoom += zoom / 8;
+        is_sharp ^= (pressed & KEY_A) != 0;
+        result = frame(index, true);
+        if (result == SMEAR_OK)
+            display_show();
+    }
+    return failed("frame", result);
+}
+
+static int swallow(void *user, const smear_band *band)
+{
+    (void)user;
+    (void)band;
+    smear_band_done(ctx);
+    return 0;
+}
+
+static int check(const struct model_screen *screen)
+{
+    smear_desc desc;
+    smear_stats stats;
+    uint32_t crc = 0;
+    int result = start(screen, &desc);
+    desc.flush = swallow;
+    desc.crc = 1;
+    if (result == SMEAR_OK)
+        result = open_context(&desc);
+    for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {
+        result = frame(i, true);
+        smear_get_stats(ctx, &stats);
+        crc = (crc << 1 | crc >> 31) ^ stats.crc32;
+    }
+    if (result != SMEAR_OK)
+        return failed("frame", result);
+    print_hex(crc);
+    platform_print("\n");
+    return 0;
+}
+
+static int cost(const struct model_screen *screen)
+{
+    smear_desc desc;
+    smear_stats stats;
+    uint32_t total = 0, posing = 0, drawn = 0, split = 0, moving = 0, tiles = 0;
+    int result = start(screen, &desc);
+    desc.flush = swallow;
+    if (result == SMEAR_OK)
+        result = open_context(&desc);
+    platform_clock_start();
+    for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {
+        uint32_t before = platform_clock();
+        result = frame(i, true);
+        total += platform_clock_count(platform_clock() - before);
+        smear_get_stats(ctx, &stats);
+        drawn += stats.triangles_drawn;
+        split += stats.triangles_split;
+        moving += stats.tiles_uniform + stats.tiles_complex;
+        tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
+    }
+    for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {
+        const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1, .time = (int32_t)(i * 2184) };
+        uint32_t before = platform_clock();
+        result = smear_actor_advance(actor, &play);
+        posing += platform_clock_count(platform_clock() - before);
+    }
+    if (result != SMEAR_OK)
+        return failed("frame", result);
+    uint32_t pixels = (uint32_t)desc.width * (uint32_t)desc.height;
+    platform_print(platform_clock_unit);
+    platform_print(" per frame ");
+    print_decimal(total / FRAMES);
+    platform_print(", per pixel ");
+    print_decimal(total / FRAMES / pixels);
+    platform_print(", to pose the model ");
+    print_decimal(posing / FRAMES);
+    platform_print("\ntriangles drawn ");
+    print_decimal(drawn / FRAMES);
+    platform_print(", frames in parts ");
+    print_decimal(split);
+    platform_print(", tiles moving ");
+    print_decimal(moving * 100 / (tiles > 0 ? tiles : 1));
+    platform_print(" %\nmemory: context ");
+    print_decimal((uint32_t)smear_memory_size(&desc));
+    platform_print(" for ");
+    print_decimal(desc.max_triangles);
+    platform_print(" triangles");
+    platform_print(", actor ");
+    print_decimal(sizeof actor_memory);
+    platform_print(", stack ");
+    print_decimal(platform_stack_used());
+    platform_print("\n");
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    const char *command = argc > 1 ? argv[1] : "show", *name = argc > 2 ? argv[2] : DEMO_SCREEN;
+    for (size_t i = 0; i < sizeof screens / sizeof *screens; i++)
+        if (is_word(screens[i].name, name))
+            return is_word(command, "cost")    ? cost(&screens[i])
+                 : is_word(command, "check") ? check(&screens[i])
+                                             : show(&screens[i], argc > 3 ? argv[3] : NULL);
+    return failed("no screen of this name", 0);
+}
