@@ -247,9 +247,10 @@ struct channels {
     int32_t value[3][3];
 };
 
-static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear)
+static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear,
+                          int vertices)
 {
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < vertices; i++)
         for (int c = 0; c < 3; c++) {
             uint32_t word = (uint32_t)record[i][g->color + (c >> 1)];
             int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
@@ -265,7 +266,7 @@ static bool shade_level(struct timemask_shade *s, const int32_t *const record[3]
                        | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
                        | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
     struct channels k;
-    channels_read(&k, s->segment, record, s->frame->linear);
+    channels_read(&k, s->segment, record, s->frame->linear, same ? 1 : 3);
     uint32_t code[3], sum = 0;
     for (int i = 0; i < (same ? 1 : 3); i++)
         code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], s->frame->linear);
@@ -301,7 +302,7 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c, cons
 {
     struct channels k;
     struct over_w w;
-    channels_read(&k, s->segment, record, s->frame->linear);
+    channels_read(&k, s->segment, record, s->frame->linear, 3);
     uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
     if (s->over_w)
@@ -326,7 +327,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     if (s->over_w)
         over_w_make(s, &w, c, pose);
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear);
+        channels_read(&k, s->segment, record, s->frame->linear, 3);
         shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
@@ -349,7 +350,7 @@ static void shade_thin(struct timemask_shade *s, const int32_t *const record[3])
     struct channels k;
     s->over_w = false;
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear);
+        channels_read(&k, s->segment, record, s->frame->linear, 3);
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < 3; i++)
                 s->vertex[c][i] = k.value[c][i];
