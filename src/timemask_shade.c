@@ -12,7 +12,7 @@ enum {
     LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     THIN_PX = 1,                /* triangles that turn, of less height */
-    TAPS_MAX = 8
+    TAPS_MAX = 16
 };
 
 /* ------------------------------------------------------------------ slopes */
@@ -337,11 +337,6 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     }
     attribute_make(&s->u, c, s->over_w ? &w : NULL, u);
     attribute_make(&s->v, c, s->over_w ? &w : NULL, v);
-    s->travel = 0;
-    for (int i = 0; i < 3; i++) {
-        int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
-        s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
-    }
 }
 
 /* Attributes of the vertices, to be weighed. */
@@ -389,6 +384,18 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     if (!course.started)
         course_start(&course, pose, false);
     s->thin = course.thin;
+    if (!s->gouraud)
+        for (int c = 0; c < 3; c++) {
+            uint32_t code = s->color >> (16 - 8 * c) & 255u;
+            s->light[c] = (int32_t)(frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
+        }
+    if (s->sampler != NULL) {
+        s->travel = 0;
+        for (int i = 0; i < 3; i++) {
+            int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
+            s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
+        }
+    }
     if (s->thin) {
         shade_thin(s, record);
         return;
@@ -491,86 +498,128 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 }
 
 /* Coordinates in turns or texels q16, as samplers take them. */
-static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
+struct place {
+    int32_t u, v;
+};
+
+static struct place place_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
     const struct smear_sampler *m = s->sampler;
+    struct place p;
     if (s->thin) {
         struct weights w = weights_at(s, x, y, time);
-        *u = weigh(s->vertex_u, w);
-        *v = weigh(s->vertex_v, w);
+        p = (struct place){ weigh(s->vertex_u, w), weigh(s->vertex_v, w) };
     } else {
-        *u = value_at(&s->u, x, y, time);
-        *v = value_at(&s->v, x, y, time);
-    }
-    if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
-        *u = quotient_of(&w, *u);
-        *v = quotient_of(&w, *v);
+        p = (struct place){ quotient_of(&w, value_at(&s->u, x, y, time)), quotient_of(&w, value_at(&s->v, x, y, time)) };
         if (!m->turns) {
-            *u = smear_sampler_texel_u(m, shl_wrap(*u, 2));
-            *v = smear_sampler_texel_v(m, shl_wrap(*v, 2));
+            p.u = smear_sampler_texel_u(m, shl_wrap(p.u, 2));
+            p.v = smear_sampler_texel_v(m, shl_wrap(p.v, 2));
         }
     }
-    *u = shl_wrap(*u, s->turns_shift);
-    *v = shl_wrap(*v, s->turns_shift);
+    return (struct place){ shl_wrap(p.u, s->turns_shift), shl_wrap(p.v, s->turns_shift) };
+}
+
+/* A parabola's chord from one time to another: its change; `at` becomes its value in the middle less half of that. */
+static int32_t chord_of(const struct timemask_timed *p, int32_t x, int32_t y, int32_t from, int32_t to, int32_t *at)
+{
+    struct timemask_here here = timemask_here(p, x, y);
+    int32_t middle = (from + to) >> 1;
+    int32_t change = timemask_part(add_wrap(here.change, 2 * timemask_part(p->curve, middle)), to - from);
+    *at = sub_wrap(timemask_value(p, &here, middle), change >> 1);
+    return change;
+}
+
+/* The sum of n texels along a chord. */
+struct texel_sum {
+    uint32_t red, green, blue;
+};
+
+SMEAR_INLINE void sum_texel(uint32_t texel, bool linear, uint32_t *red_blue, struct texel_sum *sum)
+{
+    if (linear) {
+        sum->red += smear_srgb_decode[pixel_red(texel)];
+        sum->green += smear_srgb_decode[pixel_green(texel)];
+        sum->blue += smear_srgb_decode[pixel_blue(texel)];
+    } else {
+        *red_blue += texel & 0xff00ffu;
+        sum->green += pixel_green(texel);
+    }
+}
+
+static void sum_texels(struct texel_sum *sum, const struct smear_sampler *m, const struct smear_texture_run *along,
+                       int32_t n, bool linear)
+{
+    uint32_t red_blue = 0;
+    *sum = (struct texel_sum){ 0, 0, 0 };
+    if (m->turns && m->format == SMEAR_TEXEL_8888) {
+        const uint32_t *texels = m->texels;
+        uint64_t at = along->at;
+        for (; n > 0; n--, at += along->step)
+            sum_texel(texels[sampler_index(m, (uint32_t)(at >> 32), (uint32_t)at)], linear, &red_blue, sum);
+    } else {
+        uint32_t texel[TAPS_MAX];
+        smear_sample(texel, m, along, 0, n);
+        for (int32_t i = 0; i < n; i++)
+            sum_texel(texel[i], linear, &red_blue, sum);
+    }
+    if (!linear) {
+        sum->red = red_blue >> 16;
+        sum->blue = red_blue & 0xffffu;
+    }
+}
+
+/* A mean of texels times light (q16, as channels; null: one), in codes. */
+SMEAR_INLINE uint32_t lit(uint32_t sum, int log2, const int32_t *light, bool linear)
+{
+    uint32_t mean = (sum + ((1u << log2) >> 1)) >> log2;
+    if (light != NULL) {
+        uint32_t l = (uint32_t)*light;
+        mean = linear ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
+    }
+    return linear ? smear_srgb_encode[mean >> 4] : mean;
 }
 
 /* The mean of texels along the run: from its start to its end, evenly. */
-static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, uint32_t run,
-                             int32_t light[3])
+static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, uint32_t run, const int32_t *light)
 {
-    uint32_t texel[TAPS_MAX];
-    const bool linear = s->frame->linear;
     const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
-    int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
+    const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
+    const int32_t from = (timemask_run_from(run) << up) - half, to = (timemask_run_to(run) << up) - half;
+    int32_t travel = s->travel * (to - from) >> TIMEMASK_TIME_LOG2, u, v, du, dv;
     int log2 = 0;
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;
-    int32_t u0, v0, u1, v1;
-    const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
-    texel_at(s, x, y, (timemask_run_from(run) << up) - half, &u0, &v0);
-    texel_at(s, x, y, (timemask_run_to(run) << up) - half, &u1, &v1);
-    int32_t du = sub_wrap(u1, u0) >> log2, dv = sub_wrap(v1, v0) >> log2;
+    if (s->over_w || s->thin) {
+        struct place p = place_at(s, x, y, from), q = place_at(s, x, y, to);
+        u = p.u;
+        v = p.v;
+        du = sub_wrap(q.u, u) >> log2;
+        dv = sub_wrap(q.v, v) >> log2;
+    } else {
+        du = shl_wrap(chord_of(&s->u, x, y, from, to, &u), s->turns_shift) >> log2;
+        dv = shl_wrap(chord_of(&s->v, x, y, from, to, &v), s->turns_shift) >> log2;
+        u = shl_wrap(u, s->turns_shift);
+        v = shl_wrap(v, s->turns_shift);
+    }
     const struct smear_texture_run along = {
-        .at = packed_uv((uint32_t)add_wrap(u0, du >> 1), (uint32_t)add_wrap(v0, dv >> 1)),
+        .at = packed_uv((uint32_t)add_wrap(u, du >> 1), (uint32_t)add_wrap(v, dv >> 1)),
         .step = packed_step((uint32_t)du, (uint32_t)dv), .bend = 0
     };
-    int32_t n = 1 << log2;
-    smear_sample(texel, s->sampler, &along, 0, n);
-    if (n == 1 && light == NULL)
-        return texel[0] & 0xffffffu;
-    uint32_t sum[3] = { 0, 0, 0 };
-    for (int32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = texel[i] >> (16 - 8 * c) & 255u;
-            sum[c] += linear ? smear_srgb_decode[code] : code;
-        }
-    uint32_t out[3];
-    for (int c = 0; c < 3; c++) {
-        uint32_t mean = (sum[c] + ((1u << log2) >> 1)) >> log2;
-        if (light != NULL) {
-            uint32_t l = (uint32_t)light[c];
-            mean = linear ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
-        }
-        out[c] = linear ? smear_srgb_encode[mean >> 4] : mean;
-    }
-    return pixel_make(0, out[0], out[1], out[2]);
+    struct texel_sum sum;
+    const bool linear = s->frame->linear;
+    sum_texels(&sum, s->sampler, &along, 1 << log2, linear);
+    const int32_t *red = light, *green = light != NULL ? light + 1 : NULL, *blue = light != NULL ? light + 2 : NULL;
+    return pixel_make(0, lit(sum.red, log2, red, linear), lit(sum.green, log2, green, linear),
+                      lit(sum.blue, log2, blue, linear));
 }
 
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run)
 {
     int32_t x = timemask_run_x(run), light[3];
-    if (s->gouraud) {
-        channels_at(s, x, y, timemask_middle(s, run), light);
-        if (s->sampler == NULL)
-            return channels_pixel(light[0], light[1], light[2], s->frame->linear);
-    } else if (s->segment->shade == SHADE_FLAT) {
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            light[c] = (int32_t)(s->frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
-        }
-    } else {
-        return texture_mean(s, x, y, run, NULL);
-    }
-    return texture_mean(s, x, y, run, light);
+    if (!s->gouraud)
+        return texture_mean(s, x, y, run, s->segment->shade == SHADE_FLAT ? s->light : NULL);
+    channels_at(s, x, y, timemask_middle(s, run), light);
+    return s->sampler != NULL ? texture_mean(s, x, y, run, light)
+                              : channels_pixel(light[0], light[1], light[2], s->frame->linear);
 }

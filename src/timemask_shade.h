@@ -36,6 +36,7 @@ struct timemask_shade {
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
+    int32_t light[3];                       /* over a texture, where it is the same everywhere */
     int32_t travel;                         /* during the segment, q8 px */
     int32_t tap;
     int32_t slots_log2;
