@@ -10,7 +10,7 @@ enum {
     LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
     LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
-    COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
+    COLOR_OFF = 64, TEXEL_OFF = 8,     /* 1/64 code, texel: what perspective may matter and be left out */
     THIN_PX = 1,                /* triangles that turn, of less height */
     TAPS_MAX = 16
 };
@@ -76,7 +76,7 @@ struct course {
     bool turns;                 /* its shape is another one at the end */
     bool thin;
     struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
-    int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
+    int32_t x, y, x_change, y_change, x_bend, y_bend;       /* the point that attributes go with: q8 px from the block's first centre */
 };
 
 /* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or, where texels
@@ -115,6 +115,8 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
     c->y = point_of(pose[1]->y);
     c->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
     c->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
+    c->x_bend = 2 * (point_of(pose[0]->x) + point_of(pose[2]->x) - 2 * c->x);
+    c->y_bend = 2 * (point_of(pose[0]->y) + point_of(pose[2]->y) - 2 * c->y);
 }
 
 /* |change| + |curve| all over the block. */
@@ -125,11 +127,12 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
 }
 
 /* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with the value v of
- * a point at c and slopes g around it; all three change with time:
+ * a point at c and slopes g around it; all three go along parabolas in time:
  *
- *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
+ *     v + v' t + v'' t^2 + (g + g' t + g'' t^2) (x - c - c' t - c'' t^2)
+ *         = v + g (x - c) + t (v' - g c' + g' (x - c)) + t^2 (v'' - g c'' - g' c' + g'' (x - c)) + ...
  *
- * A plane that changes by more than there are bits for becomes one value. */
+ * In the last term x is the middle of the block. A plane that changes by more than there are bits for becomes one value. */
 static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
     struct slopes g = slopes_of(&c->shape, value[1]);
@@ -143,7 +146,12 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
-        curve = -(((int64_t)t->change_dx * c->x_change + (int64_t)t->change_dy * c->y_change) >> 8);
+        int64_t bend_dx = 2 * ((int64_t)start.dx + end.dx - 2 * (int64_t)g.dx), bend_x = TIMEMASK_WIDTH * 128 - c->x;
+        int64_t bend_dy = 2 * ((int64_t)start.dy + end.dy - 2 * (int64_t)g.dy), bend_y = TIMEMASK_HEIGHT * 128 - c->y;
+        curve = 2 * ((int64_t)point_of(value[0]) + point_of(value[2]) - 2 * (int64_t)v)
+              + ((bend_dx * bend_x + bend_dy * bend_y
+                  - (int64_t)g.dx * c->x_bend - (int64_t)g.dy * c->y_bend
+                  - (int64_t)t->change_dx * c->x_change - (int64_t)t->change_dy * c->y_change) >> 8);
     }
     t->dx = g.dx;
     t->dy = g.dy;
@@ -340,10 +348,11 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
 }
 
 /* Attributes of the vertices, to be weighed. */
-static void shade_thin(struct timemask_shade *s, const int32_t *const record[3])
+static void shade_weighed(struct timemask_shade *s, const struct timemask_pose *const pose[3],
+                          const int32_t *const record[3])
 {
     struct channels k;
-    s->over_w = false;
+    s->over_w = !s->segment->flat_depth && s->sampler != NULL && needs_w(pose, 64 * 64, TEXEL_OFF);
     if (s->gouraud) {
         channels_read(&k, s->segment, record, s->frame->linear, 3);
         for (int c = 0; c < 3; c++)
@@ -373,7 +382,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->thin = false;
+    s->thin = s->weighed = false;
     for (int k = 0; k < 3; k++)
         s->pose[k] = pose[k];
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
@@ -384,6 +393,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     if (!course.started)
         course_start(&course, pose, false);
     s->thin = course.thin;
+    s->weighed = course.thin;
     if (!s->gouraud)
         for (int c = 0; c < 3; c++) {
             uint32_t code = s->color >> (16 - 8 * c) & 255u;
@@ -396,8 +406,8 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
             s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
         }
     }
-    if (s->thin) {
-        shade_thin(s, record);
+    if (s->weighed) {
+        shade_weighed(s, pose, record);
         return;
     }
     if (s->sampler != NULL)
@@ -444,7 +454,7 @@ static inline int32_t on_its_way(int32_t start, int32_t middle, int32_t end, int
     return middle + timemask_part(end - start + 2 * timemask_part(start + end - 2 * middle, time), time);
 }
 
-static struct weights weights_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
+static struct weights weights_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, bool over_w)
 {
     int64_t px[3], py[3];
     for (int i = 0; i < 3; i++) {
@@ -460,8 +470,21 @@ static struct weights weights_at(const struct timemask_shade *s, int32_t x, int3
     uint32_t r = recip_norm((uint32_t)((uint64_t)area << zeros >> 32));
     e1 = e1 < 0 ? 0 : e1 > area ? area : e1;
     e2 = e2 < 0 ? 0 : e2 > area - e1 ? area - e1 : e2;
-    return (struct weights){ (int32_t)(mulh_u32((uint32_t)((uint64_t)e1 << zeros >> 32), r) >> 13),
-                             (int32_t)(mulh_u32((uint32_t)((uint64_t)e2 << zeros >> 32), r) >> 13) };
+    struct weights w = { (int32_t)(mulh_u32((uint32_t)((uint64_t)e1 << zeros >> 32), r) >> 13),
+                         (int32_t)(mulh_u32((uint32_t)((uint64_t)e2 << zeros >> 32), r) >> 13) };
+    if (!over_w)
+        return w;
+    /* Each times 1/w of its vertex; below 2^31 in all. */
+    int32_t part[3] = { 65536 - w.w1 - w.w2, w.w1, w.w2 };
+    for (int i = 0; i < 3; i++) {
+        int32_t q = s->pose[1]->depth[i] + timemask_part(s->pose[2]->depth[i] - s->pose[0]->depth[i], time);
+        part[i] = (int32_t)((int64_t)max_i32(part[i], 0) * q >> 16);
+    }
+    uint32_t sum = (uint32_t)part[0] + (uint32_t)part[1] + (uint32_t)part[2] + 1u;
+    zeros = count_leading_zeros(sum);
+    r = recip_norm(sum << zeros);
+    return (struct weights){ (int32_t)(mulh_u32((uint32_t)part[1] << zeros, r) >> 13),
+                             (int32_t)(mulh_u32((uint32_t)part[2] << zeros, r) >> 13) };
 }
 
 static int32_t weigh(const int32_t a[3], struct weights w)
@@ -475,13 +498,13 @@ int32_t smear_timemask_thin_depth(const struct timemask_shade *s, int32_t x, int
     for (int i = 0; i < 3; i++)
         depth[i] = (s->pose[1]->depth[i] >> 7)
                  + timemask_part((s->pose[2]->depth[i] >> 7) - (s->pose[0]->depth[i] >> 7), time);
-    return weigh(depth, weights_at(s, x, y, time));
+    return weigh(depth, weights_at(s, x, y, time, false));
 }
 
 static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t out[3])
 {
-    if (s->thin) {
-        struct weights w = weights_at(s, x, y, time);
+    if (s->weighed) {
+        struct weights w = weights_at(s, x, y, time, s->over_w);
         for (int c = 0; c < 3; c++)
             out[c] = weigh(s->vertex[c], w);
         return;
@@ -506,8 +529,8 @@ static struct place place_at(const struct timemask_shade *s, int32_t x, int32_t 
 {
     const struct smear_sampler *m = s->sampler;
     struct place p;
-    if (s->thin) {
-        struct weights w = weights_at(s, x, y, time);
+    if (s->weighed) {
+        struct weights w = weights_at(s, x, y, time, s->over_w);
         p = (struct place){ weigh(s->vertex_u, w), weigh(s->vertex_v, w) };
     } else {
         struct quotient w = quotient_at(s, x, y, time);
@@ -590,7 +613,7 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     int log2 = 0;
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;
-    if (s->over_w || s->thin) {
+    if (s->over_w || s->weighed) {
         struct place p = place_at(s, x, y, from), q = place_at(s, x, y, to);
         u = p.u;
         v = p.v;

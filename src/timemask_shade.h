@@ -24,11 +24,11 @@ struct timemask_shade {
     const struct smear_segment *segment;
     const struct smear_sampler *sampler;    /* null: no texture */
     bool gouraud;
-    bool thin;                              /* attributes are weighed anew at each time, see timemask_shade.c */
+    bool thin, weighed;                     /* depth, and all else, are weighed anew at each time: timemask_shade.c */
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
-    const struct timemask_pose *pose[3];    /* where it is thin */
+    const struct timemask_pose *pose[3];    /* where it is weighed */
     int32_t vertex[3][3], vertex_u[3], vertex_v[3];     /* likewise: channels, coordinates */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
