@@ -2,8 +2,10 @@
 /* demo.c - the demo on every machine: a racing car and a drone, blurred.
  *
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
- *     demo check [SCREEN [STEP]]   the CRC of every frame of the loop, or of every STEPth
+ *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
+ *                                          and how much stack was used
  *     demo cost [SCREEN]           what the loop's frames cost, in the units of platform.h's clock
+ *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
  * and right a shorter or longer shutter; start stops and goes on. */
@@ -74,7 +76,7 @@ static uint32_t read_clock(void *user)
     return platform_clock();
 }
 
-static int check(const struct demo_screen *screen, uint32_t step)
+static int check(const struct demo_screen *screen, uint32_t step, bool with_stack)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
@@ -91,7 +93,14 @@ static int check(const struct demo_screen *screen, uint32_t step)
         print_hex(stats.crc32);
         platform_print("\n");
     }
-    return result == SMEAR_OK ? 0 : failed("frame", result);
+    if (result != SMEAR_OK)
+        return failed("frame", result);
+    if (with_stack) {
+        platform_print("stack ");
+        print_decimal(platform_stack_used());
+        platform_print("\n");
+    }
+    return 0;
 }
 
 static void print_row(const char *name, uint32_t count, uint32_t pixels)
@@ -163,6 +172,19 @@ static int cost(const struct demo_screen *screen)
     platform_print(", stack ");
     print_decimal(platform_stack_used());
     platform_print("\n");
+    return 0;
+}
+
+static int memory(void)
+{
+    for (int i = 0; i < demo_screen_count; i++) {
+        smear_desc desc = demo_screens[i].desc;
+        desc.flush = swallow;
+        platform_print(demo_screens[i].name);
+        platform_print(" ");
+        print_decimal((uint32_t)smear_memory_size(&desc));
+        platform_print("\n");
+    }
     return 0;
 }
 
@@ -240,8 +262,10 @@ int main(int argc, char **argv)
     if (is_word(command, "show"))
         return show(screen, argc > 3 ? argv[3] : NULL);
     if (is_word(command, "check"))
-        return check(screen, step > 0 ? step : 1);
+        return check(screen, step > 0 ? step : 1, argc > 4);
     if (is_word(command, "cost"))
         return cost(screen);
-    return failed("usage: demo [show | check | cost [SCREEN [NUMBER]]]", 0);
+    if (is_word(command, "memory"))
+        return memory();
+    return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);
 }

@@ -70,7 +70,7 @@ $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 # platform/template with one core and with two, on a board of threads; and for a real core.
 TEMPLATE_SRC := platform/template/firmware.c tests/target_template.c tools/image/crc32.c
 
-$(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
+$(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
 
 .PHONY: template-test
@@ -108,7 +108,7 @@ $(PROPS)/props.c: $(PROPS)/demo_props
 	$(PROPS)/demo_props $@
 
 $(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
-	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
 SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
@@ -117,7 +117,7 @@ SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c
 $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(SCREEN_SRC) -lm
 
-.PHONY: demo-firmware demo-run demo-cost demo-test
+.PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
 ## the demo as firmware for TARGET
 demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
@@ -129,6 +129,13 @@ demo-run: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 ## its frames and, where there is a display, screenshots against the host's
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 	RUN="$(RUN)" sh tests/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
+
+print-run:
+	@echo $(RUN)
+
+## flash, RAM and worst stack of the library on every target
+footprint:
+	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
 
 ## what its frames cost on TARGET
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)

@@ -12,7 +12,6 @@ struct preset {
     int32_t target;             /* from this error on, 1/64 codes */
     int32_t step;               /* travel from one instant to the next, 1/16 px */
     int32_t least, most;        /* instants, however short the way; and up to which they are taken */
-    int32_t pieces;             /* instants at most where triangles are there for pieces of the exposure */
     int32_t slots, edge, tap;   /* as in struct smear_timemask_settings */
 };
 
@@ -21,9 +20,9 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 64, 2, 2, 6, 8, 2, 768 },
-        { SMEAR_BALANCED, 16, 4, 0, 11, 16, 4, 512 },
-        { 0, 8, 6, 0, 20, 32, 6, 256 }
+        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768 },
+        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512 },
+        { 0, 8, 6, 0, 32, 8, 256 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -62,7 +61,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->instants = instants_for(load, chooser->samples);
     } else if (chooser->method == SMEAR_TIMEMASK) {
         if (closed_form) {
-            choose_timemask(choice, chooser->samples, 16, 6, 256);
+            choose_timemask(choice, chooser->samples, 16, 8, 256);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
@@ -75,10 +74,10 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
     } else {
         const struct preset *p = preset_of(chooser->target);
         int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
-        if (load->flags & PATH_PIECE)       /* a closed form for each piece of the exposure costs as much as an instant */
-            instants = min_i32(instants, p->pieces);
-        if (closed_form && instants > p->most && (load->flags & PATH_PIECE) == 0) {
-            choose_timemask(choice, p->slots, min_i32(chooser->target, 64), p->edge, p->tap);
+        if (closed_form && instants > p->most) {
+            /* A texture shows where its surface is all over, not only at edges. */
+            choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
+                            p->tap);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = min_i32(instants, INSTANTS_MAX);

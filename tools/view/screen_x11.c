@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* screen_x11.c - a window, through x11.h. Pictures go by MIT-SHM where the server takes it, else in
- * strips by PutImage. */
+/* screen_x11.c - a window, through x11.h. Pictures go by MIT-SHM where the server takes it, two in
+ * turn, so that one is drawn while the other is read; else in strips by PutImage. */
 #define _DEFAULT_SOURCE                 /* shared memory */
 #include "screen.h"
 
@@ -36,12 +36,14 @@ struct window {
 
     bool has_shm;
     uint8_t shm_code, shm_event;        /* of the extension */
-    uint32_t segment;           /* 0: none attached */
+    uint32_t segment;           /* 0: none attached; else it has room for two pictures */
+    int half, pending;          /* the one that is drawn into; those the server may still read */
 
     int width, height;          /* of the buffers; 0: none */
     size_t stride;              /* bytes of a row as the server wants it */
     uint8_t *bytes;             /* rows for the server: shared, or our own */
-    uint32_t *pixel;            /* what is drawn; the same memory when the layouts agree */
+    bool is_direct;             /* layouts agree: what is drawn goes there at once */
+    uint32_t *pixel;            /* else it is drawn here */
 
     int button, pointer_x, pointer_y;   /* a drag; button 0: none */
 };
@@ -194,6 +196,7 @@ static void detach_segment(struct window *w)
     x11_send(&w->x, &request, sizeof request, NULL, 0);
     shmdt(w->bytes);
     w->segment = 0;
+    w->half = w->pending = 0;
     w->bytes = NULL;
 }
 
@@ -201,8 +204,7 @@ static void detach_segment(struct window *w)
 
 static void free_buffers(struct window *w)
 {
-    if ((void *)w->pixel != (void *)w->bytes)
-        free(w->pixel);
+    free(w->pixel);
     w->pixel = NULL;
     if (w->segment != 0)
         detach_segment(w);
@@ -226,15 +228,14 @@ static bool fit_buffers(struct window *w, struct failure *f)
     size_t pad = (size_t)w->x.scanline_pad, width = (size_t)w->screen.width;
     size_t rows = (size_t)w->screen.height;
     w->stride = (width * (size_t)w->x.layout.bytes * 8 + pad - 1) / pad * pad / 8;
-    if (!w->has_shm || !attach_segment(w, w->stride * rows)) {
+    if (!w->has_shm || !attach_segment(w, w->stride * rows * 2)) {
         w->has_shm = false;
         w->bytes = malloc(w->stride * rows);
     }
-    if (layout_is_native(&w->x.layout))
-        w->pixel = (uint32_t *)(void *)w->bytes;
-    else
+    w->is_direct = layout_is_native(&w->x.layout);
+    if (!w->is_direct)
         w->pixel = malloc(width * rows * sizeof *w->pixel);
-    if (w->bytes == NULL || w->pixel == NULL) {
+    if (w->bytes == NULL || (!w->is_direct && w->pixel == NULL)) {
         free_buffers(w);
         return fail(f, "out of memory");
     }
@@ -244,14 +245,22 @@ static bool fit_buffers(struct window *w, struct failure *f)
     return true;
 }
 
+/* Where the server reads the next picture. */
+static uint8_t *picture_bytes(const struct window *w)
+{
+    return w->bytes + (size_t)w->half * w->stride * (size_t)w->height;
+}
+
 static bool window_surface(struct screen *screen, struct surface *out, struct failure *f)
 {
     struct window *w = (struct window *)screen;
     if (!fit_buffers(w, f))
         return false;
-    bool is_direct = (void *)w->pixel == (void *)w->bytes;
-    *out = (struct surface){ w->width, w->height, is_direct ? w->stride / 4 : (size_t)w->width,
-                             w->pixel };
+    /* nothing may be drawn over a picture that the server has not read yet */
+    while (w->pending > 1 && x11_wait(&w->x, w->shm_event))
+        w->pending--;
+    *out = (struct surface){ w->width, w->height, w->is_direct ? w->stride / 4 : (size_t)w->width,
+                             w->is_direct ? (uint32_t *)(void *)picture_bytes(w) : w->pixel };
     return true;
 }
 
@@ -270,10 +279,10 @@ static void put_shared(struct window *w)
     } request = { w->shm_code, SHM_PUT_IMAGE, 10, w->window, w->gc,
                   (uint16_t)(w->stride / (size_t)w->x.layout.bytes), (uint16_t)w->height, 0, 0,
                   (uint16_t)w->width, (uint16_t)w->height, 0, 0, (uint8_t)w->x.depth, Z_PIXMAP, 1,
-                  0, w->segment, 0 };
+                  0, w->segment, (uint32_t)(picture_bytes(w) - w->bytes) };
     x11_send(&w->x, &request, sizeof request, NULL, 0);
-    /* nothing may be drawn into the segment before the server has read it */
-    x11_wait(&w->x, w->shm_event);
+    w->pending++;
+    w->half = !w->half;
 }
 
 /* Strips that keep below the longest request; the round trip at the end keeps us from running ahead
@@ -304,9 +313,9 @@ static bool window_show(struct screen *screen, const struct text *text, struct f
 {
     struct window *w = (struct window *)screen;
     (void)text;
-    if ((void *)w->pixel != (void *)w->bytes)
+    if (!w->is_direct)
         for (int y = 0; y < w->height; y++)
-            layout_pack(&w->x.layout, w->bytes + (size_t)y * w->stride,
+            layout_pack(&w->x.layout, picture_bytes(w) + (size_t)y * w->stride,
                         w->pixel + (size_t)y * (size_t)w->width, w->width);
     if (w->segment != 0)
         put_shared(w);
@@ -394,6 +403,10 @@ static bool take_size(struct window *w, const uint8_t *e, struct event *out)
 /* Whether the X event is one for the viewer. */
 static bool translate(struct window *w, const uint8_t *e, struct event *out)
 {
+    if (w->segment != 0 && (e[0] & 127) == w->shm_event) {
+        w->pending -= w->pending > 0;
+        return false;
+    }
     switch (e[0] & 127) {
     case KEY_PRESS: return take_key(w, e, out);
     case BUTTON_PRESS: return take_button(w, e, out);

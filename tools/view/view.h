@@ -57,7 +57,7 @@ struct view_options {
 /* Sums over all pictures, for --times. */
 struct view_times {
     long pictures;
-    double draw_us, compose_us, show_us, event_us;
+    double draw_us, compose_us, event_us;
     double *draw, *transfer;        /* of each of the first pictures, for medians */
     int count;
 };

@@ -315,12 +315,13 @@ static void compose(struct view *v, const struct surface *s, struct text *text)
         overlay_draw(s, text);
 }
 
-static void note_times(struct view *v, double start, double composed, double shown)
+/* Waiting for a surface is part of the transfer. */
+static void note_times(struct view *v, double compose_us, double transfer_us)
 {
-    v->times.compose_us += composed - start;
-    v->times.show_us += shown - composed;
+    double shown = clock_us();
+    v->times.compose_us += compose_us;
     if (v->times.count < MEDIAN_PICTURES)
-        v->times.transfer[v->times.count++] = shown - composed;
+        v->times.transfer[v->times.count++] = transfer_us;
     v->times.pictures++;
     if (v->last_shown_us > 0.0 && shown > v->last_shown_us) {
         double fps = 1e6 / (shown - v->last_shown_us);
@@ -334,15 +335,16 @@ static bool show(struct view *v)
     struct failure f = { "" };
     struct surface s;
     struct text text;
+    double start = clock_us();
     if (!v->screen->kind->surface(v->screen, &s, &f))
         return give_up(v, v->screen->kind->name, &f);
-    double start = clock_us();
+    double waited = clock_us();
     v->place = panel_place_on(&v->look, v->width, v->height, &s);
     compose(v, &s, &text);
     double composed = clock_us();
     if (!v->screen->kind->show(v->screen, &text, &f))
         return give_up(v, v->screen->kind->name, &f);
-    note_times(v, start, composed, clock_us());
+    note_times(v, composed - waited, waited - start + clock_us() - composed);
     return true;
 }
 

@@ -18,6 +18,7 @@
 enum { ERROR = 0, REPLY = 1, GENERIC_EVENT = 35 };
 enum { INTERN_ATOM = 16, GET_INPUT_FOCUS = 43 };
 enum { TRUE_COLOR = 4, DIRECT_COLOR = 5, MAX_REPLY = 64 << 20, TCP_PORT = 6000, LONG_MS = 500 };
+enum { MAX_TRIES = 3, TRY_AGAIN_MS = 100 };
 
 /* ------------------------------------------------------------------ bytes */
 
@@ -381,6 +382,17 @@ static bool hear_greeting(struct x11 *x, const struct display *d, struct failure
     return ok;
 }
 
+static bool open_display(struct x11 *x, const struct display *d, const char *name,
+                         struct failure *f)
+{
+    *x = (struct x11){ .file = -1 };
+    x->is_local = d->host[0] == '\0' || strcmp(d->host, "unix") == 0;
+    if (x->is_local ? !connect_local(x, d) : !connect_far(x, d))
+        return fail(f, "no server at DISPLAY=%s", name);
+    greet(x, d);
+    return hear_greeting(x, d, f);
+}
+
 bool x11_connect(struct x11 *x, struct failure *f)
 {
     const char *name = getenv("DISPLAY");
@@ -390,11 +402,16 @@ bool x11_connect(struct x11 *x, struct failure *f)
         return fail(f, "DISPLAY is not set");
     if (!read_display(name, &display))
         return fail(f, "DISPLAY=%s is no display", name);
-    x->is_local = display.host[0] == '\0' || strcmp(display.host, "unix") == 0;
-    if (x->is_local ? !connect_local(x, &display) : !connect_far(x, &display))
-        return fail(f, "no server at DISPLAY=%s", name);
-    greet(x, &display);
-    return hear_greeting(x, &display, f);
+    /* a server that starts anew because its last client has gone hangs up on the next one */
+    for (int again = 0;; again++) {
+        struct failure why = { "" };
+        if (open_display(x, &display, name, &why))
+            return true;
+        if (!x->is_lost || x->file < 0 || again == MAX_TRIES)
+            return fail(f, "%s", why.text);
+        close(x->file);
+        poll(NULL, 0, TRY_AGAIN_MS);
+    }
 }
 
 void x11_disconnect(struct x11 *x)

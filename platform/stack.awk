@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+# stack.awk - worst stack of the library's functions, from gcc's call graphs.
+#
+#     awk -f stack.awk *.ci         (-fcallgraph-info=su)
+#
+# Prints "BYTES FUNCTION" for every function of the interface. What calls through a pointer can reach is
+# listed here by the file that calls; another such file, recursion, or a frame of unknown size is an
+# error. The program's own callbacks (flush, idle, clock, inspect) count nothing.
+BEGIN {
+    reach["src/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
+    reach["src/raster.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
+    is_callback["src/band.h"] = is_callback["src/band.c"] = is_callback["src/frame.c"] = 1
+}
+function field(name,    text) {
+    if (!match($0, name ": \"[^\"]*\""))
+        return ""
+    text = substr($0, RSTART, RLENGTH)
+    sub(/^[^"]*"/, "", text)
+    sub(/"$/, "", text)
+    return text
+}
+/^node:/ {
+    title = field("title")
+    label = field("label")
+    if (match(label, /[0-9]+ bytes \(/)) {
+        own[title] = substr(label, RSTART) + 0
+        if (label !~ /\(static\)/ && label !~ /\(dynamic,bounded\)/) {
+            print "stack.awk: no known size: " title
+            bad = 1
+        }
+    }
+}
+/^edge:/ {
+    from = field("sourcename")
+    to = field("targetname")
+    if (to == "__indirect_call") {
+        split(field("label"), place, ":")
+        if (place[1] in is_callback)
+            next
+        if (!(place[1] in reach)) {
+            print "stack.awk: calls through a pointer, to where? " from " (" field("label") ")"
+            bad = 1
+            next
+        }
+        to = "@" place[1]
+    }
+    if (!((from, to) in seen)) {
+        seen[from, to] = 1
+        edge[from] = edge[from] SUBSEP to
+    }
+}
+function depth(f,    callee, count, i, deepest, d) {
+    if (f in known)
+        return known[f]
+    if (busy[f]) {
+        print "stack.awk: recursion through " f
+        bad = 1
+        return 0
+    }
+    busy[f] = 1
+    count = split(edge[f], callee, SUBSEP)
+    for (i = 2; i <= count; i++) {
+        d = depth(callee[i])
+        if (d > deepest)
+            deepest = d
+    }
+    busy[f] = 0
+    return known[f] = own[f] + deepest
+}
+END {
+    for (file in reach)
+        for (f in own)
+            if (f ~ reach[file])
+                edge["@" file] = edge["@" file] SUBSEP f
+    for (f in own)
+        if (f ~ /^smear_(memory_size|init|begin|submit|render|work|filter_begin|filter_row)$/)
+            print depth(f), f | "sort -rn"
+    close("sort -rn")
+    exit bad
+}
