@@ -218,47 +218,63 @@ static void project_corner(struct smear_screen screen[KEYS], const struct smear_
     }
 }
 
-static int64_t area_at(const struct smear_screen (*corner)[KEYS], int i, int k, int key)
+/* What is left of a triangle. */
+struct polygon {
+    struct smear_clip_vertex vertex[SMEAR_CLIP_MAX];
+    struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
+    uint32_t stored[SMEAR_CLIP_MAX];    /* as in struct path_vertex */
+    int count;
+    uint8_t piece;
+};
+
+static int64_t area_at(const struct polygon *p, int i, int k, int key)
 {
-    return area_of(&corner[0][key], &corner[i][key], &corner[k][key]);
+    return area_of(&p->screen[0][key], &p->screen[i][key], &p->screen[k][key]);
+}
+
+static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int i)
+{
+    struct smear_geometry *g = b->a->geometry;
+    const struct smear_segment *s = b->segment;
+    const struct smear_clip_vertex *v = &p->vertex[i];
+    if (p->stored[i] > s->base)
+        return p->stored[i] - 1;
+    uint32_t word = g->vertex_words, *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    p->stored[i] = word + 1;
+    store_path(record, s, p->screen[i]);
+    if (s->uv != 0)
+        store_uv(record + s->uv, v->uv[0], v->uv[1]);
+    if (s->color != 0) {
+        const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
+                                      (uint16_t)v->color[3] };
+        store_color(record + s->color, channel);
+    }
+    return word;
 }
 
 /* One triangle of the fan, in the order that is clockwise when seen from its side. */
-static bool add_fan(struct path_batch *b, const struct smear_clip_vertex *polygon, uint8_t piece,
-                    const struct smear_screen (*screen)[KEYS], const int fan[3], const struct smear_face *face)
+static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], const struct smear_face *face)
 {
-    const struct smear_screen *const corner[3] = { screen[fan[0]], screen[fan[1]], screen[fan[2]] };
+    const struct smear_screen *const corner[3] = { p->screen[fan[0]], p->screen[fan[1]], p->screen[fan[2]] };
     struct smear_path_bounds bounds;
     if (!find_bounds(&bounds, b->a, b->d, corner))
         return true;
     if (!has_room(b))
         return false;
-    bounds.piece = piece;
-    if (piece != 0) {
+    bounds.piece = p->piece;
+    if (p->piece != 0) {
         bounds.flags |= PATH_PIECE;
         bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);      /* of the whole exposure */
     }
     const struct smear_segment *s = b->segment;
-    struct smear_geometry *g = b->a->geometry;
     uint16_t offset[3];
-    for (int k = 0; k < 3; k++) {
-        const struct smear_clip_vertex *v = &polygon[fan[k]];
-        uint32_t *record = g->pool + g->vertex_words;
-        offset[k] = (uint16_t)(g->vertex_words - s->base);
-        g->vertex_words += s->stride;
-        store_path(record, s, screen[fan[k]]);
-        if (s->uv != 0)
-            store_uv(record + s->uv, v->uv[0], v->uv[1]);
-        if (s->color != 0) {
-            const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
-                                          (uint16_t)v->color[3] };
-            store_color(record + s->color, channel);
-        }
-    }
-    struct smear_triangle *t = geometry_add_path(g, list_of(b, &bounds), &bounds);
+    for (int k = 0; k < 3; k++)
+        offset[k] = (uint16_t)(store_corner(b, p, fan[k]) - s->base);
+    struct smear_triangle *t = geometry_add_path(b->a->geometry, list_of(b, &bounds), &bounds);
     b->a->path_count++;
     b->a->triangles_drawn++;
-    t->segment = (uint16_t)(s - g->segment);
+    t->segment = (uint16_t)(s - b->a->geometry->segment);
     t->color = smear_face_color(b->d, s, face);
     for (int k = 0; k < 3; k++)
         t->vertex[k] = offset[k];
@@ -271,26 +287,28 @@ static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[
                     const struct smear_face *face)
 {
     const struct smear_assembly *d = b->d;
-    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
-    struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
+    struct polygon p;
     for (int i = 0; i < 3; i++)
-        polygon[i] = corner[i];
-    int count = clip_all(polygon, cut);
-    for (int i = 0; i < count; i++)
-        project_corner(screen[i], &polygon[i], cut, &b->a->viewport);
+        p.vertex[i] = corner[i];
+    p.count = clip_all(p.vertex, cut);
+    p.piece = cut->piece;
+    for (int i = 0; i < p.count; i++) {
+        project_corner(p.screen[i], &p.vertex[i], cut, &b->a->viewport);
+        p.stored[i] = 0;
+    }
     bool seen = false;
     for (int key = 0; key < KEYS && !seen; key++) {
         int64_t area = 0;
-        for (int i = 2; i < count; i++)
-            area += area_at((const struct smear_screen (*)[KEYS])screen, i - 1, i, key);
+        for (int i = 2; i < p.count; i++)
+            area += area_at(&p, i - 1, i, key);
         seen = ((area > 0) != d->mirrored) == face->back && area != 0;
     }
     if (!seen)
         return true;
     bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < count; i++) {
+    for (int i = 2; i < p.count; i++) {
         const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
-        if (!add_fan(b, polygon, cut->piece, (const struct smear_screen (*)[KEYS])screen, fan, face))
+        if (!add_fan(b, &p, fan, face))
             return false;
     }
     return true;

@@ -3,10 +3,10 @@
  *
  *     target_tapes list                        draws the golden frames here, prints GOLDEN.txt
  *     target_tapes golden OUT.c GOLDEN.txt     the same frames as tapes, all within 256 kB of RAM
- *     target_tapes small OUT.c GOLDEN.txt      those which make do with 64 kB
+ *     target_tapes small OUT.c GOLDEN.txt      those which make do with 64 kB, and little flash
  *     target_tapes bench OUT.c                 the peers' scenes at 320x240, whole and in bands
  *
- * A line of GOLDEN.txt is `TAPE FRAME CRC`; other lines are comments. `list` draws without tapes,
+ * A line of GOLDEN.txt is `TAPE FRAME CRC`, what follows is a comment. `list` draws without tapes,
  * so equal CRCs also mean that tapes lose nothing. A tape of which a frame is missing in GOLDEN.txt
  * is recorded without CRCs, and target_golden fails. */
 #include "../tools/scenes/present.h"
@@ -21,12 +21,25 @@ struct spec {
     int first, count, step;         /* frames at the scene's rate */
     smear_desc desc;                /* max_draws 0: as many as there are */
     struct present_options present; /* fps, clear and a shutter of 0 degrees are filled in */
+    bool has_large_textures;        /* not for small boards */
 };
 
 enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20, SMALL_BYTES = 64 << 10 };
 
+/* Opens and closes slowly; opens at once, and twice. */
+static const uint8_t slow_shutter[SMEAR_SHUTTER_POINTS] = {
+    0, 16, 32, 48, 64, 80, 96, 112, 128, 144, 160, 176, 192, 208, 224, 240, 255,
+    240, 224, 208, 192, 176, 160, 144, 128, 112, 96, 80, 64, 48, 32, 16, 0
+};
+static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
+    200, 200, 200, 200, 200, 200, 200, 120, 20, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255
+};
+
 /* Every method, output format, dither and light, all tile sizes, both pose models, kept poses, a
- * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. */
+ * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. Methods
+ * that look at several instants: all settings, with and without the window, still and moving
+ * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. */
 static const struct spec golden[] = {
     { "none-xrgb", "peer/E", 0, 2, 1,
       { .width = 160, .height = 120, .format = SMEAR_XRGB8888, .max_triangles = 600 },
@@ -80,6 +93,100 @@ static const struct spec golden[] = {
     { "cut", "peer/E", 4, 1, 1,
       { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 600 },
       { .cut = true } },
+
+    { "subframes-565", "suite/arena", 14, 2, 1,
+      { .width = 96, .height = 72, .tile = 16, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 1200 },
+      { .method = SMEAR_SUBFRAMES } },
+    { "subframes-leaves", "test/leaves", 6, 2, 1,
+      { .width = 89, .height = 67, .tile = 8, .format = SMEAR_XRGB8888, .sharp = 1, .timed = 1,
+        .max_triangles = 500 },
+      { .method = SMEAR_SUBFRAMES, .samples = 12, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = true },
+      .has_large_textures = true },
+    { "subframes-hills", "test/terrain", 3, 1, 1,
+      { .width = 64, .height = 48, .tile = 32, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 2000, .vertex_cache = 64 },
+      { .method = SMEAR_SUBFRAMES, .samples = 300, .shutter_poses = true } },
+    { "timemask-8", "peer/E", 2, 2, 1,
+      { .width = 96, .height = 72, .tile = 8, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 520 },
+      { .method = SMEAR_TIMEMASK, .samples = 8, .light = SMEAR_LIGHT_ENCODED } },
+    { "timemask-16", "suite/propeller", 15, 2, 1,
+      { .width = 72, .height = 72, .tile = 16, .format = SMEAR_RGB565_SWAPPED, .sharp = 1, .timed = 1,
+        .max_triangles = 900 },
+      { .method = SMEAR_TIMEMASK, .samples = 16, .shutter_poses = true } },
+    { "timemask-32", "peer/B64", 4, 2, 1,
+      { .width = 80, .height = 60, .tile = 32, .format = SMEAR_RGB555, .sharp = 1, .timed = 1,
+        .max_triangles = 1500 },
+      { .method = SMEAR_TIMEMASK, .exposure = SMEAR_TRAILING } },
+    { "timemask-skin", "suite/skin", 14, 1, 1,
+      { .width = 64, .height = 64, .tile = 16, .format = SMEAR_L8, .sharp = 1, .timed = 1,
+        .max_triangles = 1400 },
+      { .method = SMEAR_TIMEMASK, .samples = 32, .shutter_poses = true } },
+    { "timemask-morph", "suite/morph", 14, 1, 1,
+      { .width = 60, .height = 60, .tile = 64, .format = SMEAR_RGB332, .dither = SMEAR_DITHER_BLUE,
+        .sharp = 1, .timed = 1, .max_triangles = 1000 },
+      { .method = SMEAR_TIMEMASK, .samples = 16, .shutter = slow_shutter } },
+    { "timemask-leaves", "test/leaves", 6, 1, 1,
+      { .width = 64, .height = 48, .tile = 16, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 500 },
+      { .method = SMEAR_TIMEMASK, .shutter = twin_shutter }, .has_large_textures = true },
+    { "auto-draft", "peer/B64", 7, 1, 1,
+      { .width = 80, .height = 60, .reach = 8, .format = SMEAR_RGB565, .timed = 1,
+        .max_triangles = 1600 },
+      { .method = SMEAR_AUTO, .target = SMEAR_DRAFT, .shutter_degrees = 720 } },
+    { "auto-balanced", "suite/cross", 14, 2, 1,
+      { .width = 80, .height = 60, .reach = 8, .format = SMEAR_RGB565, .timed = 1,
+        .max_triangles = 1200 },
+      { .method = SMEAR_AUTO, .shutter_poses = true } },
+    { "auto-fine", "suite/arena", 14, 2, 1,
+      { .width = 101, .height = 75, .reach = 15, .tile = 32, .format = SMEAR_RGB565, .timed = 1,
+        .bands = 1, .max_triangles = 1100 },
+      { .method = SMEAR_AUTO, .target = SMEAR_FINE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = true } },
+    { "auto-drone", "demo/drone", 6, 2, 1,
+      { .width = 128, .height = 64, .tile = 8, .format = SMEAR_L1_PAGES, .sharp = 1, .timed = 1,
+        .max_triangles = 2000 },
+      { .method = SMEAR_AUTO, .light = SMEAR_LIGHT_ENCODED, .shutter_degrees = 360 } },
+    { "auto-floor", "peer/N", 2, 3, 1,
+      { .width = 96, .height = 72, .reach = 12, .format = SMEAR_RGB565, .timed = 1,
+        .max_triangles = 160 },
+      { .method = SMEAR_AUTO, .shutter_poses = true } },
+    { "auto-lorry", "suite/near", 14, 2, 2,
+      { .width = 64, .height = 64, .tile = 16, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 1400 },
+      { .method = SMEAR_AUTO, .target = SMEAR_FINE } },
+    { "auto-pass", "fail/pass", 14, 2, 1,
+      { .width = 64, .height = 48, .tile = 8, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 160 },
+      { .method = SMEAR_AUTO, .target = SMEAR_FINE, .shutter_poses = true },
+      .has_large_textures = true },
+    { "auto-ortho", "test/ortho", 2, 1, 1,
+      { .width = 96, .height = 72, .reach = 8, .format = SMEAR_L4, .timed = 1, .max_triangles = 700 },
+      { .method = SMEAR_AUTO, .exposure = SMEAR_LEADING, .shutter = slow_shutter } },
+    { "auto-textured", "suite/textured", 15, 2, 1,
+      { .width = 120, .height = 88, .reach = 16, .format = SMEAR_RGB565, .timed = 1,
+        .max_triangles = 200 },
+      { .method = SMEAR_AUTO, .shutter_degrees = 360, .shutter_poses = true } },
+    { "auto-roll", "suite/roll", 15, 1, 1,
+      { .width = 48, .height = 48, .reach = 8, .format = SMEAR_L1, .timed = 1, .max_triangles = 2400 },
+      { .method = SMEAR_AUTO, .target = SMEAR_DRAFT, .shutter_degrees = 360 } },
+    { "auto-kept", "demo/drone", 24, 3, 1,
+      { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .timed = 1,
+        .max_triangles = 1800 },
+      { .method = SMEAR_AUTO, .keep_ids = true } },
+    { "auto-parts", "peer/B64", 7, 1, 1,
+      { .width = 80, .height = 96, .reach = 8, .format = SMEAR_RGB565, .timed = 1, .max_triangles = 1000 },
+      { .method = SMEAR_AUTO, .target = SMEAR_DRAFT, .shutter_degrees = 720 } },
+    { "auto-tiny", "peer/E", 7, 2, 1,
+      { .width = 7, .height = 5, .tile = 8, .format = SMEAR_RGB565, .timed = 1, .max_triangles = 560 },
+      { .method = SMEAR_AUTO } },
+    { "auto-pixel", "peer/E", 7, 1, 1,
+      { .width = 1, .height = 1, .tile = 8, .format = SMEAR_RGB565, .sharp = 1, .timed = 1,
+        .max_triangles = 560 },
+      { .method = SMEAR_AUTO, .target = SMEAR_FINE } },
+    { "auto-cut", "peer/E", 4, 1, 1,
+      { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .timed = 1, .max_triangles = 600 },
+      { .method = SMEAR_AUTO, .cut = true } },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */
@@ -254,7 +361,14 @@ static bool draw(struct visitor *v, const struct spec *spec, int index,
     smear_get_stats(v->ctx, &stats);
     if (stats.crc32 != v->crc)
         return fail(f, "the library's CRC is not that of frame %d", index);
-    printf("%s %d %08" PRIx32 "\n", spec->name, index, v->crc);
+    printf("%s %d %08" PRIx32, spec->name, index, v->crc);
+    if (spec->desc.timed)
+        printf("    %" PRIu32 " still, %" PRIu32 " smooth, %" PRIu32 " subframes, %" PRIu32 " timemask, %" PRIu32
+               " split, %" PRIu32 " bytes", stats.tiles_none, stats.tiles_smooth, stats.tiles_subframes,
+               stats.tiles_timemask, stats.triangles_split, stats.arena_bytes);
+    printf("\n");
+    if (spec->desc.timed && stats.triangles_dropped != 0)
+        return fail(f, "%" PRIu32 " triangles are dropped", stats.triangles_dropped);
     return true;
 }
 
@@ -294,7 +408,7 @@ static bool write_tapes(const char *path, const char *golden_path, size_t limit,
         *file = spec.name;
         smear_desc desc = spec.desc;
         desc.flush = add_to_crc;
-        if (limit == 0 || smear_memory_size(&desc) <= limit)
+        if (limit == 0 || (smear_memory_size(&desc) <= limit && !spec.has_large_textures))
             ok = visit(&spec, &visitor, f);
     }
     if (ok) {

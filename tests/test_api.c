@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_api.c - the library through its public interface: arguments, order, memory, capacities, poses kept from frame
  * to frame, bands, workers and the filter alone. Host only: threads and floating point. */
-#include "smear.h"
-
+#include "rig.h"
 #include "test.h"
 
 #include <math.h>
@@ -13,244 +12,6 @@
 #include <string.h>
 
 void suite_api(void);
-
-/* ------------------------------------------------------------------ a context with everything around it */
-
-enum { GUARD = 64, PATTERN = 0xa5 };
-
-/* A context in a block with guard bytes, and all that its callbacks were given. */
-struct rig {
-    smear_desc desc;
-    smear_context *ctx;
-    uint8_t *block;             /* GUARD bytes, the context's memory, GUARD bytes */
-    size_t bytes;
-    uint8_t *picture;           /* band after band */
-    size_t picture_size, picture_room;
-    int bands, next_row;
-    bool bands_in_order;
-    int fail_at, fail_with;     /* flush of band fail_at returns fail_with; -1: none */
-    uint32_t *color;            /* inspected rows */
-    uint16_t *depth;
-    int32_t *velocity;
-    int inspected;
-};
-
-static int take_band(void *user, const smear_band *band)
-{
-    struct rig *r = user;
-    if (band->y != r->next_row || band->width != r->desc.width || band->size == 0)
-        r->bands_in_order = false;
-    r->next_row = band->y + band->height;
-    if (r->picture_size + band->size <= r->picture_room)
-        memcpy(r->picture + r->picture_size, band->pixels, band->size);
-    r->picture_size += band->size;
-    return r->bands++ == r->fail_at ? r->fail_with : 0;
-}
-
-static void take_row(void *user, int y, const uint32_t *color, const uint16_t *depth, const int32_t *velocity)
-{
-    struct rig *r = user;
-    size_t w = (size_t)r->desc.width, at = (size_t)y * w;
-    memcpy(r->color + at, color, w * sizeof *color);
-    memcpy(r->depth + at, depth, w * sizeof *depth);
-    memcpy(r->velocity + 2 * at, velocity, 2 * w * sizeof *velocity);
-    r->inspected++;
-}
-
-static smear_desc small_desc(int width, int height)
-{
-    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8, .max_triangles = 400,
-                         .max_draws = 8, .format = SMEAR_XRGB8888 };
-}
-
-/* False (and a failed check) when the context cannot be made. */
-static bool rig_open(struct rig *r, const smear_desc *desc, bool inspect)
-{
-    memset(r, 0, sizeof *r);
-    r->desc = *desc;
-    if (r->desc.flush == NULL)
-        r->desc.flush = take_band;
-    r->desc.inspect = inspect ? take_row : NULL;
-    r->desc.user = r;
-    r->fail_at = -1;
-    size_t pixels = (size_t)desc->width * (size_t)desc->height;
-    r->bytes = smear_memory_size(&r->desc);
-    r->block = malloc(r->bytes + 2 * GUARD);
-    r->picture_room = pixels * 4;
-    r->picture = calloc(pixels, 4);
-    r->color = calloc(pixels, sizeof *r->color);
-    r->depth = calloc(pixels, sizeof *r->depth);
-    r->velocity = calloc(pixels, 2 * sizeof *r->velocity);
-    if (!CHECK(r->block != NULL && r->picture != NULL && r->color != NULL && r->depth != NULL
-               && r->velocity != NULL))
-        return false;
-    memset(r->block, PATTERN, r->bytes + 2 * GUARD);
-    return CHECK(r->bytes > 0)
-        && CHECK_EQ(smear_init(&r->ctx, &r->desc, r->block + GUARD, r->bytes), SMEAR_OK);
-}
-
-static bool guards_intact(const struct rig *r)
-{
-    for (size_t i = 0; i < GUARD; i++)
-        if (r->block[i] != PATTERN || r->block[GUARD + r->bytes + i] != PATTERN)
-            return false;
-    return true;
-}
-
-static void rig_close(struct rig *r)
-{
-    if (r->block != NULL)
-        CHECK(guards_intact(r));
-    free(r->block);
-    free(r->picture);
-    free(r->color);
-    free(r->depth);
-    free(r->velocity);
-    memset(r, 0, sizeof *r);
-}
-
-static void rig_forget_output(struct rig *r)
-{
-    r->picture_size = 0;
-    r->bands = r->next_row = r->inspected = 0;
-    r->bands_in_order = true;
-}
-
-/* Begins, submits, renders; returns the first error. */
-static int rig_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count)
-{
-    rig_forget_output(r);
-    int result = smear_begin(r->ctx, frame);
-    for (int i = 0; i < count && result == SMEAR_OK; i++)
-        result = smear_submit(r->ctx, &draw[i]);
-    return result != SMEAR_OK ? result : smear_render(r->ctx);
-}
-
-/* One more frame into a fresh copy of the picture; the caller frees it. */
-static uint8_t *rig_picture(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count)
-{
-    CHECK_EQ(rig_frame(r, frame, draw, count), SMEAR_OK);
-    CHECK(r->bands_in_order && r->next_row == r->desc.height && r->picture_size <= r->picture_room);
-    uint8_t *copy = malloc(r->picture_room);
-    if (CHECK(copy != NULL))
-        memcpy(copy, r->picture, r->picture_room);
-    return copy;
-}
-
-static bool same_picture(const struct rig *r, const uint8_t *picture)
-{
-    for (size_t i = 0; i < r->picture_size; i++)
-        if (r->picture[i] != picture[i])
-            return CHECK_EQ((int64_t)i, -1);        /* where they differ */
-    return true;
-}
-
-/* ------------------------------------------------------------------ poses and cameras */
-
-static int32_t q16(double v) { return (int32_t)lrint(v * 65536); }
-static int32_t q24(double v) { return (int32_t)lrint(v * (1 << 24)); }
-
-/* Turned by `yaw` about y, then by `pitch` about x; then moved. */
-static smear_transform pose_at(double x, double y, double z, double yaw, double pitch)
-{
-    double cy = cos(yaw), sy = sin(yaw), cp = cos(pitch), sp = sin(pitch);
-    return (smear_transform){ { q24(cy), q24(sy * sp), q24(sy * cp), 0, q24(cp), q24(-sp),
-                                q24(-sy), q24(cy * sp), q24(cy * cp) },
-                              { q16(x), q16(y), q16(z) } };
-}
-
-static smear_camera camera_at(double x, double y, double z, double yaw)
-{
-    return (smear_camera){ .pose = pose_at(x, y, z, yaw, 0), .focal = 65536, .near_plane = 6554,
-                           .far_plane = 100 * 65536 };
-}
-
-/* ------------------------------------------------------------------ meshes: one step is 1/256 unit */
-
-enum { STEP = 8 };
-
-/* A square of edge 2 in the plane z = 0, seen from +z. */
-static const int16_t square_position[] = { -256, -256, 0, 256, -256, 0, 256, 256, 0, -256, 256, 0 };
-static const int16_t square_uv[] = { 0, 32767, 32767, 32767, 32767, 0, 0, 0 };
-static const uint16_t square_index[] = { 0, 1, 2, 0, 2, 3 };
-static const smear_mesh square = {
-    .position = square_position, .uv = square_uv, .index = square_index, .triangle_count = 2,
-    .vertex_count = 4, .shift = STEP
-};
-
-static const int16_t cube_position[] = {
-    -256, -256, -256, 256, -256, -256, 256, 256, -256, -256, 256, -256,
-    -256, -256, 256, 256, -256, 256, 256, 256, 256, -256, 256, 256
-};
-static const int8_t cube_normal[] = {
-    -73, -73, -73, 73, -73, -73, 73, 73, -73, -73, 73, -73, -73, -73, 73, 73, -73, 73, 73, 73, 73, -73, 73, 73
-};
-static const uint8_t cube_color[] = {
-    255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 0, 255,
-    0, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 64, 64, 64, 255
-};
-static const uint16_t cube_index[] = {
-    4, 5, 6, 4, 6, 7, 1, 0, 3, 1, 3, 2, 5, 1, 2, 5, 2, 6, 0, 4, 7, 0, 7, 3, 7, 6, 2, 7, 2, 3, 0, 1, 5, 0, 5, 4
-};
-static const smear_mesh cube = {
-    .position = cube_position, .normal = cube_normal, .color = cube_color, .index = cube_index,
-    .triangle_count = 12, .vertex_count = 8, .shift = STEP
-};
-
-static uint32_t checker[8 * 8];
-static const smear_texture checker_texture = { .texels = checker, .width = 8, .height = 8 };
-
-static void make_checker(void)
-{
-    for (uint32_t i = 0; i < 64; i++)
-        checker[i] = ((i ^ i >> 3) & 1u ? 0xffe0c020u : 0xff2040a0u) + (i << 8);
-}
-
-/* A busy scene at time t: ground that passes under the camera, two cubes, a pane of glass, a cut-out. */
-enum { SCENE_DRAWS = 5 };
-
-struct scene {
-    smear_transform pose[SCENE_DRAWS];
-    smear_material material[SCENE_DRAWS];
-    smear_draw draw[SCENE_DRAWS];
-    smear_camera camera;
-    smear_frame frame;
-};
-
-static uint32_t leaf[16 * 16];
-static const smear_texture leaf_texture = { .texels = leaf, .width = 16, .height = 16 };
-
-static void make_scene(struct scene *s, double t, int method)
-{
-    make_checker();
-    for (uint32_t i = 0; i < 256; i++)
-        leaf[i] = (i & 4u) ^ (i >> 4 & 4u) ? 0xff30b040u : 0x0030b040u;
-    memset(s, 0, sizeof *s);
-    s->pose[0] = pose_at(0, -1, -2, 0, -1.5707963);
-    for (int i = 0; i < 9; i++)
-        s->pose[0].basis[i] *= 6;
-    s->pose[1] = pose_at(-1.5 + t, 0.2, -5, t, 0.3);
-    s->pose[2] = pose_at(1.5, 0.3 - 0.5 * t, -6, -2 * t, 0.1);
-    s->pose[3] = pose_at(0.4 * t, 0, -3.5, 0.2, 0);
-    s->pose[4] = pose_at(0.5 - 0.8 * t, 0.4, -4, 0, 0);
-    s->material[0] = (smear_material){ .texture = &checker_texture };
-    s->material[2] = (smear_material){ .color = { 255, 180, 90, 255 } };
-    s->material[3] = (smear_material){ .color = { 80, 160, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1 };
-    s->material[4] = (smear_material){ .texture = &leaf_texture, .alpha = SMEAR_CUTOUT, .double_sided = 1 };
-    for (int i = 0; i < SCENE_DRAWS; i++)
-        s->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = i == 1 || i == 2 ? &cube : &square,
-                                   .material = &s->material[i], .now = &s->pose[i] };
-    s->camera = camera_at(0.1 * t, 0.1, 0, 0.05 * t);
-    s->frame = (smear_frame){ .camera = &s->camera, .method = (uint8_t)method, .clear = 0x203040 };
-}
-
-static int render_scene(struct rig *r, double t, int method)
-{
-    struct scene s;
-    make_scene(&s, t, method);
-    s.frame.camera = &s.camera;
-    return rig_frame(r, &s.frame, s.draw, SCENE_DRAWS);
-}
 
 /* ------------------------------------------------------------------ memory */
 
@@ -297,25 +58,30 @@ static void test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_
 {
     static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 64, 48 }, { 100, 70 } };
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
-        for (int variant = 0; variant < 8; variant++) {
+        for (int variant = 0; variant < 14; variant++) {
             smear_desc desc = small_desc(size[i][0], size[i][1]);
-            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant);
-            desc.sharp = variant == 1;
-            desc.bands = variant == 2 ? 1 : 0;
+            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant % 8);
+            desc.timed = variant >= 8;
+            desc.tile = (int16_t)(variant >= 10 ? 8 << (variant - 10) : 0);
+            desc.sharp = variant == 1 || variant == 9 || variant == 11;
+            desc.bands = variant == 2 ? 1 : variant == 12 ? 2 : 0;
             desc.reach = variant == 3 ? 20 : 8;
             desc.accumulate = variant == 4;
-            desc.max_triangles = variant == 5 ? 1 : 60;
+            desc.max_triangles = variant == 5 || variant == 13 ? 1 : 60;
             struct rig r;
-            if (rig_open(&r, &desc, variant & 1)) {
+            if (rig_begin(&r, &desc, variant & 1)) {
                 smear_context *other = (smear_context *)&r;
                 CHECK_EQ(smear_init(&other, &r.desc, r.block + GUARD, r.bytes - 1), SMEAR_ERR_MEMORY);
                 CHECK(other == NULL);
                 for (int k = 0; k < 3; k++) {
-                    CHECK_EQ(render_scene(&r, k * 0.2, desc.accumulate ? SMEAR_ACCUMULATE : 0), SMEAR_OK);
+                    int method = desc.accumulate ? SMEAR_ACCUMULATE : desc.timed ? SMEAR_SUBFRAMES + k : 0;
+                    if (desc.bands == 2)
+                        r.reports_sent = true;
+                    CHECK_EQ(render_scene(&r, k * 0.2, method), SMEAR_OK);
                     CHECK(guards_intact(&r));
                 }
             }
-            rig_close(&r);
+            rig_end(&r);
         }
 }
 
@@ -387,28 +153,28 @@ static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
                          .max_triangles = 1024, .vertex_cache = 64 };
     smear_desc zero = { .width = 100, .height = 80 };
     struct rig a, b;
-    if (rig_open(&a, &given, false) && rig_open(&b, &zero, false)) {
+    if (rig_begin(&a, &given, false) && rig_begin(&b, &zero, false)) {
         CHECK(a.bytes == b.bytes);
         for (int k = 0; k < 3; k++) {
             struct scene s;
             make_scene(&s, 0.3 * k, SMEAR_RECONSTRUCT);
             s.frame.samples = 8;
             s.frame.shutter_degrees = 180;
-            uint8_t *picture = rig_picture(&a, &s.frame, s.draw, SCENE_DRAWS);
+            uint8_t *picture = rig_copy(&a, &s.frame, s.draw, SCENE_DRAWS);
             CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
             same_picture(&b, picture);
             free(picture);
         }
-        rig_close(&b);
+        rig_end(&b);
     }
-    rig_close(&a);
+    rig_end(&a);
 }
 
 static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
 {
     smear_desc desc = small_desc(32, 32);
     struct rig r;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, 0);
         const smear_camera good = s.camera;
@@ -442,7 +208,12 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(r.ctx, NULL), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(NULL, &s.frame), SMEAR_ERR_ARG);
-        f = (smear_frame){ .camera = &good, .method = SMEAR_RECONSTRUCT + 1 };
+        for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO + 1; method++) {       /* desc.timed is 0 */
+            f = (smear_frame){ .camera = &good, .method = (uint8_t)method };
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
+        f = (smear_frame){ .camera = &good, .shutter = closed };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         f = (smear_frame){ .camera = &good, .method = SMEAR_ACCUMULATE };       /* desc.accumulate is 0 */
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
@@ -457,29 +228,29 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
         CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
     }
-    rig_close(&r);
+    rig_end(&r);
 
     desc.sharp = 1;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, SMEAR_RECONSTRUCT);
         CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_ERR_ARG);      /* no window */
         CHECK_EQ(render_scene(&r, 0, SMEAR_DEFAULT_METHOD), SMEAR_OK);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_every_bad_draw_is_refused_and_the_rest_is_drawn(void)
 {
     smear_desc desc = small_desc(32, 32);
     struct rig r;
-    if (!rig_open(&r, &desc, false)) {
-        rig_close(&r);
+    if (!rig_begin(&r, &desc, false)) {
+        rig_end(&r);
         return;
     }
     struct scene s;
     make_scene(&s, 0, SMEAR_NONE);
-    uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 1);
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
 
     smear_mesh mesh[12];
     int meshes = 0;
@@ -531,14 +302,14 @@ static void test_every_bad_draw_is_refused_and_the_rest_is_drawn(void)
     CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
     same_picture(&r, picture);
     free(picture);
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_calls_out_of_turn_are_refused(void)
 {
     smear_desc desc = small_desc(32, 32);
     struct rig r;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, 0);
         static const uint32_t color[32], depth[32];
@@ -561,17 +332,17 @@ static void test_calls_out_of_turn_are_refused(void)
         CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);     /* one row too many */
         CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_a_frame_begun_again_is_forgotten(void)
 {
     smear_desc desc = small_desc(32, 32);
     struct rig r;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, SMEAR_NONE);
-        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 1);
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
         CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
         for (int i = 0; i < SCENE_DRAWS; i++)
             CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
@@ -579,7 +350,7 @@ static void test_a_frame_begun_again_is_forgotten(void)
         same_picture(&r, picture);
         free(picture);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
@@ -587,10 +358,10 @@ static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
     smear_desc desc = small_desc(48, 32);
     desc.max_draws = 2;
     struct rig r;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, SMEAR_NONE);
-        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[1], 2);
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 2);
         rig_forget_output(&r);
         CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
         CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
@@ -601,7 +372,7 @@ static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
         same_picture(&r, picture);
         free(picture);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 /* ------------------------------------------------------------------ capacity */
@@ -614,7 +385,7 @@ static int compare_with_ample(const smear_desc *tight, int method)
     ample.max_triangles = 2000;
     struct rig a, b;
     int splits = -1;
-    if (rig_open(&a, &ample, false) && rig_open(&b, tight, false)) {
+    if (rig_begin(&a, &ample, false) && rig_begin(&b, tight, false)) {
         splits = 0;
         for (int k = 0; k < 3 && splits >= 0; k++) {
             smear_stats sa, sb;
@@ -630,9 +401,9 @@ static int compare_with_ample(const smear_desc *tight, int method)
             else if (same_picture(&a, b.picture))
                 splits += (int)sb.triangles_split;
         }
-        rig_close(&b);
+        rig_end(&b);
     }
-    rig_close(&a);
+    rig_end(&a);
     return splits;
 }
 
@@ -680,16 +451,17 @@ static smear_mesh make_heap(void)
 
 static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
     smear_mesh heap = make_heap();
-    for (int m = 0; m < 2; m++)
+    for (int m = 0; m < 5; m++)
         for (int alpha = SMEAR_OPAQUE; alpha <= SMEAR_BLEND; alpha += SMEAR_BLEND) {
             struct rig ample, tight;
             smear_desc desc = small_desc(64, 128);
             desc.max_triangles = 2000;
+            desc.timed = method[m] >= SMEAR_SUBFRAMES;
             smear_desc small = desc;
-            small.max_triangles = 220;
-            if (rig_open(&ample, &desc, false) && rig_open(&tight, &small, false)) {
+            small.max_triangles = desc.timed ? 150 : 220;
+            if (rig_begin(&ample, &desc, false) && rig_begin(&tight, &small, false)) {
                 for (int k = 0; k < 3; k++) {
                     smear_transform pose = pose_at(0.1 * k, 0, -2, 0.1 * k, 0);
                     smear_material material = { .color = { 255, 255, 255, 100 }, .alpha = (uint8_t)alpha };
@@ -700,13 +472,13 @@ static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
                     CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
                     smear_stats stats;
                     smear_get_stats(tight.ctx, &stats);
-                    CHECK(stats.triangles_split > 1);
+                    CHECK(stats.triangles_split >= (desc.timed ? 1u : 2u));
                     CHECK_EQ(stats.triangles_dropped, 0);
                     same_picture(&ample, tight.picture);
                 }
-                rig_close(&tight);
+                rig_end(&tight);
             }
-            rig_close(&ample);
+            rig_end(&ample);
         }
 }
 
@@ -716,7 +488,7 @@ static void test_a_row_that_does_not_fit_drops_triangles_and_counts_them(void)
     struct rig r;
     smear_desc desc = small_desc(64, 16);
     desc.max_triangles = 8;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         smear_transform pose = pose_at(0, 0, -2, 0, 0);
         smear_camera camera = camera_at(0, 0, 0, 0);
         smear_draw d = { .mesh = &heap, .now = &pose };
@@ -729,7 +501,7 @@ static void test_a_row_that_does_not_fit_drops_triangles_and_counts_them(void)
         CHECK_EQ(stats.triangles_in, 300);
         CHECK(r.bands_in_order && r.next_row == 16);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_the_size_of_the_vertex_cache_changes_no_pixel(void)
@@ -739,7 +511,7 @@ static void test_the_size_of_the_vertex_cache_changes_no_pixel(void)
         struct rig r;
         smear_desc desc = small_desc(96, 72);
         desc.vertex_cache = (uint16_t)cache;
-        if (rig_open(&r, &desc, false)) {
+        if (rig_begin(&r, &desc, false)) {
             for (int k = 0; k < 3; k++) {
                 CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
                 if (picture[k] == NULL) {
@@ -750,7 +522,7 @@ static void test_the_size_of_the_vertex_cache_changes_no_pixel(void)
                 }
             }
         }
-        rig_close(&r);
+        rig_end(&r);
     }
     for (int k = 0; k < 3; k++)
         free(picture[k]);
@@ -764,15 +536,15 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
     enum { WILD = sizeof wild / sizeof wild[0] };
     struct rig r;
     smear_desc desc = small_desc(40, 24);
-    desc.accumulate = 1;
-    if (!rig_open(&r, &desc, true)) {
-        rig_close(&r);
+    desc.accumulate = desc.timed = 1;
+    if (!rig_begin(&r, &desc, true)) {
+        rig_end(&r);
         return;
     }
     uint32_t random = 1;
-    for (int n = 0; n < 1500; n++) {
+    for (int n = 0; n < 2400; n++) {
         struct scene s;
-        make_scene(&s, 0.1 * (n % 7), 1 + n % 3);
+        make_scene(&s, 0.1 * (n % 7), 1 + n % 6);
         for (int i = 0; i < SCENE_DRAWS; i++)
             for (int e = 0; e < 12; e++) {
                 random = random * 1664525u + 1013904223u;
@@ -809,13 +581,13 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
     }
     /* And then a plain frame as ever. */
     struct rig fresh;
-    if (rig_open(&fresh, &desc, true)) {
+    if (rig_begin(&fresh, &desc, true)) {
         CHECK_EQ(render_scene(&fresh, 0.1, SMEAR_NONE), SMEAR_OK);
         CHECK_EQ(render_scene(&r, 0.1, SMEAR_NONE), SMEAR_OK);
         same_picture(&r, fresh.picture);
     }
-    rig_close(&fresh);
-    rig_close(&r);
+    rig_end(&fresh);
+    rig_end(&r);
 }
 
 static void test_frames_of_every_shape_are_covered_by_bands_in_order(void)
@@ -828,7 +600,7 @@ static void test_frames_of_every_shape_are_covered_by_bands_in_order(void)
             smear_desc desc = small_desc(size[i][0], size[i][1]);
             desc.format = (uint8_t)format;
             desc.reach = (int16_t)(format % 2 ? 0 : 3);
-            if (rig_open(&r, &desc, true)) {
+            if (rig_begin(&r, &desc, true)) {
                 for (int k = 0; k < 2; k++) {
                     CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
                     CHECK(r.bands_in_order);
@@ -836,7 +608,7 @@ static void test_frames_of_every_shape_are_covered_by_bands_in_order(void)
                     CHECK_EQ(r.inspected, size[i][1]);
                 }
             }
-            rig_close(&r);
+            rig_end(&r);
         }
 }
 
@@ -845,11 +617,11 @@ static void test_an_index_out_of_range_drops_its_triangle_only(void)
     static const uint16_t index[] = { 0, 1, 4, 0, 1, 2, 65535, 0, 1, 0, 2, 3 };
     struct rig r;
     smear_desc desc = small_desc(48, 48);
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, SMEAR_NONE);
         smear_mesh mesh = square;
-        uint8_t *picture = rig_picture(&r, &s.frame, &s.draw[4], 1);
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[4], 1);
         mesh.index = index;
         mesh.triangle_count = 4;
         s.draw[4].mesh = &mesh;
@@ -861,14 +633,14 @@ static void test_an_index_out_of_range_drops_its_triangle_only(void)
         CHECK_EQ(stats.triangles_in, 4);
         free(picture);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
 {
     struct rig r;
     smear_desc desc = small_desc(16, 16);
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         struct scene s;
         make_scene(&s, 0, 0);
         smear_mesh empty = square, no_vertex = square;
@@ -880,14 +652,14 @@ static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
         for (size_t i = 0; i < 16 * 16; i++)
             CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
 {
     struct rig here, there;
     smear_desc desc = small_desc(96, 72);
-    if (rig_open(&here, &desc, false) && rig_open(&there, &desc, false)) {
+    if (rig_begin(&here, &desc, false) && rig_begin(&there, &desc, false)) {
         for (int k = 0; k < 3; k++) {
             struct scene s;
             make_scene(&s, 0.3 * k, 0);
@@ -901,22 +673,26 @@ static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
             CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
             same_picture(&here, there.picture);
         }
-        rig_close(&there);
+        rig_end(&there);
     }
-    rig_close(&here);
+    rig_end(&here);
 }
 
 /* ------------------------------------------------------------------ flush */
 
 static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT };
-    for (int m = 0; m < 3; m++) {
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
+                                      SMEAR_AUTO, SMEAR_AUTO };
+    for (int m = 0; m < 7; m++) {
         struct rig r, fresh;
         smear_desc desc = small_desc(48, 64);
-        desc.accumulate = 1;
-        if (rig_open(&r, &desc, false) && rig_open(&fresh, &desc, false)) {
+        desc.accumulate = desc.timed = 1;
+        desc.bands = m & 1 ? 2 : 1;
+        desc.sharp = m == 6;
+        if (rig_begin(&r, &desc, false) && rig_begin(&fresh, &desc, false)) {
             int bands = 0;
+            r.reports_sent = fresh.reports_sent = desc.bands == 2;
             for (int k = 0; k < 12; k++) {
                 CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
                 bands = fresh.bands;
@@ -936,9 +712,9 @@ static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void
             r.fail_with = 5;                        /* not negative: goes on */
             CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
             CHECK_EQ(r.bands, bands);
-            rig_close(&fresh);
+            rig_end(&fresh);
         }
-        rig_close(&r);
+        rig_end(&r);
     }
 }
 
@@ -996,21 +772,22 @@ static void yield(void *user)
 
 static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
 {
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT };
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_AUTO };
     struct rig one, two;
     smear_desc desc = small_desc(64, 50);
+    desc.timed = 1;
     smear_desc twice = desc;
     twice.bands = 2;
     twice.flush = hand_to_slow_display;
     twice.idle = yield;
-    if (rig_open(&one, &desc, false) && rig_open(&two, &twice, false)) {
+    if (rig_begin(&one, &desc, false) && rig_begin(&two, &twice, false)) {
         memset(&display, 0, sizeof display);
         display.rig = &two;
         pthread_t thread;
         if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
             for (int k = 0; k < 8; k++) {
-                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 1]), SMEAR_OK);
-                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 1]), SMEAR_OK);
+                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 3]), SMEAR_OK);
+                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 3]), SMEAR_OK);
                 same_picture(&one, two.picture);
             }
             atomic_store(&display.over, true);
@@ -1018,9 +795,9 @@ static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void
             CHECK(!display.overwritten);
             CHECK_EQ(atomic_load(&display.sent), 8 * 7);
         }
-        rig_close(&two);
+        rig_end(&two);
     }
-    rig_close(&one);
+    rig_end(&one);
 }
 
 /* ------------------------------------------------------------------ workers */
@@ -1040,20 +817,21 @@ static void *help(void *argument)
 
 static void test_any_number_of_workers_draws_the_same_picture(void)
 {
-    enum { FRAMES = 6 };
-    static const uint8_t method[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE };
+    enum { FRAMES = 9, METHODS = 6 };
+    static const uint8_t method[METHODS] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES,
+                                             SMEAR_TIMEMASK, SMEAR_AUTO };
     uint8_t *picture[FRAMES] = { NULL };
     smear_stats first[FRAMES];
     for (int workers = 1; workers <= 8; workers++) {
         struct rig r;
         smear_desc desc = small_desc(150, 60);
         desc.workers = (uint8_t)workers;
-        desc.accumulate = 1;
+        desc.accumulate = desc.timed = 1;
         desc.crc = 1;
         desc.max_triangles = 50;
         desc.idle = yield;
         desc.format = SMEAR_RGB565;
-        if (rig_open(&r, &desc, false)) {
+        if (rig_begin(&r, &desc, false)) {
             pthread_t thread[8];
             struct helper helper[8];
             for (int i = 1; i < workers; i++) {
@@ -1062,7 +840,7 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
             }
             for (int k = 0; k < FRAMES; k++) {
                 smear_stats stats;
-                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % 3]), SMEAR_OK);
+                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % METHODS]), SMEAR_OK);
                 smear_get_stats(r.ctx, &stats);
                 if (workers == 1) {
                     first[k] = stats;
@@ -1074,12 +852,14 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
                     CHECK_EQ(stats.samples, first[k].samples);
                     CHECK_EQ(stats.triangles_drawn, first[k].triangles_drawn);
                     CHECK_EQ(stats.tiles_complex, first[k].tiles_complex);
+                    CHECK_EQ(stats.tiles_smooth, first[k].tiles_smooth);
+                    CHECK_EQ(stats.tiles_subframes, first[k].tiles_subframes);
                 }
             }
             for (int i = 1; i < workers; i++)
                 pthread_join(thread[i], NULL);
         }
-        rig_close(&r);
+        rig_end(&r);
     }
     for (int k = 0; k < FRAMES; k++)
         free(picture[k]);
@@ -1090,13 +870,13 @@ static void test_work_of_an_index_that_is_no_helper_returns_at_once(void)
     struct rig r;
     smear_desc desc = small_desc(16, 16);
     desc.workers = 2;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         smear_work(NULL, 1);
         smear_work(r.ctx, 0);
         smear_work(r.ctx, 2);
         smear_work(r.ctx, -1);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 /* ------------------------------------------------------------------ motion */
@@ -1112,7 +892,7 @@ static bool motion_open(struct rig *r)
     smear_desc desc = small_desc(MOTION_W, MOTION_H);
     /* focal 1: 32 px per unit at distance 1; the square lies at distance 4, 8 px per unit. */
     motion_camera = camera_at(0, 0, 0, 0);
-    return rig_open(r, &desc, true);
+    return rig_begin(r, &desc, true);
 }
 
 /* The square at (x, y); z is -4 unless a test moves it. */
@@ -1180,7 +960,7 @@ static void test_a_known_draw_moves_and_unknown_ones_stand_still(void)
         moving_square(&r, 7, &other, plain, v);         /* first sight of this id */
         CHECK(all_still(&r));
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_a_cut_of_the_camera_stops_everything_for_one_frame(void)
@@ -1201,14 +981,14 @@ static void test_a_cut_of_the_camera_stops_everything_for_one_frame(void)
             make_scene(&s, 0.3, k == 0 ? SMEAR_NONE : SMEAR_RECONSTRUCT);
             s.frame.cut = 1;
             if (k == 0)
-                sharp = rig_picture(&r, &s.frame, s.draw, SCENE_DRAWS);
+                sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
             else
                 CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
         }
         same_picture(&r, sharp);
         free(sharp);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own(void)
@@ -1227,7 +1007,7 @@ static void test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_
             CHECK_NEAR(r.velocity[2 * second], k <= 5 ? 0 : 512, STEPS);
         }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
@@ -1264,7 +1044,7 @@ static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
         for (int i = 0; i < 4; i++)
             CHECK_NEAR(v[i][1], 0, STEPS);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_motion_none_writes_zero_over_what_moves_behind_it(void)
@@ -1289,7 +1069,7 @@ static void test_motion_none_writes_zero_over_what_moves_behind_it(void)
                 CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 44)], k == 1 ? 256 : -256 * order, STEPS);
             }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_given_poses_win_over_kept_ones(void)
@@ -1313,7 +1093,7 @@ static void test_given_poses_win_over_kept_ones(void)
         motion_frame(&r, &f, &d, 1, 32, 32, v);
         CHECK_NEAR(v[0], -512, STEPS);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_shutter_poses_are_scaled_to_a_frame(void)
@@ -1340,7 +1120,7 @@ static void test_shutter_poses_are_scaled_to_a_frame(void)
             CHECK(all_still(&r));
         }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_deformed_meshes_move_vertex_by_vertex(void)
@@ -1363,7 +1143,7 @@ static void test_deformed_meshes_move_vertex_by_vertex(void)
         motion_frame(&r, &f, &d, 1, 32, 25, v);
         CHECK_EQ(v[0], 0);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_what_was_behind_the_camera_moves_in_the_right_direction(void)
@@ -1381,7 +1161,7 @@ static void test_what_was_behind_the_camera_moves_in_the_right_direction(void)
         for (int i = 0; i < MOTION_W * MOTION_H; i++)
             CHECK(abs(r.velocity[2 * i]) <= 1 << 22 && abs(r.velocity[2 * i + 1]) <= 1 << 22);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 /* ------------------------------------------------------------------ methods */
@@ -1393,12 +1173,12 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
         for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
             struct rig r;
             smear_desc desc = small_desc(size[i][0], size[i][1]);
-            desc.accumulate = 1;
-            if (rig_open(&r, &desc, false)) {
+            desc.accumulate = desc.timed = 1;
+            if (rig_begin(&r, &desc, false)) {
                 struct scene s;
                 make_scene(&s, 0.2, SMEAR_NONE);
                 s.frame.light = (uint8_t)light;
-                uint8_t *sharp = rig_picture(&r, &s.frame, s.draw, SCENE_DRAWS);
+                uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
                 for (int n = 1; n <= 1024; n = n * 7 + 1) {
                     s.frame.method = SMEAR_RECONSTRUCT;
                     s.frame.samples = (uint16_t)n;
@@ -1409,6 +1189,16 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
                     smear_get_stats(r.ctx, &stats);
                     CHECK_EQ(stats.samples, 0);
                     CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                    for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
+                        s.frame.method = (uint8_t)method;
+                        s.frame.target = (uint16_t)n;
+                        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                        same_picture(&r, sharp);
+                        smear_get_stats(r.ctx, &stats);
+                        CHECK_EQ(stats.samples, 0);
+                        CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                        CHECK_EQ(stats.tiles_none, stats.tiles_still);
+                    }
                     if (n > 100)
                         continue;
                     s.frame.method = SMEAR_ACCUMULATE;
@@ -1417,7 +1207,7 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
                 }
                 free(sharp);
             }
-            rig_close(&r);
+            rig_end(&r);
         }
 }
 
@@ -1427,10 +1217,10 @@ static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
     struct rig windowed;
     smear_desc desc = small_desc(100, 70);
     desc.format = SMEAR_L1_PAGES;
-    if (rig_open(&windowed, &desc, false)) {
+    if (rig_begin(&windowed, &desc, false)) {
         struct scene s;
         make_scene(&s, 0.4, SMEAR_NONE);
-        uint8_t *picture = rig_picture(&windowed, &s.frame, s.draw, SCENE_DRAWS);
+        uint8_t *picture = rig_copy(&windowed, &s.frame, s.draw, SCENE_DRAWS);
         for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
             for (int tile = 8; tile <= 64; tile *= 2) {
                 struct rig r;
@@ -1439,17 +1229,17 @@ static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
                 sharp.band_rows = rows[i];
                 sharp.tile = (int16_t)tile;
                 sharp.max_triangles = i & 1 ? 60 : 400;
-                if (rig_open(&r, &sharp, false)) {
+                if (rig_begin(&r, &sharp, false)) {
                     CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
                     CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
                     CHECK(r.bands_in_order && r.next_row == 70);
                     same_picture(&r, picture);
                 }
-                rig_close(&r);
+                rig_end(&r);
             }
         free(picture);
     }
-    rig_close(&windowed);
+    rig_end(&windowed);
 }
 
 static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
@@ -1457,7 +1247,7 @@ static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
     struct rig a, b;
     smear_desc desc = small_desc(80, 60);
     desc.crc = 1;
-    if (rig_open(&a, &desc, false) && rig_open(&b, &desc, true)) {
+    if (rig_begin(&a, &desc, false) && rig_begin(&b, &desc, true)) {
         memset(b.picture, 0, b.picture_room);
         for (int k = 0; k < 6; k++) {
             smear_stats sa, sb;
@@ -1469,9 +1259,9 @@ static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
             CHECK_EQ(sa.crc32, sb.crc32);
             CHECK_EQ(sa.samples, sb.samples);
         }
-        rig_close(&b);
+        rig_end(&b);
     }
-    rig_close(&a);
+    rig_end(&a);
 }
 
 /* CRC-32 bit by bit. */
@@ -1495,7 +1285,7 @@ static void test_statistics_add_up(void)
         desc.format = (uint8_t)format;
         desc.crc = 1;
         desc.accumulate = 1;
-        if (rig_open(&r, &desc, false))
+        if (rig_begin(&r, &desc, false))
             for (int k = 0; k < 6; k++) {
                 smear_stats s;
                 CHECK_EQ(render_scene(&r, 0.3 * k, method[k % 3]), SMEAR_OK);
@@ -1526,7 +1316,7 @@ static void test_statistics_add_up(void)
                 if (method[k % 3] == SMEAR_ACCUMULATE)
                     CHECK_EQ(s.samples, 8 * 70 * 50);
             }
-        rig_close(&r);
+        rig_end(&r);
     }
 }
 
@@ -1542,7 +1332,7 @@ static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
     struct rig timed, plain;
     smear_desc desc = small_desc(64, 48), clocked = desc;
     clocked.clock = ticking;
-    if (rig_open(&timed, &clocked, false) && rig_open(&plain, &desc, false)) {
+    if (rig_begin(&timed, &clocked, false) && rig_begin(&plain, &desc, false)) {
         for (int k = 0; k < 3; k++) {
             CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
             CHECK_EQ(render_scene(&plain, 0.2 * k, 0), SMEAR_OK);
@@ -1553,9 +1343,9 @@ static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
             CHECK(s.time_total >= s.time_submit + s.time_raster + s.time_reduce + s.time_blur + s.time_convert);
             CHECK_EQ(s.crc32, 0);                       /* not asked for */
         }
-        rig_close(&plain);
+        rig_end(&plain);
     }
-    rig_close(&timed);
+    rig_end(&timed);
 }
 
 /* ------------------------------------------------------------------ meshes that are cut */
@@ -1595,7 +1385,7 @@ static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
     desc.max_triangles = 4000;
     smear_mesh grid = make_grid();
     smear_material glass = { .color = { 255, 255, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1, .double_sided = 1 };
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         int cut = 0, drawn = 0;
         for (int n = 0; n < 120; n++) {
             smear_transform pose = pose_at(0.03 * n - 1.5, -0.02 * n - 0.05, -0.04 * n, 0.37 * n, -1.2 - 0.01 * n);
@@ -1636,7 +1426,7 @@ static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
         }
         CHECK(drawn > 80 && cut > 40);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -1671,7 +1461,7 @@ static void accumulate_against_mean(const smear_frame *like, place_fn *place, bo
     const double px = 1.0 / 3;
     smear_camera camera = camera_at(0, 0, 0, 0);
     smear_material material = { .unlit = 1, .color = { 255, 200, 40, 255 } };
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         smear_frame sharp = { .camera = &camera, .method = SMEAR_NONE, .light = like->light, .clear = 0x102030 };
         double mean[W * H][3];
         memset(mean, 0, sizeof mean);
@@ -1721,7 +1511,7 @@ static void accumulate_against_mean(const smear_frame *like, place_fn *place, bo
             }
     }
 done:
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_accumulation_is_the_mean_of_the_instants_of_the_exposure(void)
@@ -1760,19 +1550,19 @@ static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_expo
             CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 32)], 1024, STEPS);
         }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
 {
     struct rig r;
     smear_desc desc = small_desc(96, 72);
-    if (rig_open(&r, &desc, true)) {
+    if (rig_begin(&r, &desc, true)) {
         smear_camera camera = camera_at(0, 0, 0, 0);
         smear_transform pose[2] = { pose_at(-2, 0, -4, 0, 0), pose_at(2, 0, -4, 0, 0) };
         smear_draw d = { .id = 3, .mesh = &square, .now = &pose[1] };
         smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
-        uint8_t *sharp = rig_picture(&r, &f, &d, 1);
+        uint8_t *sharp = rig_copy(&r, &f, &d, 1);
         f.method = SMEAR_RECONSTRUCT;
         d.now = &pose[0];
         CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
@@ -1784,7 +1574,7 @@ static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
         same_picture(&r, sharp);
         free(sharp);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_uniform_tiles_take_plain_means_only_when_asked(void)
@@ -1794,7 +1584,7 @@ static void test_uniform_tiles_take_plain_means_only_when_asked(void)
     uint8_t *picture[2] = { NULL, NULL };
     uint32_t taps[2];
     for (int flag = 0; flag < 2; flag++) {
-        if (rig_open(&r, &desc, false))
+        if (rig_begin(&r, &desc, false))
             for (int k = 0; k < 2; k++) {
                 /* A pan over a textured wall that fills the view. */
                 smear_transform pose = pose_at(0, 0, -2, 0, 0);
@@ -1815,7 +1605,7 @@ static void test_uniform_tiles_take_plain_means_only_when_asked(void)
                     memcpy(picture[flag], r.picture, r.picture_room);
                 }
             }
-        rig_close(&r);
+        rig_end(&r);
     }
     CHECK(taps[0] != taps[1]);
     CHECK(memcmp(picture[0], picture[1], 96 * 72 * 4) != 0);
@@ -1838,7 +1628,7 @@ static void test_textures_of_every_size_show_their_texels(void)
             struct rig r;
             smear_desc desc = small_desc(width, height);
             desc.sharp = 1;
-            if (rig_open(&r, &desc, false)) {
+            if (rig_begin(&r, &desc, false)) {
                 smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
                 smear_material material = { .texture = &texture, .unlit = 1 };
                 /* Orthographic: one unit is half the height. */
@@ -1862,7 +1652,7 @@ static void test_textures_of_every_size_show_their_texels(void)
                         break;
                     }
             }
-            rig_close(&r);
+            rig_end(&r);
             free(texels);
         }
 }
@@ -1871,7 +1661,7 @@ static void test_the_largest_textures_are_taken(void)
 {
     struct rig r;
     smear_desc desc = small_desc(16, 16);
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         uint8_t *texels = calloc(4096, 1);
         static const uint32_t palette[256] = { 0xff305070u };
         smear_texture texture = { .texels = texels, .palette = palette, .width = 1, .height = 4096,
@@ -1889,7 +1679,7 @@ static void test_the_largest_textures_are_taken(void)
         }
         free(texels);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 /* The ground y = -1 under a camera that looks along -z and down by nothing: pixel (x, y) shows the point that lies in its
@@ -1910,7 +1700,7 @@ static void test_what_is_cut_keeps_its_colours_and_texels(void)
                                 .color = textured ? NULL : ground_color, .triangle_count = 2, .vertex_count = 4,
                                 .shift = 8, .uv_shift = 11 };
             smear_material material = { .texture = textured ? &checker_texture : NULL, .unlit = 1 };
-            if (rig_open(&r, &desc, false)) {
+            if (rig_begin(&r, &desc, false)) {
                 smear_transform pose = pose_at(0, -1, 0, 0, 0);
                 smear_camera camera = camera_at(0, 0, 0, 0);
                 smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
@@ -1945,7 +1735,7 @@ static void test_what_is_cut_keeps_its_colours_and_texels(void)
                     }
             }
 done:
-            rig_close(&r);
+            rig_end(&r);
         }
 }
 
@@ -1957,7 +1747,7 @@ static void test_flat_faces_are_lit_by_their_own_plane(void)
     smear_desc desc = small_desc(W, H);
     smear_mesh mesh = { .position = cube_position, .index = cube_index, .triangle_count = 12, .vertex_count = 8,
                         .shift = STEP };
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         for (int n = 0; n < 40; n++) {
             bool inside = n % 4 == 3;           /* from within, double-sided: normals turn to the eye */
             double yaw = 0.37 * n, pitch = 0.23 * n;
@@ -1999,7 +1789,7 @@ static void test_flat_faces_are_lit_by_their_own_plane(void)
             }
         }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_vertex_and_face_colours_pass_unlit(void)
@@ -2014,7 +1804,7 @@ static void test_vertex_and_face_colours_pass_unlit(void)
         mesh.color = kind & 1 ? color : NULL;
         mesh.face_color = kind & 2 ? face : NULL;
         smear_material material = { .unlit = 1 };
-        if (rig_open(&r, &desc, false)) {
+        if (rig_begin(&r, &desc, false)) {
             smear_transform pose = pose_at(0, 0, -1, 0, 0);
             smear_camera camera = camera_at(0, 0, 0, 0);
             smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
@@ -2034,7 +1824,7 @@ static void test_vertex_and_face_colours_pass_unlit(void)
                 }
             }
         }
-        rig_close(&r);
+        rig_end(&r);
     }
 }
 
@@ -2075,7 +1865,7 @@ static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
     struct rig r;
     smear_desc desc = small_desc(W, H);
     desc.max_triangles = 8000;
-    if (rig_open(&r, &desc, true)) {
+    if (rig_begin(&r, &desc, true)) {
         static uint32_t color[W * H];
         static uint16_t depth[W * H];
         for (int n = 0; n < 24; n++) {
@@ -2106,7 +1896,7 @@ static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
             CHECK(drawn > 500);
         }
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted(void)
@@ -2116,10 +1906,10 @@ static void test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted(
     smear_mesh grid = make_grid();
     desc.max_triangles = 4000;
     smear_desc small = desc;
-    if (rig_open(&ample, &desc, false)) {
+    if (rig_begin(&ample, &desc, false)) {
         for (uint32_t room = 400; room >= 4; room /= 2) {
             small.max_triangles = room;
-            if (rig_open(&tight, &small, false)) {
+            if (rig_begin(&tight, &small, false)) {
                 smear_transform pose = pose_at(0, -0.3, 0, 0.4, -1.5707963);
                 smear_camera camera = camera_at(0, 0, 0, 0);
                 smear_material material = { .double_sided = 1 };
@@ -2133,10 +1923,10 @@ static void test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted(
                 CHECK(same || stats.triangles_dropped > 0);
                 CHECK(room > 4 || stats.triangles_dropped > 0);
             }
-            rig_close(&tight);
+            rig_end(&tight);
         }
     }
-    rig_close(&ample);
+    rig_end(&ample);
 }
 
 static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
@@ -2146,7 +1936,7 @@ static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
             struct rig r;
             smear_desc desc = small_desc(24, 21);
             desc.format = (uint8_t)format;
-            if (rig_open(&r, &desc, false)) {
+            if (rig_begin(&r, &desc, false)) {
                 smear_camera camera = camera_at(0, 0, 0, 0);
                 smear_frame f = { .camera = &camera, .clear = white ? 0xffffff : 0 };
                 CHECK_EQ(rig_frame(&r, &f, NULL, 0), SMEAR_OK);
@@ -2166,7 +1956,7 @@ static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
                         break;
                 }
             }
-            rig_close(&r);
+            rig_end(&r);
         }
 }
 
@@ -2188,7 +1978,7 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
         struct rig r, alone;
         smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
         desc.reach = (int16_t)(variant & 2 ? 20 : 12);
-        if (rig_open(&r, &desc, true) && rig_open(&alone, &desc, false)) {
+        if (rig_begin(&r, &desc, true) && rig_begin(&alone, &desc, false)) {
             smear_camera camera = camera_at(0, 0, 0, 0);
             camera.near_plane = 65536;
             uint8_t *picture = NULL;
@@ -2213,7 +2003,7 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
                 }
                 make_checker();
                 free(picture);
-                picture = rig_picture(&r, &f, d, 4);
+                picture = rig_copy(&r, &f, d, 4);
             }
             rig_forget_output(&alone);
             CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
@@ -2244,9 +2034,9 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
             CHECK_EQ(rendered.samples, filtered.samples);
             CHECK_EQ(rendered.tiles_complex, filtered.tiles_complex);
             free(picture);
-            rig_close(&alone);
+            rig_end(&alone);
         }
-        rig_close(&r);
+        rig_end(&r);
     }
 }
 
@@ -2255,7 +2045,7 @@ static void test_the_filter_refuses_what_it_cannot_do(void)
     struct rig r;
     smear_desc desc = small_desc(16, 16);
     desc.accumulate = 1;
-    if (rig_open(&r, &desc, false)) {
+    if (rig_begin(&r, &desc, false)) {
         smear_camera camera = { .near_plane = 65536 };      /* all that is looked at */
         smear_frame f = { .camera = &camera };
         static const uint32_t words[16];
@@ -2277,7 +2067,7 @@ static void test_the_filter_refuses_what_it_cannot_do(void)
         f.camera = NULL;
         CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
     }
-    rig_close(&r);
+    rig_end(&r);
 }
 
 static void test_the_filter_takes_any_velocity_and_depth(void)
@@ -2287,7 +2077,7 @@ static void test_the_filter_takes_any_velocity_and_depth(void)
     for (int reach = 1; reach <= 64; reach += 21) {
         smear_desc desc = small_desc(90, 75);
         desc.reach = (int16_t)reach;
-        if (rig_open(&r, &desc, false)) {
+        if (rig_begin(&r, &desc, false)) {
             uint32_t random = 7;
             smear_camera camera = { .near_plane = reach == 1 ? INT32_MAX : 1 << reach / 3 };
             for (int n = 0; n < 6; n++) {
@@ -2310,7 +2100,7 @@ static void test_the_filter_takes_any_velocity_and_depth(void)
                 CHECK(r.bands_in_order && r.next_row == 75);
             }
         }
-        rig_close(&r);
+        rig_end(&r);
     }
 }
 

@@ -437,7 +437,7 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .reconstruct = (uint8_t)o->reconstruct,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
                             .shutter_degrees = (uint16_t)degrees,
-                            .clear = o->clear };
+                            .clear = o->clear, .shutter = o->shutter };
     return true;
 }
 

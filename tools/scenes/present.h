@@ -48,6 +48,7 @@ struct present_options {
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
+    const uint8_t *shutter;         /* SMEAR_SHUTTER_POINTS of openness; null: a box */
     bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera get an
                                      * earlier pose: the library has kept it. Scale and reference of
                                      * the world stay those of the presenter's first frame */

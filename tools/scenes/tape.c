@@ -350,6 +350,7 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     struct text text = { 0 };
     int now = camera(w, frame->camera), open = camera(w, frame->open);
     int close = camera(w, frame->close);
+    int shutter = array(w, UINT8, frame->shutter, SMEAR_SHUTTER_POINTS);
     add(&text, "{ ");
     add_reference(&text, w, "camera", now);
     add_reference(&text, w, "open", open);
@@ -362,7 +363,9 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_field(&text, "reconstruct", frame->reconstruct);
     add_field(&text, "samples", frame->samples);
     add_field(&text, "shutter_degrees", frame->shutter_degrees);
+    add_field(&text, "target", frame->target);
     add_field(&text, "clear", frame->clear);
+    add_reference(&text, w, "shutter", shutter);
     add(&text, "}");
     return object(w, "smear_frame", false, &text);
 }

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/* rig.h - a context with guard bytes around its memory and callbacks that keep what they are given; and a busy scene. For
+ * suites that test the library through its public interface. Host only. */
+#ifndef SMEAR_TESTS_RIG_H
+#define SMEAR_TESTS_RIG_H
+
+#include "smear.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* ------------------------------------------------------------------ a context with everything around it */
+
+enum { GUARD = 64, PATTERN = 0xa5 };
+
+/* A context in a block with guard bytes, and all that its callbacks were given. */
+struct rig {
+    smear_desc desc;
+    smear_context *ctx;
+    uint8_t *block;             /* GUARD bytes, the context's memory, GUARD bytes */
+    size_t bytes;
+    uint8_t *picture;           /* band after band */
+    size_t picture_size, picture_room;
+    int bands, next_row;
+    bool bands_in_order;
+    int fail_at, fail_with;     /* flush of band fail_at returns fail_with; -1: none */
+    bool reports_sent;          /* with two bands: each counts as sent at once */
+    uint32_t *color;            /* inspected rows */
+    uint16_t *depth;
+    int32_t *velocity;
+    int inspected;
+};
+
+/* The flush of a rig. */
+int take_band(void *user, const smear_band *band);
+
+smear_desc small_desc(int width, int height);
+
+/* False (and a failed check) when the context cannot be made. */
+bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect);
+bool guards_intact(const struct rig *r);
+void rig_end(struct rig *r);
+void rig_forget_output(struct rig *r);
+
+/* Begins, submits, renders; returns the first error. */
+int rig_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count);
+
+/* One more frame into a fresh copy of the picture; the caller frees it. */
+uint8_t *rig_copy(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count);
+bool same_picture(const struct rig *r, const uint8_t *picture);
+
+/* ------------------------------------------------------------------ poses and cameras */
+
+int32_t q16(double v);
+int32_t q24(double v);
+
+/* Turned by `yaw` about y, then by `pitch` about x; then moved. */
+smear_transform pose_at(double x, double y, double z, double yaw, double pitch);
+smear_camera camera_at(double x, double y, double z, double yaw);
+
+/* ------------------------------------------------------------------ meshes: one step is 1/256 unit */
+
+enum { STEP = 8 };
+
+/* A square of edge 2 in the plane z = 0, seen from +z. */
+extern const smear_mesh square;
+extern const int16_t square_position[12], square_uv[8];
+extern const uint16_t square_index[6];
+extern const smear_mesh cube;
+extern const int16_t cube_position[24];
+extern const uint16_t cube_index[36];
+
+extern uint32_t checker[8 * 8];
+extern const smear_texture checker_texture;
+void make_checker(void);
+
+/* A busy scene at time t: ground that passes under the camera, two cubes, a pane of glass, a cut-out. */
+enum { SCENE_DRAWS = 5 };
+
+struct scene {
+    smear_transform pose[SCENE_DRAWS];
+    smear_material material[SCENE_DRAWS];
+    smear_draw draw[SCENE_DRAWS];
+    smear_camera camera;
+    smear_frame frame;
+};
+
+void make_scene(struct scene *s, double t, int method);
+int render_scene(struct rig *r, double t, int method);
+
+#endif
