@@ -348,6 +348,40 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 
+/* What a worker needs for a tile with `timed`: slots and lists, or sums and depths of instants. */
+#define SMEAR_TIMED_WORK_BYTES(tile) \
+    (SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) > 8192u ? SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) + 512u : 8192u)
+
+/* With `timed`, beyond what is there without: movers and tile loads of `rows` rows, work, longer triangles. */
+#define SMEAR_TIMED_BYTES(width, height, triangles, tile, rows) \
+    ((rows) * (SMEAR_ALIGN8((size_t)(triangles) * 8u) \
+               + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 10u)) \
+     + SMEAR_TIMED_WORK_BYTES(tile) \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
+     + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \
+     + SMEAR_ALIGN8(((size_t)(triangles) * SMEAR_TIMED_TRIANGLE_BYTES / 200000u + 1u) * SMEAR_SEGMENT_BYTES))
+
+/* Of a desc with `timed` and with `sharp`: no window, so tiles are never smooth. Give the tile, not 0. */
+#define SMEAR_MEMORY_SIZE_TIMED(width, height, triangles, draws, tile) \
+    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) - 1u) / (tile)) + 8u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
+     + SMEAR_ALIGN8((size_t)(tile) * (tile) * 4u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
+     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
+     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
+     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
+                    * SMEAR_SEGMENT_BYTES) \
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile, 1u))
+
+/* Of a desc with `timed` and a window: as SMEAR_MEMORY_SIZE, and two tile rows of the still scene. */
+#define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \
+    (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
+     + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 2u) \
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile, 3u))
+
 /* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
  * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
 #define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \

@@ -3,7 +3,7 @@
  *
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
  *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
- *                                          and how much stack was used
+ *                                          and how much stack was used; fails if it overflowed
  *     demo cost [SCREEN]           what the loop's frames cost, in the units of platform.h's clock
  *     demo memory                  bytes the library wants for each screen
  *
@@ -95,6 +95,8 @@ static int check(const struct demo_screen *screen, uint32_t step, bool with_stac
     }
     if (result != SMEAR_OK)
         return failed("frame", result);
+    if (platform_stack_used() == UINT32_MAX)
+        return failed("the stack has overflown", 0);
     if (with_stack) {
         platform_print("stack ");
         print_decimal(platform_stack_used());
@@ -121,7 +123,7 @@ static int cost(const struct demo_screen *screen)
     smear_desc desc = screen->desc;
     smear_stats stats;
     uint32_t total = 0, submit = 0, raster = 0, blur = 0, convert = 0, worst = 0;
-    uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0;
+    uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
     desc.clock = read_clock;
     platform_clock_start();
@@ -142,6 +144,7 @@ static int cost(const struct demo_screen *screen)
         triangles = stats.triangles_in;
         drawn += stats.triangles_drawn;
         split += stats.triangles_split;
+        dropped += stats.triangles_dropped;
     }
     if (result != SMEAR_OK)
         return failed("frame", result);
@@ -165,6 +168,8 @@ static int cost(const struct demo_screen *screen)
     print_decimal(drawn / DEMO_LOOP);
     platform_print(", frames in parts ");
     print_decimal(split);
+    platform_print(", dropped ");
+    print_decimal(dropped);
     platform_print("\nmemory ");
     print_decimal((uint32_t)smear_memory_size(&desc));
     platform_print(", scene ");

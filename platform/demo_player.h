@@ -8,6 +8,7 @@
 struct demo_screen {
     const char *name;
     smear_desc desc;                /* without callbacks */
+    uint8_t method;                 /* smear_method of blurred frames */
     uint8_t light;                  /* smear_light */
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */

@@ -127,7 +127,7 @@ static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
 static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_t edge)
 {
     int32_t size = abs_i32(w->d);
-    if (size < w->length >> 7 || w->h > size >> 1)
+    if (size == 0 || size < w->length >> 7 || w->h > size >> 1)
         return false;
     int zeros = count_leading_zeros((uint32_t)size);
     uint32_t r = recip_norm_precise((uint32_t)size << zeros);

@@ -122,6 +122,7 @@ struct scene {
     int draws;
     smear_camera camera[3];
     smear_frame frame;
+    uint8_t shutter[SMEAR_SHUTTER_POINTS];
 };
 
 static void take_texture(struct source *s, struct pool *p, smear_texture *t)
@@ -232,9 +233,17 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .close = kind & 8 ? &scene->camera[2] : NULL,
         .method = (uint8_t)method, .exposure = take(s) % 3, .light = take(s) & 1, .shutter_poses = kind >> 4 & 1,
         .cut = kind >> 5 == 7, .reconstruct = take(s),
-        .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : 1024),
+        .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
         .shutter_degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
+    if (method >= SMEAR_SUBFRAMES) {
+        scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
+        if (take_chance(s, 4)) {
+            for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)
+                scene->shutter[i] = take(s);
+            scene->frame.shutter = scene->shutter;
+        }
+    }
     int changes = take_range(s, 0, scene->draws);
     for (int i = 0; i < changes; i++) {
         int at = take_range(s, 0, DRAWS - 1);
@@ -322,7 +331,8 @@ static smear_desc take_desc(struct source *s)
         d.reach = (int16_t)take_range(s, 1, 64);
     if (kind & 64)
         d.tile = (int16_t)(8 << take_range(s, 0, 3));
-    if (d.sharp)
+    d.timed = kind >> 7;
+    if (d.sharp && !d.timed)
         d.band_rows = (int16_t)(take_range(s, 0, 8) * 8);
     return d;
 }
@@ -396,7 +406,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     /* The same picture from another context: more room, other cuts. */
     desc.max_triangles = 3000;
     desc.vertex_cache = 256;
-    if (desc.sharp)
+    if (desc.sharp && !desc.timed)
         desc.band_rows = (int16_t)(desc.format == SMEAR_L1_PAGES ? 8 : 16);
     bool compare = open && !wild_index && rig_open(&ample, &pool, &desc, false);
 
@@ -410,7 +420,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     int frames = take_range(s, 1, 4);
     for (int k = 0; k < frames && open; k++) {
-        int method = take_range(s, SMEAR_DEFAULT_METHOD, SMEAR_RECONSTRUCT);
+        int method = take_range(s, SMEAR_DEFAULT_METHOD, desc.timed ? SMEAR_AUTO : SMEAR_RECONSTRUCT);
         take_frame(s, &scene, method);
         rig.fail_at = kind & 4 ? take(s) % 4 : -1;
         int result = rig_frame(&rig, &scene);

@@ -27,8 +27,8 @@ for loop in "$@"; do
     name=${loop%:*} step=${loop#*:}
     $screen crcs "$name" "$step" >"$folder/$name.want" || exit 1
     # shellcheck disable=SC2086
-    ${RUN:-} "$program" check "$name" "$step" >"$folder/$name.got"
-    cmp "$folder/$name.want" "$folder/$name.got"
+    ${RUN:-} "$program" check "$name" "$step" >"$folder/$name.got" &&
+        cmp "$folder/$name.want" "$folder/$name.got"
     count $? "frames of $name"
 done
 

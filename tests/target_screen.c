@@ -6,8 +6,10 @@
  *     target_screen picture SCREEN FRAME SHUTTER OUT.png
  *     target_screen compare SCREEN FRAME SHUTTER SHOT.ppm ZOOM
  *
- * `crcs` prints what `demo check` must print. SHUTTER in degrees, 0 is sharp. A pixel of the screen is ZOOM x ZOOM pixels of the screenshot,
- * all of one colour; what a larger screenshot has around the picture is of one colour, too. Every code of the display's format must come back, to the bit. */
+ * `crcs` prints what `demo check` must print. SHUTTER in degrees, 0 is sharp. A pixel of the
+ * screen is ZOOM x ZOOM pixels of the screenshot,
+ * all of one colour; what a larger screenshot has around the picture is of one colour, too.
+ * Every code of the display's format must come back, to the bit. */
 #include "../platform/demo_player.h"
 #include "../tools/image/image.h"
 

@@ -46,6 +46,46 @@ static void test_the_memory_macro_is_never_below_the_memory_function(void)
                         }
 }
 
+static void test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_function(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 },
+                                       { 3, 2048 } };
+    static const uint32_t triangles[] = { 1, 2, 7, 200, 600, 5000, 100000 };
+    static const unsigned draws[] = { 1, 4, 8, 255, 65535 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (size_t n = 0; n < sizeof triangles / sizeof triangles[0]; n++)
+            for (size_t k = 0; k < sizeof draws / sizeof draws[0]; k++)
+                for (unsigned tile = 8; tile <= 64; tile *= 2)
+                    for (unsigned reach = 1; reach <= tile; reach += reach < 15 ? 7 : 16) {
+                        smear_desc desc = {
+                            .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach, .tile = (int16_t)tile,
+                            .max_triangles = triangles[n], .max_draws = (uint16_t)draws[k], .format = SMEAR_RGB565,
+                            .timed = 1, .flush = take_band
+                        };
+                        unsigned width = (unsigned)size[i][0], height = (unsigned)size[i][1];
+                        size_t windowed = smear_memory_size(&desc);
+                        desc.sharp = 1;
+                        size_t sharp = smear_memory_size(&desc);
+                        bool ok = CHECK(sharp > 0 && windowed > sharp);
+                        ok = CHECK(sharp <= SMEAR_MEMORY_SIZE_TIMED(width, height, triangles[n], draws[k], tile))
+                             && ok;
+                        ok = CHECK(windowed <= SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles[n],
+                                                                             draws[k], tile)) && ok;
+                        if (!ok) {
+                            CHECK_EQ(size[i][0], 0);
+                            CHECK_EQ(triangles[n], 0);
+                            CHECK_EQ(draws[k], 0);
+                            CHECK_EQ(tile, 0);
+                            return;
+                        }
+                    }
+    smear_desc desc = { .width = 240, .height = 240, .tile = 8, .reach = 8, .max_triangles = 600, .max_draws = 8,
+                        .format = SMEAR_RGB565, .sharp = 1, .timed = 1, .flush = take_band };
+    size_t room = SMEAR_MEMORY_SIZE_TIMED(240, 240, 600, 8, 8), need = smear_memory_size(&desc);
+    CHECK(room - need < need / 16);
+    CHECK(need <= 72u * 1024u);
+}
+
 static void test_the_memory_macro_wastes_less_than_an_eighth(void)
 {
     smear_desc desc = { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8,
@@ -2107,6 +2147,7 @@ static void test_the_filter_takes_any_velocity_and_depth(void)
 void suite_api(void)
 {
     RUN(test_the_memory_macro_is_never_below_the_memory_function);
+    RUN(test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_function);
     RUN(test_the_memory_macro_wastes_less_than_an_eighth);
     RUN(test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_it_alone);
     RUN(test_memory_must_exist_and_be_aligned);

@@ -4,7 +4,8 @@
  *     gbarun [-n FRAMES] [-s SHOT.ppm] [-k KEYS] [-p PROFILE] PROGRAM.gba [ARGUMENT...]
  *
  * Prints what the program prints; ends with its exit status, with 99 when it does what it must not
- * (like an access to nowhere), or with 124 after FRAMES video frames [400000]. The arguments are written into the cartridge's header (start.S).
+ * (like an access to nowhere), or with 124 after FRAMES video frames [400000]. The arguments
+ * are written into the cartridge's header (start.S).
  *
  * -s: takes a picture of the screen once the program has printed "shown", and ends. -k: a mask of
  * keys to press then, before a second "shown". -p: single steps and writes "ADDRESS CYCLES COUNT"
