@@ -315,32 +315,13 @@ static void draw_piece(struct job *j, const struct mover *m)
     }
 }
 
-/* Whether all pixels of a box of the block show nothing but nearer things, throughout the exposure. */
-static bool is_hidden(const struct job *j, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t nearest)
-{
-    const struct smear_raster_target *still = &j->tile->still;
-    const uint32_t all = below[1 << j->slots.slots_log2];
-    for (int32_t y = y0; y < y1; y++) {
-        const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);
-        for (int32_t x = x0; x < x1; x++) {
-            int32_t at = y * TIMEMASK_WIDTH + x;
-            if ((j->slots.any[at] != all || j->slots.farthest[at] * 16 < nearest)
-                && (int32_t)smear_depth_units(depth[x]) < nearest)
-                return false;
-        }
-    }
-    return true;
-}
-
 static void draw_mover(struct job *j, uint32_t i)
 {
-    const struct smear_path_bounds *b = geometry_bounds(j->tile->frame->geometry, j->tile->mover[i].triangle);
-    int32_t x0 = max_i32(b->x0 - j->x, 0), x1 = min_i32(b->x1 - j->x, j->width);
-    int32_t y0 = max_i32(b->y0 - j->y, 0), y1 = min_i32(b->y1 - j->y, j->height);
-    if (x0 >= x1 || y0 >= y1 || is_hidden(j, x0, y0, x1, y1, (int32_t)smear_depth_units(b->nearest)))
-        return;
     struct mover m;
     mover_take(&m, j, i);
+    const struct smear_path_bounds *b = m.bounds;
+    if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
+        return;
     if (b->piece == 0)
         draw_whole(j, &m);
     else

@@ -388,11 +388,10 @@ SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, 
         w->bend = add_wrap(w->bend, w->bend_step);
     }
     w->mean = add_wrap(w->mean, w->step);
-    if (form == COVER_BOWED && p->bow != 0) {
-        const int32_t half = 1 << (BENT_Q + slots_log2) >> 1;
-        int32_t before = (half + slot) >> 3, after = (half - slot) >> 3;       /* in the segment both are positive */
-        if ((before | after) > 0)
-            slot += (before * after >> (6 + slots_log2)) * p->bow >> 14;
+    if (form == COVER_BOWED) {
+        const int32_t most = 1 << (BENT_Q + slots_log2);
+        slot = clamp_i32(slot + (most >> 1), 0, most);
+        slot += ((slot >> 3) * ((most - slot) >> 3) >> (6 + slots_log2)) * p->bow >> 14;
     }
     return slot;
 }
@@ -402,7 +401,8 @@ SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_
 {
     const int q = form == COVER_EVEN ? SLOT_Q : BENT_Q;
     const int32_t slots = 1 << c->slots_log2;
-    const int32_t half = (slots << q >> 1) + (1 << (q - 1));        /* slots of crossings count from the segment's middle */
+    /* Slots count from the segment's middle, but for bows. */
+    const int32_t half = (form == COVER_BOWED ? 0 : slots << q >> 1) + (1 << (q - 1));
     struct walk enter[3], leave[3];
     int32_t count = 0;
     for (int i = 0; i < enters; i++)

@@ -10,9 +10,9 @@ enum {
     LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
     LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
-    COLOR_OFF = 64, TEXEL_OFF = 8,     /* 1/64 code, texel: what perspective may matter and be left out */
+    COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     THIN_PX = 1,                /* triangles that turn, of less height */
-    TAPS_MAX = 16
+    TAPS_MAX = 8
 };
 
 /* ------------------------------------------------------------------ slopes */
@@ -76,7 +76,7 @@ struct course {
     bool turns;                 /* its shape is another one at the end */
     bool thin;
     struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
-    int32_t x, y, x_change, y_change, x_bend, y_bend;       /* the point that attributes go with: q8 px from the block's first centre */
+    int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
 };
 
 /* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or, where texels
@@ -115,8 +115,6 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
     c->y = point_of(pose[1]->y);
     c->x_change = point_of(pose[2]->x) - point_of(pose[0]->x);
     c->y_change = point_of(pose[2]->y) - point_of(pose[0]->y);
-    c->x_bend = 2 * (point_of(pose[0]->x) + point_of(pose[2]->x) - 2 * c->x);
-    c->y_bend = 2 * (point_of(pose[0]->y) + point_of(pose[2]->y) - 2 * c->y);
 }
 
 /* |change| + |curve| all over the block. */
@@ -127,12 +125,11 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
 }
 
 /* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with the value v of
- * a point at c and slopes g around it; all three go along parabolas in time:
+ * a point at c and slopes g around it; all three change with time:
  *
- *     v + v' t + v'' t^2 + (g + g' t + g'' t^2) (x - c - c' t - c'' t^2)
- *         = v + g (x - c) + t (v' - g c' + g' (x - c)) + t^2 (v'' - g c'' - g' c' + g'' (x - c)) + ...
+ *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
  *
- * In the last term x is the middle of the block. A plane that changes by more than there are bits for becomes one value. */
+ * A plane that changes by more than there are bits for becomes one value. */
 static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
     struct slopes g = slopes_of(&c->shape, value[1]);
@@ -146,12 +143,7 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
-        int64_t bend_dx = 2 * ((int64_t)start.dx + end.dx - 2 * (int64_t)g.dx), bend_x = TIMEMASK_WIDTH * 128 - c->x;
-        int64_t bend_dy = 2 * ((int64_t)start.dy + end.dy - 2 * (int64_t)g.dy), bend_y = TIMEMASK_HEIGHT * 128 - c->y;
-        curve = 2 * ((int64_t)point_of(value[0]) + point_of(value[2]) - 2 * (int64_t)v)
-              + ((bend_dx * bend_x + bend_dy * bend_y
-                  - (int64_t)g.dx * c->x_bend - (int64_t)g.dy * c->y_bend
-                  - (int64_t)t->change_dx * c->x_change - (int64_t)t->change_dy * c->y_change) >> 8);
+        curve = -(((int64_t)t->change_dx * c->x_change + (int64_t)t->change_dy * c->y_change) >> 8);
     }
     t->dx = g.dx;
     t->dy = g.dy;
@@ -255,10 +247,9 @@ struct channels {
     int32_t value[3][3];
 };
 
-static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear,
-                          int vertices)
+static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear)
 {
-    for (int i = 0; i < vertices; i++)
+    for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++) {
             uint32_t word = (uint32_t)record[i][g->color + (c >> 1)];
             int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
@@ -274,7 +265,7 @@ static bool shade_level(struct timemask_shade *s, const int32_t *const record[3]
                        | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
                        | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
     struct channels k;
-    channels_read(&k, s->segment, record, s->frame->linear, same ? 1 : 3);
+    channels_read(&k, s->segment, record, s->frame->linear);
     uint32_t code[3], sum = 0;
     for (int i = 0; i < (same ? 1 : 3); i++)
         code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], s->frame->linear);
@@ -310,7 +301,7 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c, cons
 {
     struct channels k;
     struct over_w w;
-    channels_read(&k, s->segment, record, s->frame->linear, 3);
+    channels_read(&k, s->segment, record, s->frame->linear);
     uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
     if (s->over_w)
@@ -335,7 +326,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     if (s->over_w)
         over_w_make(s, &w, c, pose);
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear, 3);
+        channels_read(&k, s->segment, record, s->frame->linear);
         shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
@@ -345,16 +336,20 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     }
     attribute_make(&s->u, c, s->over_w ? &w : NULL, u);
     attribute_make(&s->v, c, s->over_w ? &w : NULL, v);
+    s->travel = 0;
+    for (int i = 0; i < 3; i++) {
+        int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
+        s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
+    }
 }
 
 /* Attributes of the vertices, to be weighed. */
-static void shade_weighed(struct timemask_shade *s, const struct timemask_pose *const pose[3],
-                          const int32_t *const record[3])
+static void shade_thin(struct timemask_shade *s, const int32_t *const record[3])
 {
     struct channels k;
-    s->over_w = !s->segment->flat_depth && s->sampler != NULL && needs_w(pose, 64 * 64, TEXEL_OFF);
+    s->over_w = false;
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear, 3);
+        channels_read(&k, s->segment, record, s->frame->linear);
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < 3; i++)
                 s->vertex[c][i] = k.value[c][i];
@@ -382,7 +377,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->thin = s->weighed = false;
+    s->thin = false;
     for (int k = 0; k < 3; k++)
         s->pose[k] = pose[k];
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
@@ -393,21 +388,8 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     if (!course.started)
         course_start(&course, pose, false);
     s->thin = course.thin;
-    s->weighed = course.thin;
-    if (!s->gouraud)
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            s->light[c] = (int32_t)(frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
-        }
-    if (s->sampler != NULL) {
-        s->travel = 0;
-        for (int i = 0; i < 3; i++) {
-            int32_t dx = abs_i32(pose[2]->x[i] - pose[0]->x[i]), dy = abs_i32(pose[2]->y[i] - pose[0]->y[i]);
-            s->travel = max_i32(s->travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
-        }
-    }
-    if (s->weighed) {
-        shade_weighed(s, pose, record);
+    if (s->thin) {
+        shade_thin(s, record);
         return;
     }
     if (s->sampler != NULL)
@@ -454,7 +436,7 @@ static inline int32_t on_its_way(int32_t start, int32_t middle, int32_t end, int
     return middle + timemask_part(end - start + 2 * timemask_part(start + end - 2 * middle, time), time);
 }
 
-static struct weights weights_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, bool over_w)
+static struct weights weights_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
     int64_t px[3], py[3];
     for (int i = 0; i < 3; i++) {
@@ -470,21 +452,8 @@ static struct weights weights_at(const struct timemask_shade *s, int32_t x, int3
     uint32_t r = recip_norm((uint32_t)((uint64_t)area << zeros >> 32));
     e1 = e1 < 0 ? 0 : e1 > area ? area : e1;
     e2 = e2 < 0 ? 0 : e2 > area - e1 ? area - e1 : e2;
-    struct weights w = { (int32_t)(mulh_u32((uint32_t)((uint64_t)e1 << zeros >> 32), r) >> 13),
-                         (int32_t)(mulh_u32((uint32_t)((uint64_t)e2 << zeros >> 32), r) >> 13) };
-    if (!over_w)
-        return w;
-    /* Each times 1/w of its vertex; below 2^31 in all. */
-    int32_t part[3] = { 65536 - w.w1 - w.w2, w.w1, w.w2 };
-    for (int i = 0; i < 3; i++) {
-        int32_t q = s->pose[1]->depth[i] + timemask_part(s->pose[2]->depth[i] - s->pose[0]->depth[i], time);
-        part[i] = (int32_t)((int64_t)max_i32(part[i], 0) * q >> 16);
-    }
-    uint32_t sum = (uint32_t)part[0] + (uint32_t)part[1] + (uint32_t)part[2] + 1u;
-    zeros = count_leading_zeros(sum);
-    r = recip_norm(sum << zeros);
-    return (struct weights){ (int32_t)(mulh_u32((uint32_t)part[1] << zeros, r) >> 13),
-                             (int32_t)(mulh_u32((uint32_t)part[2] << zeros, r) >> 13) };
+    return (struct weights){ (int32_t)(mulh_u32((uint32_t)((uint64_t)e1 << zeros >> 32), r) >> 13),
+                             (int32_t)(mulh_u32((uint32_t)((uint64_t)e2 << zeros >> 32), r) >> 13) };
 }
 
 static int32_t weigh(const int32_t a[3], struct weights w)
@@ -498,13 +467,13 @@ int32_t smear_timemask_thin_depth(const struct timemask_shade *s, int32_t x, int
     for (int i = 0; i < 3; i++)
         depth[i] = (s->pose[1]->depth[i] >> 7)
                  + timemask_part((s->pose[2]->depth[i] >> 7) - (s->pose[0]->depth[i] >> 7), time);
-    return weigh(depth, weights_at(s, x, y, time, false));
+    return weigh(depth, weights_at(s, x, y, time));
 }
 
 static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t out[3])
 {
-    if (s->weighed) {
-        struct weights w = weights_at(s, x, y, time, s->over_w);
+    if (s->thin) {
+        struct weights w = weights_at(s, x, y, time);
         for (int c = 0; c < 3; c++)
             out[c] = weigh(s->vertex[c], w);
         return;
@@ -521,128 +490,86 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 }
 
 /* Coordinates in turns or texels q16, as samplers take them. */
-struct place {
-    int32_t u, v;
-};
-
-static struct place place_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
+static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    struct place p;
-    if (s->weighed) {
-        struct weights w = weights_at(s, x, y, time, s->over_w);
-        p = (struct place){ weigh(s->vertex_u, w), weigh(s->vertex_v, w) };
+    if (s->thin) {
+        struct weights w = weights_at(s, x, y, time);
+        *u = weigh(s->vertex_u, w);
+        *v = weigh(s->vertex_v, w);
     } else {
+        *u = value_at(&s->u, x, y, time);
+        *v = value_at(&s->v, x, y, time);
+    }
+    if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
-        p = (struct place){ quotient_of(&w, value_at(&s->u, x, y, time)), quotient_of(&w, value_at(&s->v, x, y, time)) };
+        *u = quotient_of(&w, *u);
+        *v = quotient_of(&w, *v);
         if (!m->turns) {
-            p.u = smear_sampler_texel_u(m, shl_wrap(p.u, 2));
-            p.v = smear_sampler_texel_v(m, shl_wrap(p.v, 2));
+            *u = smear_sampler_texel_u(m, shl_wrap(*u, 2));
+            *v = smear_sampler_texel_v(m, shl_wrap(*v, 2));
         }
     }
-    return (struct place){ shl_wrap(p.u, s->turns_shift), shl_wrap(p.v, s->turns_shift) };
-}
-
-/* A parabola's chord from one time to another: its change; `at` becomes its value in the middle less half of that. */
-static int32_t chord_of(const struct timemask_timed *p, int32_t x, int32_t y, int32_t from, int32_t to, int32_t *at)
-{
-    struct timemask_here here = timemask_here(p, x, y);
-    int32_t middle = (from + to) >> 1;
-    int32_t change = timemask_part(add_wrap(here.change, 2 * timemask_part(p->curve, middle)), to - from);
-    *at = sub_wrap(timemask_value(p, &here, middle), change >> 1);
-    return change;
-}
-
-/* The sum of n texels along a chord. */
-struct texel_sum {
-    uint32_t red, green, blue;
-};
-
-SMEAR_INLINE void sum_texel(uint32_t texel, bool linear, uint32_t *red_blue, struct texel_sum *sum)
-{
-    if (linear) {
-        sum->red += smear_srgb_decode[pixel_red(texel)];
-        sum->green += smear_srgb_decode[pixel_green(texel)];
-        sum->blue += smear_srgb_decode[pixel_blue(texel)];
-    } else {
-        *red_blue += texel & 0xff00ffu;
-        sum->green += pixel_green(texel);
-    }
-}
-
-static void sum_texels(struct texel_sum *sum, const struct smear_sampler *m, const struct smear_texture_run *along,
-                       int32_t n, bool linear)
-{
-    uint32_t red_blue = 0;
-    *sum = (struct texel_sum){ 0, 0, 0 };
-    if (m->turns && m->format == SMEAR_TEXEL_8888) {
-        const uint32_t *texels = m->texels;
-        uint64_t at = along->at;
-        for (; n > 0; n--, at += along->step)
-            sum_texel(texels[sampler_index(m, (uint32_t)(at >> 32), (uint32_t)at)], linear, &red_blue, sum);
-    } else {
-        uint32_t texel[TAPS_MAX];
-        smear_sample(texel, m, along, 0, n);
-        for (int32_t i = 0; i < n; i++)
-            sum_texel(texel[i], linear, &red_blue, sum);
-    }
-    if (!linear) {
-        sum->red = red_blue >> 16;
-        sum->blue = red_blue & 0xffffu;
-    }
-}
-
-/* A mean of texels times light (q16, as channels; null: one), in codes. */
-SMEAR_INLINE uint32_t lit(uint32_t sum, int log2, const int32_t *light, bool linear)
-{
-    uint32_t mean = (sum + ((1u << log2) >> 1)) >> log2;
-    if (light != NULL) {
-        uint32_t l = (uint32_t)*light;
-        mean = linear ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
-    }
-    return linear ? smear_srgb_encode[mean >> 4] : mean;
+    *u = shl_wrap(*u, s->turns_shift);
+    *v = shl_wrap(*v, s->turns_shift);
 }
 
 /* The mean of texels along the run: from its start to its end, evenly. */
-static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, uint32_t run, const int32_t *light)
+static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t y, uint32_t run,
+                             int32_t light[3])
 {
+    uint32_t texel[TAPS_MAX];
+    const bool linear = s->frame->linear;
     const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
-    const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
-    const int32_t from = (timemask_run_from(run) << up) - half, to = (timemask_run_to(run) << up) - half;
-    int32_t travel = s->travel * (to - from) >> TIMEMASK_TIME_LOG2, u, v, du, dv;
+    int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
     int log2 = 0;
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;
-    if (s->over_w || s->weighed) {
-        struct place p = place_at(s, x, y, from), q = place_at(s, x, y, to);
-        u = p.u;
-        v = p.v;
-        du = sub_wrap(q.u, u) >> log2;
-        dv = sub_wrap(q.v, v) >> log2;
-    } else {
-        du = shl_wrap(chord_of(&s->u, x, y, from, to, &u), s->turns_shift) >> log2;
-        dv = shl_wrap(chord_of(&s->v, x, y, from, to, &v), s->turns_shift) >> log2;
-        u = shl_wrap(u, s->turns_shift);
-        v = shl_wrap(v, s->turns_shift);
-    }
+    int32_t u0, v0, u1, v1;
+    const int32_t half = 1 << (TIMEMASK_TIME_LOG2 - 1);
+    texel_at(s, x, y, (timemask_run_from(run) << up) - half, &u0, &v0);
+    texel_at(s, x, y, (timemask_run_to(run) << up) - half, &u1, &v1);
+    int32_t du = sub_wrap(u1, u0) >> log2, dv = sub_wrap(v1, v0) >> log2;
     const struct smear_texture_run along = {
-        .at = packed_uv((uint32_t)add_wrap(u, du >> 1), (uint32_t)add_wrap(v, dv >> 1)),
+        .at = packed_uv((uint32_t)add_wrap(u0, du >> 1), (uint32_t)add_wrap(v0, dv >> 1)),
         .step = packed_step((uint32_t)du, (uint32_t)dv), .bend = 0
     };
-    struct texel_sum sum;
-    const bool linear = s->frame->linear;
-    sum_texels(&sum, s->sampler, &along, 1 << log2, linear);
-    const int32_t *red = light, *green = light != NULL ? light + 1 : NULL, *blue = light != NULL ? light + 2 : NULL;
-    return pixel_make(0, lit(sum.red, log2, red, linear), lit(sum.green, log2, green, linear),
-                      lit(sum.blue, log2, blue, linear));
+    int32_t n = 1 << log2;
+    smear_sample(texel, s->sampler, &along, 0, n);
+    if (n == 1 && light == NULL)
+        return texel[0] & 0xffffffu;
+    uint32_t sum[3] = { 0, 0, 0 };
+    for (int32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++) {
+            uint32_t code = texel[i] >> (16 - 8 * c) & 255u;
+            sum[c] += linear ? smear_srgb_decode[code] : code;
+        }
+    uint32_t out[3];
+    for (int c = 0; c < 3; c++) {
+        uint32_t mean = (sum[c] + ((1u << log2) >> 1)) >> log2;
+        if (light != NULL) {
+            uint32_t l = (uint32_t)light[c];
+            mean = linear ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
+        }
+        out[c] = linear ? smear_srgb_encode[mean >> 4] : mean;
+    }
+    return pixel_make(0, out[0], out[1], out[2]);
 }
 
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run)
 {
     int32_t x = timemask_run_x(run), light[3];
-    if (!s->gouraud)
-        return texture_mean(s, x, y, run, s->segment->shade == SHADE_FLAT ? s->light : NULL);
-    channels_at(s, x, y, timemask_middle(s, run), light);
-    return s->sampler != NULL ? texture_mean(s, x, y, run, light)
-                              : channels_pixel(light[0], light[1], light[2], s->frame->linear);
+    if (s->gouraud) {
+        channels_at(s, x, y, timemask_middle(s, run), light);
+        if (s->sampler == NULL)
+            return channels_pixel(light[0], light[1], light[2], s->frame->linear);
+    } else if (s->segment->shade == SHADE_FLAT) {
+        for (int c = 0; c < 3; c++) {
+            uint32_t code = s->color >> (16 - 8 * c) & 255u;
+            light[c] = (int32_t)(s->frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
+        }
+    } else {
+        return texture_mean(s, x, y, run, NULL);
+    }
+    return texture_mean(s, x, y, run, light);
 }

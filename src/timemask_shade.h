@@ -24,11 +24,11 @@ struct timemask_shade {
     const struct smear_segment *segment;
     const struct smear_sampler *sampler;    /* null: no texture */
     bool gouraud;
-    bool thin, weighed;                     /* depth, and all else, are weighed anew at each time: timemask_shade.c */
+    bool thin;                              /* attributes are weighed anew at each time, see timemask_shade.c */
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
-    const struct timemask_pose *pose[3];    /* where it is weighed */
+    const struct timemask_pose *pose[3];    /* where it is thin */
     int32_t vertex[3][3], vertex_u[3], vertex_v[3];     /* likewise: channels, coordinates */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
@@ -36,7 +36,6 @@ struct timemask_shade {
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
-    int32_t light[3];                       /* over a texture, where it is the same everywhere */
     int32_t travel;                         /* during the segment, q8 px */
     int32_t tap;
     int32_t slots_log2;

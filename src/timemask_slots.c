@@ -123,9 +123,9 @@ static inline uint32_t apart(const struct entry *a, const struct entry *b)
 
 static void farthest_keep(struct timemask_slots *b, uint32_t pixel, int32_t low)
 {
-    low = max_i32(low, 0) >> 4;
-    if (low < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)low;
+    uint32_t packed = timemask_depth_pack(max_i32(low, 0));
+    if (packed < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)packed;
 }
 
 /* All entries are taken: two that are alike share one. What is new first looks for one like itself, from the latest on. */

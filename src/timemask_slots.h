@@ -19,7 +19,7 @@ struct timemask_slots {
     uint32_t *held;             /* a bit per slot, never 0 in use */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
     uint16_t *depth;            /* in the middle of the exposure, timemask_depth_pack */
-    uint16_t *farthest;         /* no entry is farther than this in a slot it holds: units / 16, rounded down */
+    uint16_t *farthest;         /* no entry is farther than this in a slot it holds; likewise */
     uint8_t *count;             /* entries in use */
     int32_t pixels_log2;
     int32_t slots_log2;         /* of the whole exposure */
@@ -94,7 +94,7 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
 SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
-    if ((any & f.mask) != 0 && high < b->farthest[pixel] * 16) {
+    if ((any & f.mask) != 0 && timemask_depth_pack(high) < b->farthest[pixel]) {
         f.mask &= ~any;
         if (f.mask == 0)
             return;
@@ -106,8 +106,9 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     }
     uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
     b->any[pixel] = any | f.mask;
-    if (f.low >> 4 < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)(f.low >> 4);
+    uint32_t low = timemask_depth_pack(f.low);
+    if (low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)low;
     if (n != 0 && timemask_is_same(b, before, &f)) {
         b->held[before] |= f.mask;
         return;
