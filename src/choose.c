@@ -61,7 +61,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->instants = instants_for(load, chooser->samples);
     } else if (chooser->method == SMEAR_TIMEMASK) {
         if (closed_form) {
-            choose_timemask(choice, chooser->samples, 16, 8, 256);
+            choose_timemask(choice, chooser->samples, 16, 6, 256);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);

@@ -178,11 +178,17 @@ static const uint32_t below[33] = {
     0x1fffffff, 0x3fffffff, 0x7fffffff, 0xffffffff
 };
 
+/* How depth codes follow from units q4, below and from code 32768. */
+struct code_slope {
+    int32_t add, shift;
+    int32_t slope, size;        /* per slot, 1/16, as it is kept; its magnitude */
+    uint32_t kept;
+};
+
 /* What fragments of a triangle in a segment share. */
 struct painter {
     const struct timemask_shade *shade;
-    uint32_t kept;              /* the depth's slope on top of colours */
-    int32_t slope;
+    struct code_slope code[2];
     int32_t first;              /* slot */
     int32_t last_slot;          /* of the exposure, less 2 `first` */
     int32_t time_shift;         /* from twice a slot to time */
@@ -200,52 +206,39 @@ SMEAR_INLINE uint32_t paint_row(struct timemask_slots *slots, const struct paint
     const int32_t time_shift = p->time_shift;
     const uint32_t flat = s->color;
     struct timemask_slots own = *slots;
-    uint32_t fragments = 0, pixel = (uint32_t)(y * TIMEMASK_WIDTH), kept = p->kept;
-    int32_t slope = p->slope, size = abs_i32(slope);
+    uint32_t fragments = 0, pixel = (uint32_t)(y * TIMEMASK_WIDTH);
     for (int32_t i = 0; i < n; i++) {
         int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
         int32_t time = ((from + to) << time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
         int32_t change = row.change;
-        if (turns) {
-            int32_t curve = timemask_part(depth.curve, time);
-            change = add_wrap(change, add_wrap(mul_wrap(depth.change_dx, x), curve));
-            kept = timemask_slope_pack(add_wrap(change, curve) >> s->slots_log2) << 24;
-            slope = timemask_slope_of(kept);
-            size = abs_i32(slope);
-        }
+        if (turns)
+            change = add_wrap(change, add_wrap(mul_wrap(depth.change_dx, x), timemask_part(depth.curve, time)));
         int32_t units = add_wrap(add_wrap(row.at, mul_wrap(depth.dx, x)), timemask_part(change, time));
-        if (turns && s->thin) {
-            int32_t half = (to - from) << time_shift;
-            int32_t begin = smear_timemask_thin_depth(s, x, y, time - half);
-            int32_t end = smear_timemask_thin_depth(s, x, y, time + half);
-            units = (begin + end) >> 1;
-            kept = timemask_slope_pack((end - begin) / (to - from)) << 24;
-            slope = timemask_slope_of(kept);
-            size = abs_i32(slope);
-        }
-        units = (clamp_i32(units, low, high) + 8) >> 4;
-        int32_t reach = size * (to - from - 1) >> 5, behind = (int32_t)smear_depth_units(still[x]);
-        if (units + reach <= behind)
+        units = clamp_i32(units, low, high);
+        const struct code_slope *c = &p->code[units >= 32768 << 4];
+        int32_t code = (units + c->add) >> c->shift, slope = c->slope, reach = c->size * (to - from - 1) >> 5;
+        int32_t behind = still[x];
+        if (code + reach <= behind)
             continue;
         struct timemask_fragment f;
-        f.low = max_i32(units - reach, 0);
+        f.low = max_i32(code - reach, 0);
         f.mask = below[first + to] ^ below[first + from];
-        if (units - reach <= behind) {
-            f.mask = slots_before_still((units - behind) * 32 - slope * (to - from - 1), slope, first + from, to - from);
+        if (code - reach <= behind) {
+            f.mask = slots_before_still((code - behind) * 32 - slope * (to - from - 1), slope, first + from, to - from);
             if (f.mask == 0)
                 continue;
         }
         /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
-        f.depth = units + (slope * (last_slot - (from + to)) >> 5);
+        f.depth = code + (slope * (last_slot - (from + to)) >> 5);
         f.slope = slope;
-        f.color = kept;
-        if ((uint32_t)f.depth >= 1u << 20) {
-            f.depth = units;
+        f.color = c->kept;
+        if ((uint32_t)f.depth > 65535u) {
+            f.depth = code;
             f.slope = 0;
             f.color = 0;
         }
         f.color |= plain ? flat : smear_timemask_color(s, y, run[i]);
-        timemask_slots_add(&own, pixel + (uint32_t)x, f, min_i32(units + reach, (1 << 20) - 1));
+        timemask_slots_add(&own, pixel + (uint32_t)x, f, code + reach);
         fragments++;
     }
     return fragments;
@@ -265,9 +258,15 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
                          j->settings->tap);
     struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
                          .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
-    p.kept = timemask_slope_pack(s.slope) << 24;
-    p.slope = timemask_slope_of(p.kept);
-    const bool plain = !s.gouraud && s.sampler == NULL, turns = s.thin || (s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0;
+    for (int i = 0; i < 2; i++) {
+        struct code_slope *k = &p.code[i];
+        k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
+        k->shift = i == 0 ? 4 : 8;
+        k->kept = smear_timemask_slope(i == 0 ? s.slope : s.slope >> 4) << 24;
+        k->slope = timemask_slope_of(k->kept);
+        k->size = abs_i32(k->slope);
+    }
+    const bool plain = !s.gouraud && s.sampler == NULL, turns = (s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0;
     for (int32_t y = c.y0; y < c.y1; y++) {
         int32_t n = smear_timemask_row(&c, y, run);
         const uint16_t *depth = still->depth + still_at(&still->window_rows, still, j->x, j->y + y);

@@ -11,7 +11,6 @@ enum {
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
     LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
-    THIN_PX = 1,                /* triangles that turn, of less height */
     TAPS_MAX = 8
 };
 
@@ -21,7 +20,6 @@ enum {
 struct shape {
     int32_t x1, y1, x2, y2;
     int shift;
-    bool thin;
 };
 
 /* False when it has no area. */
@@ -38,7 +36,6 @@ static bool shape_make(struct shape *s, const struct timemask_pose *p)
         r = -r;
     uint32_t longest = (uint32_t)abs_i32(x1) | (uint32_t)abs_i32(y1) | (uint32_t)abs_i32(x2) | (uint32_t)abs_i32(y2);
     int down = 31 - count_leading_zeros(longest);
-    s->thin = size >> 8 < (uint64_t)longest * THIN_PX;
     s->x1 = (int32_t)((int64_t)x1 * r >> down);
     s->y1 = (int32_t)((int64_t)y1 * r >> down);
     s->x2 = (int32_t)((int64_t)x2 * r >> down);
@@ -74,7 +71,6 @@ static inline int32_t point_of(const int32_t a[3])
 struct course {
     bool started;
     bool turns;                 /* its shape is another one at the end */
-    bool thin;
     struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
     int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
 };
@@ -100,7 +96,6 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
     c->started = true;
     bool seen = shape_make(&c->shape, pose[1]);
     c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
-    c->thin = false;
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
         bool at_start = shape_make(&c->start, pose[0]), at_end = shape_make(&c->end, pose[2]);
         if (!seen)
@@ -109,7 +104,6 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
             c->start = c->shape;
         if (!at_end)
             c->end = c->shape;
-        c->thin = !seen || !at_start || !at_end || c->shape.thin || c->start.thin || c->end.thin;
     }
     c->x = point_of(pose[1]->x);
     c->y = point_of(pose[1]->y);
@@ -343,28 +337,6 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     }
 }
 
-/* Attributes of the vertices, to be weighed. */
-static void shade_thin(struct timemask_shade *s, const int32_t *const record[3])
-{
-    struct channels k;
-    s->over_w = false;
-    if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear);
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < 3; i++)
-                s->vertex[c][i] = k.value[c][i];
-    }
-    const struct smear_sampler *m = s->sampler;
-    if (m == NULL)
-        return;
-    s->turns_shift = (int8_t)(!m->turns ? 0 : 18 - m->uv_shift);
-    for (int i = 0; i < 3; i++) {
-        int32_t u = (int16_t)(record[i][s->segment->uv] & 0xffff) * 16384, v = (record[i][s->segment->uv] >> 16) * 16384;
-        s->vertex_u[i] = m->turns ? u : smear_sampler_texel_u(m, u);
-        s->vertex_v[i] = m->turns ? v : smear_sampler_texel_v(m, v);
-    }
-}
-
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
                           const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
@@ -377,9 +349,6 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->thin = false;
-    for (int k = 0; k < 3; k++)
-        s->pose[k] = pose[k];
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
     const bool is_plain = !s->gouraud && s->sampler == NULL;
     shade_depth(s, &course, pose, is_plain);
@@ -387,11 +356,6 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         return;
     if (!course.started)
         course_start(&course, pose, false);
-    s->thin = course.thin;
-    if (s->thin) {
-        shade_thin(s, record);
-        return;
-    }
     if (s->sampler != NULL)
         shade_texture(s, &course, pose, record);
     else
@@ -425,59 +389,8 @@ static int32_t quotient_of(const struct quotient *w, int32_t a)
     return mulh_i32(shl_wrap(a >> 1, w->zeros - 1), w->recip);
 }
 
-/* Weights of vertices 1 and 2 at a time, q16: what edge functions say where the triangle is then. A thin triangle that turns
- * has no slopes that would hold for longer. */
-struct weights {
-    int32_t w1, w2;
-};
-
-static inline int32_t on_its_way(int32_t start, int32_t middle, int32_t end, int32_t time)
-{
-    return middle + timemask_part(end - start + 2 * timemask_part(start + end - 2 * middle, time), time);
-}
-
-static struct weights weights_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
-{
-    int64_t px[3], py[3];
-    for (int i = 0; i < 3; i++) {
-        px[i] = on_its_way(s->pose[0]->x[i], s->pose[1]->x[i], s->pose[2]->x[i], time);
-        py[i] = on_its_way(s->pose[0]->y[i], s->pose[1]->y[i], s->pose[2]->y[i], time);
-    }
-    int64_t x1 = px[1] - px[0], y1 = py[1] - py[0], x2 = px[2] - px[0], y2 = py[2] - py[0];
-    int64_t cx = x * 256 - px[0], cy = y * 256 - py[0], area = x1 * y2 - x2 * y1;
-    int64_t e1 = cx * y2 - x2 * cy, e2 = x1 * cy - cx * y1;
-    if (area <= 0)
-        return (struct weights){ 16384, 16384 };
-    int zeros = count_leading_zeros_64((uint64_t)area);
-    uint32_t r = recip_norm((uint32_t)((uint64_t)area << zeros >> 32));
-    e1 = e1 < 0 ? 0 : e1 > area ? area : e1;
-    e2 = e2 < 0 ? 0 : e2 > area - e1 ? area - e1 : e2;
-    return (struct weights){ (int32_t)(mulh_u32((uint32_t)((uint64_t)e1 << zeros >> 32), r) >> 13),
-                             (int32_t)(mulh_u32((uint32_t)((uint64_t)e2 << zeros >> 32), r) >> 13) };
-}
-
-static int32_t weigh(const int32_t a[3], struct weights w)
-{
-    return add_wrap(a[0], (int32_t)(((int64_t)sub_wrap(a[1], a[0]) * w.w1 + (int64_t)sub_wrap(a[2], a[0]) * w.w2) >> 16));
-}
-
-int32_t smear_timemask_thin_depth(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
-{
-    int32_t depth[3];
-    for (int i = 0; i < 3; i++)
-        depth[i] = (s->pose[1]->depth[i] >> 7)
-                 + timemask_part((s->pose[2]->depth[i] >> 7) - (s->pose[0]->depth[i] >> 7), time);
-    return weigh(depth, weights_at(s, x, y, time));
-}
-
 static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t out[3])
 {
-    if (s->thin) {
-        struct weights w = weights_at(s, x, y, time);
-        for (int c = 0; c < 3; c++)
-            out[c] = weigh(s->vertex[c], w);
-        return;
-    }
     for (int c = 0; c < 3; c++)
         out[c] = value_at(&s->channel[c], x, y, time);
     if (s->over_w) {
@@ -493,14 +406,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    if (s->thin) {
-        struct weights w = weights_at(s, x, y, time);
-        *u = weigh(s->vertex_u, w);
-        *v = weigh(s->vertex_v, w);
-    } else {
-        *u = value_at(&s->u, x, y, time);
-        *v = value_at(&s->v, x, y, time);
-    }
+    *u = value_at(&s->u, x, y, time);
+    *v = value_at(&s->v, x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         *u = quotient_of(&w, *u);

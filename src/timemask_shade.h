@@ -24,15 +24,12 @@ struct timemask_shade {
     const struct smear_segment *segment;
     const struct smear_sampler *sampler;    /* null: no texture */
     bool gouraud;
-    bool thin;                              /* attributes are weighed anew at each time, see timemask_shade.c */
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
     uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
-    const struct timemask_pose *pose[3];    /* where it is thin */
-    int32_t vertex[3][3], vertex_u[3], vertex_v[3];     /* likewise: channels, coordinates */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
-    int32_t slope;                          /* of the depth, 1/16 unit per slot */
+    int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
@@ -45,9 +42,6 @@ struct timemask_shade {
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
                           const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap);
-
-/* Where it is thin: depth of a pixel at a time, units q4. */
-int32_t smear_timemask_thin_depth(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time);
 
 /* Colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);

@@ -33,6 +33,15 @@ static inline uint32_t count_bits(uint32_t m)
 
 /* ------------------------------------------------------------------ depth in time */
 
+uint32_t smear_timemask_slope(int32_t slope)
+{
+    uint32_t size = min_u32((uint32_t)abs_i32(slope), 15u << 14), sign = slope < 0 ? 128u : 0;
+    if (size < 8)
+        return sign | size;
+    int exponent = 29 - count_leading_zeros(size);
+    return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
+}
+
 /* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of the exposure
  * less b's, in 1/32, `slope` a's slope less b's. */
 static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
@@ -121,13 +130,6 @@ static inline uint32_t apart(const struct entry *a, const struct entry *b)
     return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
-static void farthest_keep(struct timemask_slots *b, uint32_t pixel, int32_t low)
-{
-    uint32_t packed = timemask_depth_pack(max_i32(low, 0));
-    if (packed < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)packed;
-}
-
 /* All entries are taken: two that are alike share one. What is new first looks for one like itself, from the latest on. */
 static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
@@ -156,7 +158,9 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
         entry_put(b, pixel, second, fresh);
     /* It goes on in the longer's course for the other's slots, too. */
     int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->slots_log2) - 1) >> 5;
-    farthest_keep(b, pixel, timemask_depth_units(joined.depth) - reach);
+    int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
+    if (lowest < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)lowest;
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -168,7 +172,7 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
     for (uint32_t i = 0; i < n;) {
         uint32_t at = (i << b->pixels_log2) + pixel, both = b->held[at] & mask;
         if (both != 0) {
-            int32_t deeper = (f->depth - timemask_depth_units(b->depth[at])) * 32;
+            int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
             int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
             uint32_t taken = deeper > most ? both : deeper <= -most ? 0 : nearer_slots(deeper, turn, both, last_slot);
             mask &= ~both | taken;
@@ -185,15 +189,16 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
     if (mask == 0)
         return;
     b->any[pixel] |= mask;
-    farthest_keep(b, pixel, f->low);
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
     for (uint32_t i = n; i-- > 0;) {
         uint32_t at = (i << b->pixels_log2) + pixel;
-        if (timemask_is_same(b, at, f)) {
+        if (timemask_is_same(b, at, f->color, f->depth)) {
             b->held[at] |= mask;
             return;
         }
     }
-    struct entry fresh = { mask, f->color, timemask_depth_pack(f->depth) };
+    struct entry fresh = { mask, f->color, (uint32_t)f->depth };
     if (n == TIMEMASK_ENTRIES) {
         merge(b, pixel, &fresh);
         return;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_slots.h - who is seen in a pixel in which time slots: an A-buffer over time.
  *
- * A pixel has up to five entries, each with the slots it holds, a colour, and a depth that goes evenly with time. A
+ * A pixel has up to five entries, each with the slots it holds, a colour, and a depth code that goes evenly with time. A
  * slot is in at most one entry: the nearer of two takes it. What no entry holds shows the still scene. When a sixth is
  * needed, the two most alike become one, coloured by their shares. */
 #ifndef SMEAR_TIMEMASK_SLOTS_H
@@ -18,8 +18,8 @@ struct timemask_slots {
     uint32_t *any;              /* slots held by some entry */
     uint32_t *held;             /* a bit per slot, never 0 in use */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
-    uint16_t *depth;            /* in the middle of the exposure, timemask_depth_pack */
-    uint16_t *farthest;         /* no entry is farther than this in a slot it holds; likewise */
+    uint16_t *depth;            /* code in the middle of the exposure */
+    uint16_t *farthest;         /* no entry is farther than this in a slot it holds */
     uint8_t *count;             /* entries in use */
     int32_t pixels_log2;
     int32_t slots_log2;         /* of the whole exposure */
@@ -30,9 +30,9 @@ struct timemask_slots {
 struct timemask_fragment {
     uint32_t mask;              /* slots, at least one */
     uint32_t color;             /* as it is kept */
-    int32_t depth;              /* units in the middle of the exposure */
+    int32_t depth;              /* code in the middle of the exposure */
     int32_t slope;              /* timemask_slope_of(color) */
-    int32_t low;                /* units it keeps above */
+    int32_t low;                /* code it keeps above */
 };
 
 static inline size_t timemask_slots_bytes(uint32_t pixels)
@@ -46,31 +46,9 @@ void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t 
 /* Frees all entries. */
 void smear_timemask_slots_clear(struct timemask_slots *b);
 
-/* Depth units, 0 .. 2^20 - 1, in 16 bits: 3 of exponent, 13 of mantissa; rounded down, order kept. */
-static inline uint32_t timemask_depth_pack(int32_t units)
-{
-    if (units < 16384)
-        return (uint32_t)units;
-    int up = 18 - count_leading_zeros((uint32_t)units);         /* 1 .. 6 */
-    return ((uint32_t)up << 13) + ((uint32_t)units >> up);
-}
+/* Slope of a depth code, in 1/16 per slot, in 8 bits: sign, exponent, 3 bits of mantissa. */
+uint32_t smear_timemask_slope(int32_t slope);
 
-static inline int32_t timemask_depth_units(uint32_t depth)
-{
-    return depth < 16384 ? (int32_t)depth : (int32_t)((depth & 8191u) + 8192u) << ((depth >> 13) - 1);
-}
-
-/* Slope of a depth, in 1/16 unit per slot, in 8 bits: sign, exponent, 3 bits of mantissa. */
-static inline uint32_t timemask_slope_pack(int32_t slope)
-{
-    uint32_t size = min_u32((uint32_t)abs_i32(slope), 15u << 14), sign = slope < 0 ? 128u : 0;
-    if (size < 8)
-        return sign | size;
-    int exponent = 29 - count_leading_zeros(size);
-    return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
-}
-
-/* Of the upper bits of a colour. */
 static inline int32_t timemask_slope_of(uint32_t color)
 {
     int32_t exponent = (int32_t)(color >> 27 & 15u), mantissa = (int32_t)(color >> 24 & 7u);
@@ -78,23 +56,21 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* Whether an entry is of the same colour and, as far as that matters, in the same course. */
-static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, const struct timemask_fragment *f)
+/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, uint32_t color, int32_t depth)
 {
-    uint32_t color = b->color[at];
-    if ((color ^ f->color) << 8 != 0)
-        return false;
-    return abs_i32(timemask_depth_units(b->depth[at]) - f->depth) + abs_i32(timemask_slope_of(color) - f->slope) <= f->depth >> 8;
+    return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
 }
 
 /* timemask_slots_add, where others have a say or entries run out. */
 void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, const struct timemask_fragment *f);
 
-/* `high`: units that are not exceeded. */
+/* `high`: code that is not exceeded. */
 SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
-    if ((any & f.mask) != 0 && timemask_depth_pack(high) < b->farthest[pixel]) {
+    int32_t farthest = b->farthest[pixel];
+    if ((any & f.mask) != 0 && high <= farthest) {
         f.mask &= ~any;
         if (f.mask == 0)
             return;
@@ -106,16 +82,15 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     }
     uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
     b->any[pixel] = any | f.mask;
-    uint32_t low = timemask_depth_pack(f.low);
-    if (low < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)low;
-    if (n != 0 && timemask_is_same(b, before, &f)) {
+    if (f.low < farthest)
+        b->farthest[pixel] = (uint16_t)f.low;
+    if (n != 0 && timemask_is_same(b, before, f.color, f.depth)) {
         b->held[before] |= f.mask;
         return;
     }
     b->held[at] = f.mask;
     b->color[at] = f.color;
-    b->depth[at] = (uint16_t)timemask_depth_pack(f.depth);
+    b->depth[at] = (uint16_t)f.depth;
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
