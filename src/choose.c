@@ -12,7 +12,7 @@ struct preset {
     int32_t target;             /* from this error on, 1/64 codes */
     int32_t step;               /* travel from one instant to the next, 1/16 px */
     int32_t least, most;        /* instants, however short the way; and up to which they are taken */
-    int32_t slots, edge, tap;   /* as in struct smear_timemask_settings */
+    int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
 enum { INSTANTS_MAX = 64 };
@@ -20,9 +20,9 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768 },
-        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512 },
-        { 0, 8, 6, 0, 32, 8, 256 }
+        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768, 2 },
+        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512, 2 },
+        { 0, 8, 6, 0, 32, 8, 256, 4 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -36,10 +36,12 @@ static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
     return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
 }
 
-static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap)
+static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
+                            int32_t sparse)
 {
     choice->method = TILE_TIMEMASK;
-    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap };
+    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap,
+                                                            sparse };
 }
 
 /* Means along the ways of pixels of the sharp picture take over its aliasing: edges and thin things come out a fraction of
@@ -61,7 +63,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->instants = instants_for(load, chooser->samples);
     } else if (chooser->method == SMEAR_TIMEMASK) {
         if (closed_form) {
-            choose_timemask(choice, chooser->samples, 16, 6, 256);
+            choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
@@ -77,7 +79,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         if (closed_form && instants > p->most) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
-                            p->tap);
+                            p->tap, p->sparse);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = min_i32(instants, INSTANTS_MAX);

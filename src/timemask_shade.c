@@ -207,7 +207,7 @@ static void attribute_make(struct timemask_timed *t, const struct course *c, con
 /* ------------------------------------------------------------------ set-up */
 
 static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3],
-                        bool is_plain)
+                        const struct timemask_cover *cover, bool is_plain)
 {
     int32_t depth[3][3];
     s->depth_low = INT32_MAX;
@@ -225,7 +225,7 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
         course_start(c, pose, is_plain);
         timed_make(&s->depth, c, value);
     }
-    int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
+    int32_t change = s->depth.change + s->depth.change_dx * cover->middle_x + s->depth.change_dy * cover->middle_y;
     s->slope = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
@@ -339,19 +339,19 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
-                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
+                          const struct timemask_pose *const pose[3], const struct timemask_cover *cover, int32_t tap)
 {
     struct course course;
     course.started = false;
     s->frame = frame;
     s->segment = segment;
-    s->slots_log2 = slots_log2;
+    s->slots_log2 = cover->slots_log2;
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
     const bool is_plain = !s->gouraud && s->sampler == NULL;
-    shade_depth(s, &course, pose, is_plain);
+    shade_depth(s, &course, pose, cover, is_plain);
     if (is_plain)
         return;
     if (!course.started)
