@@ -17,7 +17,10 @@ enum { PIXELS_LOG2 = 7, PIECES_LOG2 = 4 };     /* entries of a block, at most */
 
 enum { SPARSE_LOG2_MAX = 3 };
 
-enum { LISTED = 128 };                          /* movers that are drawn in order of depth */
+enum {
+    LISTED = 128,                               /* movers that are drawn in order of depth */
+    LOOK_EVERY = 4                              /* after so many it is seen whether the rest is hidden */
+};
 
 /* What the blocks of a tile share. */
 struct job {
@@ -344,7 +347,8 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     struct timemask_shade s;
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, m->record, pose, &c,
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, (m->bounds->flags & PATH_LEVEL) != 0,
+                         m->record, pose, &c,
                          max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
     struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
                          .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
@@ -410,6 +414,17 @@ static void draw_mover(struct job *j, uint32_t i)
         draw_whole(j, &m);
     else
         draw_piece(j, &m);
+}
+
+/* The listed movers, the nearest first, until the rest is hidden. */
+static void draw_listed(struct job *j)
+{
+    for (uint32_t i = 0; i < j->listed; i++) {
+        if (i != 0 && i % LOOK_EVERY == 0
+            && (int32_t)(j->list[i] >> 16) <= smear_timemask_slots_hidden(&j->slots, j->width, j->height, j->stride))
+            return;
+        draw_mover(j, listed_mover(j, i));
+    }
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -511,8 +526,7 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
                 list_movers(&j);
             }
             for (;;) {
-                for (uint32_t i = 0; i < j.listed; i++)
-                    draw_mover(&j, listed_mover(&j, i));
+                draw_listed(&j);
                 if (j.next == t->mover_count)
                     break;
                 list_movers(&j);

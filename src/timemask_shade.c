@@ -9,7 +9,6 @@ enum {
     STEEP = 1 << 28,            /* a plane so steep has no exact pixels, its triangle is a sliver */
     LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
-    LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -251,33 +250,6 @@ static void channels_read(struct channels *out, const struct smear_segment *g, c
         }
 }
 
-/* All three vertices have one colour, or nearly. */
-static bool shade_level(struct timemask_shade *s, const int32_t *const record[3])
-{
-    const int at = s->segment->color;
-    const bool same = ((record[0][at] ^ record[1][at]) | (record[0][at] ^ record[2][at])
-                       | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
-                       | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
-    struct channels k;
-    channels_read(&k, s->segment, record, s->frame->linear);
-    uint32_t code[3], sum = 0;
-    for (int i = 0; i < (same ? 1 : 3); i++)
-        code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], s->frame->linear);
-    if (same) {
-        s->color = code[0];
-        return true;
-    }
-    for (int shift = 0; shift < 24; shift += 8) {
-        const int32_t a[3] = { (int32_t)(code[0] >> shift & 255u), (int32_t)(code[1] >> shift & 255u),
-                               (int32_t)(code[2] >> shift & 255u) };
-        if (spread(a) > LEVEL_COLOR)
-            return false;
-        sum |= (uint32_t)((least_of(a) + most_of(a)) >> 1) << shift;
-    }
-    s->color = sum;
-    return true;
-}
-
 static void shade_channels(struct timemask_shade *s, const struct course *c, const struct over_w *w, struct channels *k)
 {
     for (int i = 0; i < 3; i++) {
@@ -338,8 +310,9 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
-                          const struct timemask_pose *const pose[3], const struct timemask_cover *cover, int32_t tap)
+                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const int32_t *const record[3], const struct timemask_pose *const pose[3],
+                          const struct timemask_cover *cover, int32_t tap)
 {
     struct course course;
     course.started = false;
@@ -349,7 +322,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
+    s->gouraud = segment->shade == SHADE_GOURAUD && !is_level;
     const bool is_plain = !s->gouraud && s->sampler == NULL;
     shade_depth(s, &course, pose, cover, is_plain);
     if (is_plain)

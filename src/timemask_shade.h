@@ -38,11 +38,12 @@ struct timemask_shade {
     int32_t slots_log2;
 };
 
-/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `tap`: travel per texel, in
- * q8 of the block's px. */
+/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `is_level`: the triangle is of
+ * one colour, whatever its vertices have. `tap`: travel per texel, in q8 of the block's px. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
-                          const struct timemask_pose *const pose[3], const struct timemask_cover *cover, int32_t tap);
+                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const int32_t *const record[3], const struct timemask_pose *const pose[3],
+                          const struct timemask_cover *cover, int32_t tap);
 
 /* Colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);

@@ -207,6 +207,19 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
+int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows, int32_t stride)
+{
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    int32_t farthest = UINT16_MAX;
+    for (int32_t y = 0; y < rows; y++)
+        for (int32_t i = y * stride; i < y * stride + width; i++) {
+            if (b->any[i] != all)
+                return 0;
+            farthest = min_i32(farthest, b->farthest[i]);
+        }
+    return farthest;
+}
+
 /* ------------------------------------------------------------------ means */
 
 /* Linear light. */

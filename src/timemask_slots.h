@@ -94,6 +94,9 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
+/* Depth code at or beyond which nothing new is seen in rows of `width` pixels, `stride` apart: 0 while slots are free. */
+int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows, int32_t stride);
+
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still);
 
