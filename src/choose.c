@@ -44,14 +44,6 @@ static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int
                                                             sparse };
 }
 
-/* Means along the ways of pixels of the sharp picture take over its aliasing: edges and thin things come out a fraction of
- * a pixel wrong. Over texels that is nothing new, and taps along the way of a texture are dear for every other method. */
-static bool wants_smooth(const struct smear_chooser *chooser, const struct smear_tile_load *load)
-{
-    return chooser->target >= SMEAR_DRAFT
-        || (chooser->target >= SMEAR_BALANCED && (load->flags & PATH_TEXTURED) != 0);
-}
-
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
@@ -68,11 +60,6 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
         }
-    } else if (chooser->has_window && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0
-               && load->travel >= 8 * 16 && wants_smooth(chooser, load)) {
-        choice->method = TILE_SMOOTH;
-        choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);
-        choice->taps = max_i32(load->travel >> 4, 8);
     } else {
         const struct preset *p = preset_of(chooser->target);
         int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);

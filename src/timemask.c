@@ -500,7 +500,8 @@ size_t smear_timemask_work(int32_t tile)
     return timemask_slots_bytes(1u << PIXELS_LOG2) + LISTED * sizeof(uint32_t);
 }
 
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings,
+                             bool *is_smooth)
 {
     const int log2 = pixels_log2(t->work_bytes);
     struct job j = { .tile = t, .settings = settings, .list = t->work };
@@ -510,6 +511,7 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     choose_samples(&j);
+    *is_smooth = is_sparse(&j);
     choose_block(&j, &most, 1 << log2);
     list_movers(&j);
     for (j.y = t->still.y0; j.y < t->still.y1; j.y += most.height)

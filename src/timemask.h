@@ -17,7 +17,9 @@ struct smear_timemask_settings {
     int32_t sparse;             /* px of travel per px between samples: fewer are taken where all moves far; 0: never */
 };
 
-/* Opaque movers. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings);
+/* Opaque movers. Cutouts and blended draws are for subframes.h. Returns the fragments taken; `is_smooth`: whether samples
+ * were taken apart. */
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings,
+                             bool *is_smooth);
 
 #endif

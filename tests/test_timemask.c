@@ -216,7 +216,9 @@ static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
             t.still.color_rows.slot0 = t.still.window_rows.slot0 = y;
             for (int i = 0; i < TILE_MAX * TILE_MAX; i++)
                 out[i] = 0xabababu;
-            smear_timemask_tile(&t, &settings);
+            bool is_smooth;
+            smear_timemask_tile(&t, &settings, &is_smooth);
+            CHECK(!is_smooth);
             for (int32_t i = 0; i < TILE_MAX * TILE_MAX; i++) {
                 int32_t px = x + i % tile, py = y + i / tile;
                 if (i < tile * tile && px < W && py < H)
