@@ -142,6 +142,7 @@ static void choose_segments(struct job *j)
 /* How all movers of a tile go. */
 struct flow {
     int32_t dx, dy;             /* q8 px, the shortest ways along both axes */
+    int32_t dx_most, dy_most;   /* and the longest */
     int32_t nearest, farthest;  /* depth codes */
 };
 
@@ -156,14 +157,52 @@ static inline int32_t depth_code(int32_t units)
     return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
 }
 
-static void flow_add(struct flow *f, const struct mover *m)
+/* Displacements at the vertices, q8 px, during the whole exposure; of a triangle much larger than the tile at the tile's
+ * corners in its plane: a floor may stand still at the horizon and rush by here. How many: 3 or 4. */
+static int displacements(int32_t out[4][2], const struct job *j, const struct mover *m)
 {
-    int32_t low = INT32_MAX, high = INT32_MIN;
-    int32_t scale = m->bounds->piece == 0 ? 1 : PATH_PIECES;
+    const struct smear_path_bounds *b = m->bounds;
+    const struct smear_raster_target *tile = &j->tile->still;
+    const int32_t scale = b->piece == 0 ? 1 : PATH_PIECES;
+    int32_t value[2][3];
+    struct timemask_pose p;
     for (int i = 0; i < 3; i++) {
         const int32_t *middle = m->record[i], *open = middle + m->segment->motion, *close = open + PATH_POSE_WORDS;
-        f->dx = min_i32(f->dx, abs_i32(close[PATH_X] - open[PATH_X]) * scale);
-        f->dy = min_i32(f->dy, abs_i32(close[PATH_Y] - open[PATH_Y]) * scale);
+        for (int axis = 0; axis < 2; axis++) {
+            value[axis][i] = (close[axis] - open[axis]) * scale;
+            out[i][axis] = value[axis][i];
+        }
+        p.x[i] = middle[PATH_X] - (tile->x0 + tile->x1) * 128;
+        p.y[i] = middle[PATH_Y] - (tile->y0 + tile->y1) * 128;
+    }
+    struct timemask_shape shape;
+    if (max_i32(b->x1 - b->x0, b->y1 - b->y0) <= 3 * j->tile->tile || !smear_timemask_shape(&shape, &p))
+        return 3;
+    const int32_t half_x = (tile->x1 - tile->x0) >> 1, half_y = (tile->y1 - tile->y0) >> 1;
+    for (int axis = 0; axis < 2; axis++) {
+        struct timemask_slopes s = smear_timemask_slopes(&shape, value[axis]);
+        int32_t low = min_i32(value[axis][0], min_i32(value[axis][1], value[axis][2]));
+        int32_t high = max_i32(value[axis][0], max_i32(value[axis][1], value[axis][2]));
+        int64_t middle = value[axis][0] - (((int64_t)s.dx * p.x[0] + (int64_t)s.dy * p.y[0]) >> 8);
+        for (int i = 0; i < 4; i++) {
+            int64_t at = middle + (int64_t)s.dx * (i & 1 ? half_x : -half_x) + (int64_t)s.dy * (i & 2 ? half_y : -half_y);
+            out[i][axis] = (int32_t)(at < low ? low : at > high ? high : at);
+        }
+    }
+    return 4;
+}
+
+static void flow_add(struct flow *f, const struct job *j, const struct mover *m)
+{
+    int32_t d[4][2], low = INT32_MAX, high = INT32_MIN;
+    for (int i = displacements(d, j, m); i-- > 0;) {
+        f->dx = min_i32(f->dx, abs_i32(d[i][0]));
+        f->dy = min_i32(f->dy, abs_i32(d[i][1]));
+        f->dx_most = max_i32(f->dx_most, abs_i32(d[i][0]));
+        f->dy_most = max_i32(f->dy_most, abs_i32(d[i][1]));
+    }
+    for (int i = 0; i < 3; i++) {
+        const int32_t *middle = m->record[i], *open = middle + m->segment->motion, *close = open + PATH_POSE_WORDS;
         low = min_i32(low, min_i32(middle[PATH_DEPTH], min_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
         high = max_i32(high, max_i32(middle[PATH_DEPTH], max_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
     }
@@ -177,7 +216,7 @@ static void flow_add(struct flow *f, const struct mover *m)
 static void choose_samples(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
-    struct flow f = { INT32_MAX, INT32_MAX, 0, 65535 };
+    struct flow f = { INT32_MAX, INT32_MAX, 0, 0, 0, 65535 };
     j->across_log2 = j->down_log2 = 0;
     if (j->settings->sparse == 0)
         return;
@@ -187,7 +226,7 @@ static void choose_samples(struct job *j)
         if (!mover_is_in(&t->mover[i], t->column))
             continue;
         mover_take(&m, j, i);
-        flow_add(&f, &m);
+        flow_add(&f, j, &m);
         if (max_i32(f.dx, f.dy) < 2 * one)
             return;
     }

@@ -15,14 +15,7 @@ enum {
 
 /* ------------------------------------------------------------------ slopes */
 
-/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
-struct shape {
-    int32_t x1, y1, x2, y2;
-    int shift;
-};
-
-/* False when it has no area. */
-static bool shape_make(struct shape *s, const struct timemask_pose *p)
+bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p)
 {
     int32_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
     int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
@@ -43,19 +36,14 @@ static bool shape_make(struct shape *s, const struct timemask_pose *p)
     return true;
 }
 
-/* Per pixel. */
-struct slopes {
-    int32_t dx, dy;
-};
-
-static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
+struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t a[3])
 {
     int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
     int64_t dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> s->shift;
     int64_t dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> s->shift;
     if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
-        return (struct slopes){ 0, 0 };
-    return (struct slopes){ (int32_t)dx, (int32_t)dy };
+        return (struct timemask_slopes){ 0, 0 };
+    return (struct timemask_slopes){ (int32_t)dx, (int32_t)dy };
 }
 
 /* At the point that attributes go with. */
@@ -70,7 +58,7 @@ static inline int32_t point_of(const int32_t a[3])
 struct course {
     bool started;
     bool turns;                 /* its shape is another one at the end */
-    struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
+    struct timemask_shape shape, start, end;         /* in the middle; where it turns also at both ends */
     int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
 };
 
@@ -93,10 +81,10 @@ static bool shape_turns(const struct timemask_pose *a, const struct timemask_pos
 static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool is_plain)
 {
     c->started = true;
-    bool seen = shape_make(&c->shape, pose[1]);
+    bool seen = smear_timemask_shape(&c->shape, pose[1]);
     c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
-        bool at_start = shape_make(&c->start, pose[0]), at_end = shape_make(&c->end, pose[2]);
+        bool at_start = smear_timemask_shape(&c->start, pose[0]), at_end = smear_timemask_shape(&c->end, pose[2]);
         if (!seen)
             c->shape = at_start ? c->start : c->end;
         if (!at_start)
@@ -125,14 +113,14 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
  * A plane that changes by more than there are bits for becomes one value. */
 static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
-    struct slopes g = slopes_of(&c->shape, value[1]);
+    struct timemask_slopes g = smear_timemask_slopes(&c->shape, value[1]);
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
     int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
     int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
-        struct slopes start = slopes_of(&c->start, value[0]), end = slopes_of(&c->end, value[2]);
+        struct timemask_slopes start = smear_timemask_slopes(&c->start, value[0]), end = smear_timemask_slopes(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;

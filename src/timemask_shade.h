@@ -48,6 +48,22 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 /* Colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
 
+/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
+struct timemask_shape {
+    int32_t x1, y1, x2, y2;
+    int shift;
+};
+
+/* False when it has no area. */
+bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p);
+
+/* Of a plane through values at the vertices, per pixel; level where that would be too steep to have exact pixels. */
+struct timemask_slopes {
+    int32_t dx, dy;
+};
+
+struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t value[3]);
+
 /* The two planes at a pixel. */
 struct timemask_here {
     int32_t at, change;
