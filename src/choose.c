@@ -22,7 +22,7 @@ static const struct preset *preset_of(int32_t target)
     static const struct preset preset[] = {
         { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768, 2 },
         { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512, 3 },
-        { 0, 8, 6, 0, 32, 8, 256, 5 }
+        { 0, 8, 6, 0, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)

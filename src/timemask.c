@@ -15,7 +15,7 @@ enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
 enum { PIXELS_LOG2 = 7, PIECES_LOG2 = 4 };     /* entries of a block, at most */
 
-enum { SPARSE_LOG2_MAX = 3 };
+enum { SPARSE_LOG2_MAX = 2 };
 
 enum {
     LISTED = 128,                               /* movers that are drawn in order of depth */
@@ -88,7 +88,8 @@ static void list_movers(struct job *j)
     j->first = j->next;
     j->listed = 0;
     for (; j->next < t->mover_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
-        if (mover_is_in(&t->mover[j->next], t->column))
+        if (mover_is_in(&t->mover[j->next], t->column)
+            || (j->across_log2 != 0 && t->mover[j->next].first == t->column + 1))   /* the last samples lie there */
             j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16 | (65535u - (j->next - j->first));
     sort_down(j->list, j->listed);
 }
@@ -141,8 +142,7 @@ static void choose_segments(struct job *j)
 
 /* How all movers of a tile go. */
 struct flow {
-    int32_t dx, dy;             /* q8 px, the shortest ways along both axes */
-    int32_t dx_most, dy_most;   /* and the longest */
+    int32_t least[2], most[2];  /* q8 px: the shortest and the longest ways along both axes */
     int32_t nearest, farthest;  /* depth codes */
 };
 
@@ -155,6 +155,18 @@ static inline bool is_sparse(const struct job *j)
 static inline int32_t depth_code(int32_t units)
 {
     return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
+}
+
+enum { LARGE_BEND = 16 };       /* 1/16 px */
+
+/* Not a sliver: its area is a quarter of that of its box, or more. */
+static bool is_wide(const struct timemask_pose *p)
+{
+    int64_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
+    int64_t area = x1 * y2 - x2 * y1, width = max_i32(p->x[0], max_i32(p->x[1], p->x[2]))
+                                            - min_i32(p->x[0], min_i32(p->x[1], p->x[2]));
+    int64_t height = max_i32(p->y[0], max_i32(p->y[1], p->y[2])) - min_i32(p->y[0], min_i32(p->y[1], p->y[2]));
+    return (area < 0 ? -area : area) * 2 >= width * height;
 }
 
 /* Displacements at the vertices, q8 px, during the whole exposure; of a triangle much larger than the tile at the tile's
@@ -176,7 +188,8 @@ static int displacements(int32_t out[4][2], const struct job *j, const struct mo
         p.y[i] = middle[PATH_Y] - (tile->y0 + tile->y1) * 128;
     }
     struct timemask_shape shape;
-    if (max_i32(b->x1 - b->x0, b->y1 - b->y0) <= 3 * j->tile->tile || !smear_timemask_shape(&shape, &p))
+    if (min_i32(b->x1 - b->x0, b->y1 - b->y0) <= 3 * j->tile->tile || b->bend > LARGE_BEND || !is_wide(&p)
+        || !smear_timemask_shape(&shape, &p))
         return 3;
     const int32_t half_x = (tile->x1 - tile->x0) >> 1, half_y = (tile->y1 - tile->y0) >> 1;
     for (int axis = 0; axis < 2; axis++) {
@@ -195,11 +208,15 @@ static int displacements(int32_t out[4][2], const struct job *j, const struct mo
 static void flow_add(struct flow *f, const struct job *j, const struct mover *m)
 {
     int32_t d[4][2], low = INT32_MAX, high = INT32_MIN;
-    for (int i = displacements(d, j, m); i-- > 0;) {
-        f->dx = min_i32(f->dx, abs_i32(d[i][0]));
-        f->dy = min_i32(f->dy, abs_i32(d[i][1]));
-        f->dx_most = max_i32(f->dx_most, abs_i32(d[i][0]));
-        f->dy_most = max_i32(f->dy_most, abs_i32(d[i][1]));
+    const int places = displacements(d, j, m);
+    for (int axis = 0; axis < 2; axis++) {
+        int32_t from = d[0][axis], to = from;
+        for (int i = 1; i < places; i++) {
+            from = min_i32(from, d[i][axis]);
+            to = max_i32(to, d[i][axis]);
+        }
+        f->least[axis] = min_i32(f->least[axis], from > 0 ? from : to < 0 ? -to : 0);
+        f->most[axis] = max_i32(f->most[axis], max_i32(-from, to));
     }
     for (int i = 0; i < 3; i++) {
         const int32_t *middle = m->record[i], *open = middle + m->segment->motion, *close = open + PATH_POSE_WORDS;
@@ -216,7 +233,7 @@ static void flow_add(struct flow *f, const struct job *j, const struct mover *m)
 static void choose_samples(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
-    struct flow f = { INT32_MAX, INT32_MAX, 0, 0, 0, 65535 };
+    struct flow f = { { INT32_MAX, INT32_MAX }, { 0, 0 }, 0, 65535 };
     j->across_log2 = j->down_log2 = 0;
     if (j->settings->sparse == 0)
         return;
@@ -227,21 +244,21 @@ static void choose_samples(struct job *j)
             continue;
         mover_take(&m, j, i);
         flow_add(&f, j, &m);
-        if (max_i32(f.dx, f.dy) < 2 * one)
+        if (max_i32(f.least[0], f.least[1]) < 2 * one)
             return;
     }
     j->front = f.nearest;
     j->back = f.farthest;
-    int32_t along = max_i32(f.dx, f.dy), aside = min_i32(f.dx, f.dy);
+    const int u = f.least[0] >= f.least[1] ? 0 : 1;
     int log2 = 0, aside_log2 = 0;
-    while (log2 < SPARSE_LOG2_MAX && along >= one << (log2 + 1))
+    while (log2 < SPARSE_LOG2_MAX && f.least[u] >= one << (log2 + 1))
         log2++;
-    if (aside > along >> 1 && aside >= 2 * one) {
+    if (f.least[1 - u] > f.least[u] >> 1 && f.least[1 - u] >= 2 * one) {
         log2 = min_i32(log2, 2);
         aside_log2 = 1;
     }
-    j->across_log2 = f.dx >= f.dy ? log2 : aside_log2;
-    j->down_log2 = f.dx >= f.dy ? aside_log2 : log2;
+    j->across_log2 = u == 0 ? log2 : aside_log2;
+    j->down_log2 = u == 0 ? aside_log2 : log2;
     j->swapped = j->across_log2 > j->down_log2;
 }
 
