@@ -177,11 +177,11 @@ static void finish_job(void *argument, int column, int worker)
         bool is_smooth;
         c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask, &is_smooth);
         load->method = is_smooth ? TILE_SMOOTH : TILE_TIMEMASK;
-    } else if (choice.method == TILE_SUBFRAMES)
+    } else if (choice.method == TILE_SUBFRAMES) {
         c->worker_samples[worker] += smear_subframes_tile(&t, choice.instants);
-    else if (choice.method == TILE_COPY)
+    } else {
         blend_still(&t, c);
-    load->method = (uint8_t)choice.method;
+    }
     smear_band_convert_tile(&f->row, column, t.out);
 }
 
