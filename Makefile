@@ -222,6 +222,7 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+include tools/web/web.mk
 
 # The demo firmware on a desktop's screen.
 $(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \

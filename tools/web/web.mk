@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+# The web page: build/web/index.html, one file. Needs clang-14 and wasm-ld-14 (packages clang-14, lld-14).
+
+WEB_CC ?= clang-14
+WEB_LD ?= wasm-ld-14
+WEB    := build/web
+
+# What the page needs of the tools, and scenes that are to be looked at in place of all.
+WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
+    $(filter-out $(addprefix tools/image/,apng.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
+    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
+        scene.c stage.c) \
+    $(addprefix tools/cli/,arguments.c convert.c device.c options.c picture.c say.c setup.c source.c) \
+    $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c)
+
+# Inner loops; everything else is to be small.
+WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
+    src/texture.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
+
+WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
+    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
+
+.PHONY: web web-chart web-bench
+## the web page: build/web/index.html (needs clang-14 and lld-14)
+web: $(WEB)/index.html
+
+$(WEB)/index.html: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm $(wildcard tools/web/*.html tools/web/*.js tools/web/*.css) \
+    tools/web/chart.csv
+	$(WEB)/pack tools/web/page.html $@
+
+$(call web_objects,scalar) $(call web_objects,simd): WEB_OPT = -Oz
+$(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
+$(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -O2 -fno-builtin
+# Loops over pixels that the compiler makes vectors of; nothing else gains.
+WEB_VECTORS := $(filter src/blur% src/convert.c src/smooth.c src/band.c src/tilemax.c src/frame.c,$(LIB_SRC))
+$(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
+
+$(WEB)/scalar/%.o: %.c
+	@mkdir -p $(@D)
+	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) -c -o $@ $<
+
+$(WEB)/simd/%.o: %.c
+	@mkdir -p $(@D)
+	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) $(WEB_SIMD) -c -o $@ $<
+
+# The stack lies first: an overflow is a trap, not another's data.
+WEB_LDFLAGS := --no-entry --strip-all --gc-sections --stack-first -z stack-size=1048576 --max-memory=2147483648 -O2
+$(WEB)/scalar.wasm: $(call web_objects,scalar)
+	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
+
+$(WEB)/simd.wasm: $(call web_objects,simd)
+	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
+
+$(WEB)/pack: $(call objects,tools/web/pack.c $(IMAGE_SRC))
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+## the numbers of the page's chart again, from the last `make chart`
+web-chart:
+	awk -f tools/web/chart.awk build/chart/chart.csv > $(WEB).csv && mv $(WEB).csv tools/web/chart.csv
+
+## frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
+web-bench: $(WEB)/index.html
+	node tests/web_bench.js $(WEB)/index.html
