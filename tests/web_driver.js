@@ -80,11 +80,12 @@ class Browser {
     async text(css) { return request(this.port, "GET", this.at + "/element/" + await this.element(css) + "/text"); }
     resize(width, height) { return request(this.port, "POST", this.at + "/window/rect", { width, height }); }
     async devtools(cmd, params) { return request(this.port, "POST", this.at + "/goog/cdp/execute", { cmd, params }); }
-    async drag(css, dx, dy) {
+    // From x, y beside the middle of the element.
+    async drag(css, dx, dy, x = 0, y = 0) {
         const origin = { [ELEMENT]: await this.element(css) };
         return request(this.port, "POST", this.at + "/actions", { actions: [{ type: "pointer", id: "mouse", parameters: { pointerType: "mouse" }, actions: [
-            { type: "pointerMove", duration: 0, x: 0, y: 0, origin }, { type: "pointerDown", button: 0 },
-            { type: "pointerMove", duration: 200, x: dx, y: dy, origin }, { type: "pointerUp", button: 0 }] }] });
+            { type: "pointerMove", duration: 0, x, y, origin }, { type: "pointerDown", button: 0 },
+            { type: "pointerMove", duration: 200, x: x + dx, y: y + dy, origin }, { type: "pointerUp", button: 0 }] }] });
     }
     async picture(file, whole) {
         let data;

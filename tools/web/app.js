@@ -203,6 +203,7 @@ async function drawOn(engine, n) {
     inFlight.delete(n);
     if (answer.status === 0) {
         keep(answer);
+        lastGood = { ...S, model };
         if (n === S.frame) show();
         pump();
     } else if (answer.dead) {
@@ -249,8 +250,7 @@ function change() {
                 return;
             }
             scene = answer.scene;
-            complain($("trouble"), clean(answer.err));
-            lastGood = { ...S, model };
+            if (answer.err) complain($("trouble"), clean(answer.err));
         } while (changing.again);
         changing = null;
         if (S.frame >= period()) S.frame = 0;
@@ -259,6 +259,7 @@ function change() {
     }
 }
 
+// Back to what has drawn a frame last.
 function refuse() {
     if (!lastGood) { fatal("The module does not start: " + $("trouble").textContent); return; }
     const last = lastGood;
@@ -383,7 +384,8 @@ function showCommand() {
     list.splice(list.indexOf("--"), 1);
     const name = list.pop();
     const text = "build/smear render " + quote(name) + " " + list.map(quote).join(" ") + " --frames " + S.frame + "-" + S.frame + " --stats frame.json";
-    const note = turned ? "\n# the camera has been turned by hand: the command shows the scene's own" : "";
+    const note = turned ? "\n# the camera has been turned by hand: the command shows the scene's own"
+        : shownFrame && shownFrame.stats.dropped > 0 ? "\n# triangles are left out for want of memory, fewer here and on the board than where pointers have 8 bytes" : "";
     if ($("command").textContent !== text + note) $("command").textContent = text + note;
 }
 
@@ -574,9 +576,14 @@ function moveSplit(by) {
     writeAddress();
 }
 
+// A board begins with the method that its memory has room for, as `smear view --board` does.
+function choosePanel(name) {
+    const to = PANELS.find(p => p.name === name), own = to.method >= 0 ? to.method : panel().method >= 0 ? DEFAULTS.method : S.method;
+    set({ panel: name, method: own });
+}
+
 function nextPanel(by) {
-    const at = PANELS.indexOf(panel());
-    set({ panel: PANELS[(at + by + PANELS.length) % PANELS.length].name });
+    choosePanel(PANELS[(PANELS.indexOf(panel()) + by + PANELS.length) % PANELS.length].name);
 }
 
 const KEYS = {
@@ -591,7 +598,7 @@ function bindControls() {
     buildKnobs();
     bindScreen();
     $("scene").onchange = e => set({ scene: e.target.value, clip: 0, frame: 0 });
-    $("panel").onchange = e => set({ panel: e.target.value });
+    $("panel").onchange = e => choosePanel(e.target.value);
     $("clip").onchange = e => set({ clip: +e.target.value, frame: 0 });
     $("pause").onclick = () => pause(!S.paused);
     $("blur").onclick = toggleBlur;
@@ -853,9 +860,10 @@ async function begin() {
     if (started.status !== 0) { fatal("The module does not start: " + started.err); return; }
     const answer = await engines[0].ask("boards", {}, 10000);
     answer.boards.forEach((b, i) => {
-        const own = ["--size", "--format", "--dither", "--arena"], list = [];
-        b.options.forEach((o, k) => { if (own.includes(o)) list.push(o, b.options[k + 1]); });
-        PANELS.push({ name: b.name, label: LABELS[b.name] || b.name, what: b.what, shell: SHELLS[b.name] || "board", words: list, board: i });
+        const drawn = ["--size", "--format", "--dither", "--arena"], list = [];
+        b.options.forEach((o, k) => { if (drawn.includes(o)) list.push(o, b.options[k + 1]); });
+        const own = METHODS.findIndex(m => m.name === b.options[b.options.indexOf("--method") + 1]);
+        PANELS.push({ name: b.name, label: LABELS[b.name] || b.name, what: b.what, shell: SHELLS[b.name] || "board", words: list, board: i, method: own });
     });
     readAddress();
     if (!location.hash && matchMedia("(prefers-reduced-motion: reduce)").matches) S.paused = true;

@@ -125,9 +125,9 @@ int help_print(const char *command)
 struct shown {
     bool is_open;
     struct source *source;
-    struct orbit orbit;
+    struct orbit *orbit;        /* the presenter's scene lies in it */
     struct presenter *presenter;
-    struct lane main, left;
+    struct lane main, left;     /* never move: devices point to them */
     const struct board *board;
     struct panel_look look;
     struct bus bus;
@@ -147,7 +147,9 @@ static void close_source(struct shown *s)
     lane_close(&s->left);
     presenter_free(s->presenter);
     source_close(s->source);
+    free(s->orbit);
     free(s->source);
+    s->orbit = NULL;
     s->source = NULL;
     s->presenter = NULL;
     s->is_open = false;
@@ -238,20 +240,23 @@ EXPORT(web_open) int web_open(int board)
     next.is_open = true;
     next.main = next.left = (struct lane){ .is_open = false };
     next.source = calloc(1, sizeof *next.source);
+    next.orbit = calloc(1, sizeof *next.orbit);
     next.presenter = NULL;
-    if (next.source == NULL) {
+    if (next.source == NULL || next.orbit == NULL) {
         fail(&f, "out of memory");
-        return say_bad_input(o.scene, &f);
+        status = say_bad_input(o.scene, &f);
+    } else {
+        status = source_open(o.scene, &o.view, next.source);
     }
-    status = source_open(o.scene, &o.view, next.source);
     if (status != STATUS_OK) {
         free(next.source);
+        free(next.orbit);
         return status;
     }
     struct shown old = shown;
-    shown = next;                       /* lanes and orbit stay where they are from here on */
-    orbit_open(&shown.orbit, &shown.source->scene);
-    shown.presenter = presenter_new(&shown.orbit.scene, &f);
+    shown = next;
+    orbit_open(shown.orbit, &shown.source->scene);
+    shown.presenter = presenter_new(&shown.orbit->scene, &f);
     status = shown.presenter != NULL ? open_lanes(&shown, &o) : say_bad_input(o.scene, &f);
     if (status != STATUS_OK) {
         close_source(&shown);
@@ -432,7 +437,7 @@ static int find_focus(int frame)
 {
     struct failure f = { "" };
     double fps = shown.main.setup.present.fps;
-    if (shown.orbit.focus > 0.0 || orbit_find_focus(&shown.orbit, (double)frame / fps, &f))
+    if (shown.orbit->focus > 0.0 || orbit_find_focus(shown.orbit, (double)frame / fps, &f))
         return STATUS_OK;
     return say_bad_input(shown.source->name, &f);
 }
@@ -441,15 +446,16 @@ EXPORT(web_turn) int web_turn(int frame, double yaw, double pitch, double factor
 {
     int status = shown.is_open ? find_focus(frame) : STATUS_BAD_USAGE;
     if (status == STATUS_OK) {
-        orbit_turn(&shown.orbit, yaw, pitch);
-        orbit_move(&shown.orbit, factor);
+        orbit_turn(shown.orbit, yaw, pitch);
+        orbit_move(shown.orbit, factor);
     }
     return status;
 }
 
 EXPORT(web_straight) void web_straight(void)
 {
-    orbit_reset(&shown.orbit);
+    if (shown.is_open)
+        orbit_reset(shown.orbit);
 }
 
 /* ------------------------------------------------------------------ files */
