@@ -134,9 +134,11 @@ const tests = {
         check(Math.min(...times) < 1000, "first frame after " + times.join(", ") + " ms");
     },
     "the demo moves, and its picture is worth looking at": async () => {
-        await open();
+        await open("#scene=race");
         const first = await browser.run("return S.frame");
         check(await browser.until("S.frame > " + first + " + 2"), "nothing moves");
+        const left = await browser.run("const e = [...document.querySelectorAll('.stops.many button')].map(b => b.getBoundingClientRect()); return e.slice(1).filter((r, i) => r.left < e[i].right && r.top < e[i].bottom).length");
+        equal(left, 0, "labels over each other");
         const colors = await browser.run("const c = document.getElementById('right'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data, s = new Set(); for (let i = 0; i < d.length; i += 4) s.add(d[i] << 16 | d[i + 1] << 8 | d[i + 2]); return s.size");
         check(colors > 200, "only " + colors + " colours");
         await screenshot("page");
@@ -368,6 +370,8 @@ const tests = {
         const small = await browser.run(`return [...document.querySelectorAll("button, select, input[type=range], .btn, [role=slider]")].filter(e => { const r = e.getBoundingClientRect();
             return r.width > 0 && (r.height < 24 || r.width < 24 || r.right > 361 || r.left < -1); }).map(e => e.id || e.getAttribute("aria-label"))`);
         const zoom = await browser.run("return document.getElementById('screen').clientWidth");
+        const over = await browser.run("const e = [...document.querySelectorAll('.stops.many button')].map(b => b.getBoundingClientRect()); return e.slice(1).filter((r, i) => r.left < e[i].right && r.top < e[i].bottom).length");
+        equal(over, 0, "labels over each other");
         await screenshot("phone", true);
         await browser.devtools("Emulation.clearDeviceMetricsOverride", {});
         check(wide <= 360, "the page is " + wide + " pixels wide");

@@ -204,6 +204,7 @@ async function drawOn(engine, n) {
     if (answer.status === 0) {
         keep(answer);
         lastGood = { ...S, model };
+        lighten(answer.stats.us);
         if (n === S.frame) show();
         pump();
     } else if (answer.dead) {
@@ -213,6 +214,15 @@ async function drawOn(engine, n) {
         complain($("trouble"), clean(answer.err));
         if (frames.size === 0) refuse();
     }
+}
+
+// A slow machine begins with the lighter scene, unless the visitor has chosen one.
+const firstTimes = [];
+let mayLighten = false;
+function lighten(us) {
+    if (!mayLighten || firstTimes.push(us) < 5) return;
+    mayLighten = false;
+    if (Math.min(...firstTimes) > 60000) set({ scene: "drone", frame: 0 });
 }
 
 // Gives every idle engine something to draw.
@@ -271,6 +281,7 @@ function refuse() {
 }
 
 function set(changes) {
+    mayLighten = false;
     $("trouble").textContent = "";
     Object.assign(S, changes);
     change();
@@ -451,7 +462,7 @@ function buildKnobs() {
         Object.assign(input, { type: "range", min: k.min, max: k.max, step: k.step });
         input.setAttribute("aria-describedby", hint.id = k.key + "Hint");
         hint.className = "hint";
-        stops.className = "stops";
+        stops.className = k.stops.length > 5 ? "stops many" : "stops";
         const value = v => k.list ? k.list[v] : v;
         const choose = v => set(k.key === "fps" ? { fps: v, frame: Math.floor(S.frame * v / S.fps) } : { [k.key]: v });
         input.oninput = () => choose(value(+input.value));
@@ -866,6 +877,7 @@ async function begin() {
         PANELS.push({ name: b.name, label: LABELS[b.name] || b.name, what: b.what, shell: SHELLS[b.name] || "board", words: list, board: i, method: own });
     });
     readAddress();
+    mayLighten = !location.hash;
     if (!location.hash && matchMedia("(prefers-reduced-motion: reduce)").matches) S.paused = true;
     change();
     requestAnimationFrame(tick);
