@@ -11,7 +11,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
     $(addprefix tools/cli/,arguments.c convert.c device.c options.c picture.c say.c setup.c source.c) \
-    $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c)
+    $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small.
 WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
