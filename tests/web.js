@@ -272,6 +272,9 @@ const tests = {
         check(await sameAsHost("quad.obj") !== frame, "the picture is the old one");
         check((await browser.run("return document.getElementById('report').textContent")).includes("textures: 1"), "the texture is missing");
         equal(await browser.text("#dropText"), "", "the message");
+        const folder = square("sub"), obj = folder[1].bytes.toString().replace("sub.png", "textures/sub.png");
+        folder[1].bytes = Buffer.from(obj);
+        equal(await dropped(folder), "", "a texture that lies in a folder");
         inWork(square("alone"));
         check((await dropped(square("alone").slice(0, 1))).includes("alone.mtl"), "nobody says that the materials are missing");
     },
@@ -454,7 +457,7 @@ const contrastScript = `
     fs.rmSync(work, { recursive: true, force: true });
     fs.mkdirSync(work, { recursive: true });
     execFileSync(smear, ["render", "builtin:demo/race", "--size", "32x32", "--method", "none", "-o", path.join(work, "quad.png")]);
-    fs.copyFileSync(path.join(work, "quad.png"), path.join(work, "alone.png"));
+    for (const name of ["alone", "sub"]) fs.copyFileSync(path.join(work, "quad.png"), path.join(work, name + ".png"));
     browser = await Browser.open(path.join(folder, "browser"));
     for (const name in tests) {
         if (!name.includes(filter)) continue;

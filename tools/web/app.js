@@ -761,7 +761,8 @@ async function openModel(next, say, total) {
     let drawn = opened;
     if (opened.status === 0) drawn = await trial.ask("draw", { frame: 0 }, 30000);
     if (drawn.status !== 0) {
-        say(clean(drawn.err) || next.main + ": cannot be shown");
+        const missing = /No such file/.test(drawn.err) ? ". Drop it together with the model." : "";
+        say((clean(drawn.err) || next.main + ": cannot be shown") + missing);
         trial.worker.terminate();
         return;
     }

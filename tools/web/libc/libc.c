@@ -264,9 +264,17 @@ static bool reserve(struct web_file *f, size_t size)
     return true;
 }
 
+/* Files that are dropped have no folders: `Textures/a.png` is `a.png`, too. */
+static struct web_file *find_dropped(const char *path)
+{
+    struct web_file *f = find(path);
+    const char *slash = strrchr(path, '/');
+    return f != NULL || slash == NULL ? f : find(slash + 1);
+}
+
 FILE *fopen(const char *path, const char *mode)
 {
-    struct web_file *f = mode[0] == 'r' ? find(path) : create(path);
+    struct web_file *f = mode[0] == 'r' ? find_dropped(path) : create(path);
     if (f == NULL) {
         web_errno = mode[0] == 'r' ? ENOENT : ENOMEM;
         return NULL;
