@@ -167,7 +167,8 @@ const tests = {
         for (const id of ["shutter", "method", "quality", "fps"]) {
             const before = await picture("right");
             await browser.type("#" + id, keys[id]);
-            const now = await sameAsHost(id);
+            const now = await sameAsHost(id), value = await browser.run("return { shutter: '--shutter ' + S.shutter, method: '--method ' + METHODS[S.method].name, quality: '--quality ' + QUALITIES[S.quality], fps: '--fps ' + S.fps }." + id);
+            if (id !== "quality") check((await browser.text("#command")).includes(value), "the command lacks " + value);
             check(now !== last, id + " does not change the frame");
             check(await picture("right") !== before, id + " does not change the picture");
             last = now;
@@ -322,8 +323,8 @@ const tests = {
         await browser.run("engines[0].die('a test'); engines.forEach(e => e.worker.terminate()); engines.forEach(e => e.die('a test'))");
         await alive();
         await sameAsHost("after a stop");
-        const trap = await browser.runAsync("const done = arguments[0]; engines[0].ask('nonsense', {}).then(a => done(a.dead === true))");
-        check(trap, "the trap is not told");
+        const trap = await browser.runAsync("const done = arguments[0], old = engines[0].worker; engines[0].ask('nonsense', {}).then(a => done(a.dead === true && engines[0].worker !== old))");
+        check(trap, "the trap is not told, or the old worker is still there");
         await alive();
     },
     "settings that do not go together are refused, and the old ones stay": async () => {
