@@ -160,6 +160,19 @@ const tests = {
         equal(await browser.run("return shownFrame.stats.dropped"), 0, "triangles left out");
         check(seen.size >= settings.length - 2, "settings that should differ do not: " + seen.size + " pictures");     // rp2040 and round send one
     },
+    "a golden frame of the firmware of every target": async () => {
+        const golden = fs.readFileSync(path.join(root, "tests/golden.txt"), "utf8").split("\n").filter(l => l.startsWith("reconstruct-l1 ")).map(l => l.split(" ")[2]);
+        equal(golden.length, 2, "golden frames");
+        await open("#paused=1");
+        const words = ["--size", "133x65", "--format", "l1", "--reach", "8", "--method", "reconstruct", "--shutter", "360", "--", "builtin:demo/drone"];
+        const here = await browser.runAsync(`const done = arguments[1], e = new Engine(); (async () => {
+            await e.started;
+            await e.ask("open", { words: arguments[0], board: -1, files: [] });
+            done([(await e.ask("draw", { frame: 9 })).stats.crc, (await e.ask("draw", { frame: 10 })).stats.crc]);
+            e.worker.terminate();
+        })();`, words);
+        equal(here.join(), golden.join(), "CRCs");
+    },
     "sliders change the picture, by keys and by clicks": async () => {
         await open("#paused=1&frame=5");
         let last = await crc();
