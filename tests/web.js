@@ -117,7 +117,7 @@ function inWork(files) {
 const tests = {
     "one file of at most 300 kB that asks for nothing": async () => {
         const size = fs.statSync(page).size, text = fs.readFileSync(page, "utf8");
-        check(size <= 300000, "the page has " + size + " bytes");
+        check(size <= 300 * 1024, "the page has " + size + " bytes");
         check(!/(src|href)=["']?(https?:)?\/\//.test(text), "the page names a server");
         await open("#paused=1");
         const got = await browser.run("return performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith('blob:') && !n.startsWith('data:'))");
@@ -363,7 +363,7 @@ const tests = {
     "the chart marks the setting, and its marks choose one": async () => {
         await open("#paused=1");
         const ring = () => browser.run("const r = document.getElementById('ring'); return r.getAttribute('cx') + ',' + r.getAttribute('cy')");
-        const rows = fs.readFileSync(path.join(root, "tools/web/chart.csv"), "utf8").trim().split("\n");
+        const rows = fs.readFileSync(path.join(folder, "chart.csv"), "utf8").trim().split("\n");
         const marks = await browser.run("return chartRows.map(r => r.setting)");
         for (const row of rows.slice(1)) {
             const name = row.split(",")[0];

@@ -9,7 +9,7 @@
  *     @text FILE...          becomes up to three files, each with its size in front, compressed
  *     @pack A.wasm B.wasm    becomes both modules: A, and how B differs from it, compressed
  *
- * Files of @include and @text lie beside PAGE; they lose indentation and lines that are only a comment. What is
+ * Files of @include and @text lie beside PAGE unless they name a folder; they lose indentation and lines that are only a comment. What is
  * compressed is text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's basE91, with
  * characters that a script element may hold). */
 #include "../image/deflate.h"
@@ -185,7 +185,7 @@ static bool append_file(struct buffer *out, const char *folder, const char *name
     char path[1200];
     struct bytes file;
     struct failure why = { "" };
-    snprintf(path, sizeof path, "%s%s", folder, name);
+    snprintf(path, sizeof path, "%s%s", strchr(name, '/') == NULL ? folder : "", name);
     if (!file_read(path, MAX_BYTES, &file.data, &file.size, &why))
         return fail(f, "%s %s", name, why.text);
     append_stripped(out, &file);
