@@ -30,7 +30,7 @@ const SHELLS = { oled: "board", rp2040: "pocket", round: "watch", gba: "gba", me
 const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
     memlcd: "400\u00d7240 memory LCD, 1 bit", fb320: "320\u00d7240 framebuffer" };
 const SCENES = [{ name: "race", label: "Racing car, chased" }, { name: "drone", label: "Drone, fixed camera" }];
-const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, shutter: 180, method: 5, quality: 1, fps: 30, split: 50, paused: false, frame: 0, light: "linear" };
+const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, shutter: 180, method: 5, quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
 
 let S = { ...DEFAULTS };
 let model = null;                       // { name, files } of what has been dropped
@@ -324,8 +324,8 @@ function show() {
         isFirst = false;
         firstFrameMs = performance.now() - scriptStart;
         document.body.dataset.firstFrameMs = firstFrameMs.toFixed(1);
-        showAbout();
         for (let i = engines.length; i < poolSize(); i++) engines.push(new Engine());
+        showAbout();
         pump();
     }
     showNumbers(f);
@@ -448,7 +448,7 @@ const knobs = [
     { key: "quality", label: "Quality", min: 0, max: 2, step: 1, stops: [0, 1, 2], text: v => QUALITIES[v],
       hint: v => { const m = METHODS[S.method]; return m.name === "auto" ? "Error aimed at: " + ["4", "1.5", "0.5"][v] + " of 255 codes." : m.samples[v] ? m.samples[v] + " samples." : "A sharp frame has none."; } },
     { key: "fps", label: "Frame rate", min: 0, max: 3, step: 1, stops: RATES, text: v => v + " per second", list: RATES,
-      hint: v => v <= 15 ? "Slow displays judder. Compare both sides." : v === 60 ? "More frames, shorter streaks." : "Each frame stands for " + Math.round(1000 / v) + " ms." },
+      hint: v => v <= 15 ? "What small machines manage: the sharp side stutters." : v === 60 ? "More frames, shorter streaks." : "Each frame stands for " + Math.round(1000 / v) + " ms." },
 ];
 
 function buildKnobs() {
