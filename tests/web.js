@@ -39,13 +39,16 @@ async function crc() {
 
 const picture = which => browser.run("const c = document.getElementById(arguments[0]); return c.toDataURL()", which);
 
-// What the command on the page prints on this machine, in the folder of the test's files.
+// What the command on the page prints on this machine, in the folder of the test's files; and what its statistics say.
 async function hostCrc() {
-    const command = (await browser.text("#command")).replace("build/smear", smear);
-    fs.rmSync(path.join(work, "frame.json"), { force: true });
+    const command = (await browser.text("#command")).replace("build/smear", smear), file = path.join(work, "frame.json");
     const run = spawnSync("sh", ["-c", command], { cwd: work, encoding: "utf8" });
     equal(run.status, 0, "`" + command + "` fails: " + run.stderr);
-    return JSON.parse(fs.readFileSync(path.join(work, "frame.json"))).frames[0].crc32;
+    const printed = (run.stdout.match(/crc32=([0-9a-f]{8})/) || [])[1];
+    execFileSync("sh", ["-c", command.replace(/--repeat 1$/, "--stats frame.json")], { cwd: work });
+    equal(printed, JSON.parse(fs.readFileSync(file)).frames[0].crc32, "`" + command + "` and --stats");
+    fs.rmSync(file);
+    return printed;
 }
 
 // Where triangles are left out for want of memory, the size of pointers shows: then the page must say so.

@@ -394,7 +394,7 @@ function showCommand() {
     const list = words();
     list.splice(list.indexOf("--"), 1);
     const name = list.pop();
-    const text = "build/smear render " + quote(name) + " " + list.map(quote).join(" ") + " --frames " + S.frame + "-" + S.frame + " --stats frame.json";
+    const text = "build/smear render " + quote(name) + " " + list.map(quote).join(" ") + " --frames " + S.frame + "-" + S.frame + " --repeat 1";
     const note = turned ? "\n# the camera has been turned by hand: the command shows the scene's own"
         : shownFrame && shownFrame.stats.dropped > 0 ? "\n# triangles are left out for want of memory, fewer here and on the board than where pointers have 8 bytes" : "";
     if ($("command").textContent !== text + note) $("command").textContent = text + note;
