@@ -170,7 +170,7 @@ CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c cha
 TEST_SRC := tests/run.c tests/test.c tests/accuracy.c tests/rig.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
@@ -222,6 +222,7 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+include tools/web/web.mk
 
 # The demo firmware on a desktop's screen.
 $(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \

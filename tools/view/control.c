@@ -250,7 +250,8 @@ static void do_debug(struct view *v, int way)
 {
     v->debug_kind = (enum debug_kind)(((int)v->debug_kind + way + DEBUG_KINDS) % DEBUG_KINDS);
     v->is_dirty = true;
-    view_say(v, "%s", debug_names[v->debug_kind]);
+    const char *legend = debug_legends[v->debug_kind];
+    view_say(v, "%s%s%s", debug_names[v->debug_kind], legend != NULL ? ": " : "", legend != NULL ? legend : "");
 }
 
 static void do_overlay(struct view *v, int way)
@@ -466,7 +467,7 @@ const struct control control_list[] = {
     { "v", { 'v', 0 }, do_split, "split screen" },
     { "V", { 'V', 0 }, do_left, "method of its left half" },
     { "> <", { '>', '<' }, do_divider, "its divider (or drag, right button)" },
-    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, bands, wire" },
+    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, methods ..." },
     { "o", { 'o', 0 }, do_overlay, "figures on, off" },
     { "e", { 'e', 0 }, do_error, "error against the truth" },
     { "z Z", { 'z', 'Z' }, do_zoom, "zoom" },
