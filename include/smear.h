@@ -161,8 +161,43 @@ typedef enum smear_method {
                                  * most `samples`; needs desc.timed */
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
                                  * needs desc.timed */
-    SMEAR_AUTO                  /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_AUTO,                 /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per vertex;
+                                 * needs the window */
+    SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
+    SMEAR_HALF                  /* `filter` at half the size, over the whole frame by amount of motion; needs desc.half */
 } smear_method;
+
+/* What a method needs of the desc: `timed`; a window (no `sharp`). */
+static inline int smear_method_is_timed(int method)
+{
+    return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
+}
+
+static inline int smear_method_is_filter(int method)
+{
+    return method == SMEAR_RECONSTRUCT || (method >= SMEAR_CAMERA && method <= SMEAR_HALF);
+}
+
+/* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
+typedef enum smear_filter {
+    SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
+    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion reaches */
+    SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
+    SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
+} smear_filter;
+
+/* A blur in passes: each takes few taps of what the one before it left, `base` times as far apart, so that 8 and 8 taps
+ * weigh like 64. */
+typedef struct smear_pingpong {
+    uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
+    uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
+    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps, base 4 */
+    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either side */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out;
+                                 * 0 means 4. 255: none is */
+    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come over it */
+} smear_pingpong;
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
 enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
@@ -198,6 +233,11 @@ typedef struct smear_frame {
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
     uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
+    uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
+    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
+                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
+                                 * vertices, the background none (SMEAR_CAMERA: as 1) */
+    smear_pingpong pingpong;
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
 } smear_frame;
@@ -247,6 +287,9 @@ typedef struct smear_desc {
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
+    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
+                                 * each but the last; 0 and 1: none. In any case one pass may be had */
+    uint8_t half;               /* 1: room for SMEAR_HALF */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
@@ -270,6 +313,9 @@ typedef struct smear_stats {
     uint32_t tiles_still, tiles_uniform, tiles_complex;
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
     uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
+    uint32_t tiles_camera, tiles_pingpong, tiles_half;
+    uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or (but with
+                                         * camera_step) the camera did */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */
@@ -340,7 +386,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* ------------------------------------------------------------------ memory in detail */
 
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
-#define SMEAR_CONTEXT_BYTES 1536u           /* the context itself, at most */
+#define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */

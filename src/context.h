@@ -9,9 +9,11 @@
 #include "assemble.h"
 #include "assemble_path.h"
 #include "blur.h"
+#include "camera.h"
 #include "choose.h"
 #include "geometry.h"
 #include "jobs.h"
+#include "pingpong.h"
 #include "raster.h"
 #include "shutter.h"
 #include "subframes.h"
@@ -64,10 +66,16 @@ struct smear_context {
     struct smear_window window;
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
+    struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
     struct smear_jobs jobs;
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
+    /* passes */
+    struct smear_pass pass[PINGPONG_PASSES_MAX];
+    int passes;
+    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
+    int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
     /* methods that look at several instants */
     struct smear_shutter shutter;

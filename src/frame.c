@@ -14,6 +14,7 @@
 #include "fixmath.h"
 #include "pixel.h"
 #include "tilemax.h"
+#include "velocity.h"
 
 /* ------------------------------------------------------------------ poses */
 
@@ -120,6 +121,27 @@ static bool pose_differs(const struct draw_poses *p, int i)
         || !same_camera(p->camera[i], p->camera[0]);
 }
 
+/* Where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
+static void classify_draw(struct smear_context *c, const struct smear_submitted *s, struct smear_raster_draw *r)
+{
+    struct draw_poses p;
+    poses_of(c, s, &p);
+    r->moves = pose_differs(&p, 1) || pose_differs(&p, 2);
+    r->fixed = false;
+    if (c->raster.velocity_from_depth) {
+        bool own = false, attached = true;
+        for (int i = 1; i < 3; i++) {
+            bool deforms = p.position[i] != p.position[0];
+            own = own || deforms || !same_transform(p.object[i], p.object[0]);
+            attached = attached && !deforms && smear_is_attached(p.object[i], p.camera[i], p.object[0], p.camera[0]);
+        }
+        r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
+        r->moves = own && !attached && c->frame.method != SMEAR_CAMERA;
+    }
+    if (r->moves)
+        c->stats.draws_moved++;
+}
+
 static void project_pose(struct smear_projection *out, const struct smear_context *c,
                          const struct draw_poses *p, int i, const smear_mesh *mesh)
 {
@@ -171,7 +193,7 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->draw = (uint16_t)i;
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->path = false;
+    a->path = a->fixed = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
                        c->frame.light == SMEAR_LIGHT_LINEAR);
 
@@ -185,7 +207,8 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
         place(&a->key[0], c, &poses, a->mesh, &open);
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
-    if (!c->assembler.keep_motion)
+    a->fixed = c->raster_draw[i].fixed;
+    if (!c->assembler.keep_motion || !c->raster_draw[i].moves)
         return;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
      * itself, one further pose is enough. */
@@ -254,10 +277,11 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
         int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
         pixels_fill(w->color + at, clear, n);
         __builtin_memset(w->depth + at, 0, (size_t)n * 2);
+        int velocity = c->raster.velocity_from_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0;
         if (w->velocity8 != NULL)
-            __builtin_memset(w->velocity8 + 2 * at, 0, (size_t)n * 2);
+            __builtin_memset(w->velocity8 + 2 * at, velocity, (size_t)n * 2);
         if (w->velocity16 != NULL)
-            __builtin_memset(w->velocity16 + 2 * at, 0, (size_t)n * 4);
+            __builtin_memset(w->velocity16 + 2 * at, velocity, (size_t)n * 4);
         if (c->inspect != NULL)
             __builtin_memset(c->inspect + 2 * at, 0, (size_t)n * 8);
     }
@@ -281,6 +305,11 @@ static void raster_job(void *argument, int job, int worker)
         t.inspect = c->inspect;
     }
     smear_raster_list(&c->raster, &t, c->opaque);
+    if (!c->raster.velocity_from_depth)
+        return;
+    const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale, c->raster.reach_q3,
+                                              c->inspect };
+    smear_camera_velocity(w, &c->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0, t.y1);
 }
 
 /* Blended draws straight over the window's rows: where no filter will read them. */
@@ -392,6 +421,12 @@ static void convert_still(const struct row_job *r, int column)
     smear_band_convert_window(r, tile_left(r->c, column), tile_right(r->c, end - 1));
 }
 
+/* What a pass reads: what the one before it left, or the picture. */
+static const uint32_t *pass_input(const struct smear_context *c, int pass)
+{
+    return pass == 0 ? c->window.color : c->pass_plane[pass - 1];
+}
+
 static void tile_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
@@ -406,13 +441,75 @@ static void tile_job(void *argument, int column, int worker)
     uint8_t kind = window_around(w, r->row)[column].kind;
     if (kind == TILE_STILL)
         smear_blur_copy(tile, w, r->row, column);
-    else if (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM))
+    else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
+        c->worker_samples[worker] += smear_pingpong_pass(tile, w->tile, pass_input(c, c->passes - 1), w, &rows,
+                                                         &c->pass[c->passes - 1], r->row, column, row_top(c, r->row),
+                                                         row_bottom(c, r->row), &c->blur);
+    else if (c->frame.filter == SMEAR_FILTER_MEAN
+             || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         c->worker_samples[worker] += smear_blur_uniform(tile, w, &rows, r->row, column, &c->blur);
     else
         c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
     if (c->blend != SMEAR_NO_TRIANGLE)
         smear_band_blend_tile(r, column, tile);
     smear_band_convert_tile(r, column, tile);
+}
+
+/* ------------------------------------------------------------------ passes before the last */
+
+/* A part of tile row `row` in pass `pass`: pixel rows [y0, y1). */
+struct pass_job {
+    struct smear_context *c;
+    int pass, row;
+    int32_t y0, y1;
+};
+
+static void pass_tile_job(void *argument, int column, int worker)
+{
+    const struct pass_job *r = argument;
+    struct smear_context *c = r->c;
+    struct smear_row_table rows = row_table(c, r->row);
+    c->worker_samples[worker] += smear_pingpong_pass(c->pass_plane[r->pass], 0, pass_input(c, r->pass), &c->window, &rows,
+                                                     &c->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
+}
+
+/* Offsets of the rows that a blur of tile row `row` may read; those below row `end` stand for row end - 1. */
+static void fill_row_table(struct smear_context *c, int row, int32_t end)
+{
+    const struct smear_window *w = &c->window;
+    int32_t first = row_top(c, row) - w->reach;
+    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
+        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, end - 1)) * w->width);
+}
+
+/* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays as far
+ * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
+static int32_t run_passes(struct smear_context *c, int known)
+{
+    int32_t end = row_bottom(c, known);
+    for (int i = 0; i < c->passes - 1; i++) {
+        int32_t input_end = end;
+        if (known != c->window.rows - 1)
+            end = max_i32(end - c->pass[i].reach, 0);
+        for (int32_t y = c->pass_end[i]; y < end;) {
+            int row = y >> c->window.tile_shift;
+            struct pass_job job = { c, i, row, y, min_i32(end, row_bottom(c, row)) };
+            fill_row_table(c, row, input_end);
+            smear_jobs_run(&c->jobs, pass_tile_job, &job, c->window.columns);
+            y = job.y1;
+        }
+        c->pass_end[i] = max_i32(c->pass_end[i], end);
+    }
+    return end;
+}
+
+/* ------------------------------------------------------------------ a tile row */
+
+static uint32_t *count_of(struct smear_context *c)
+{
+    smear_stats *s = &c->stats;
+    return c->frame.method == SMEAR_CAMERA ? &s->tiles_camera : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
+         : c->frame.method == SMEAR_HALF ? &s->tiles_half : &s->tiles_reconstruct;
 }
 
 static void count_tiles(struct smear_context *c, int row)
@@ -423,7 +520,7 @@ static void count_tiles(struct smear_context *c, int row)
             c->stats.tiles_still++;
             c->stats.tiles_none++;
         } else {
-            c->stats.tiles_reconstruct++;
+            ++*count_of(c);
             if (around[i].kind == TILE_UNIFORM)
                 c->stats.tiles_uniform++;
             else
@@ -441,9 +538,10 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     if (known > row)
         smear_neighbormax_row(w, known, known, corner);
     count_tiles(c, row);
-    int32_t first = row_top(c, row) - w->reach;
-    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
-        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, w->height - 1)) * w->width);
+    int32_t end = w->height;
+    if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->passes > 1)
+        end = run_passes(c, known);
+    fill_row_table(c, row, end);
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
@@ -486,10 +584,13 @@ static int roll(struct smear_context *c, int row)
     return result;
 }
 
-static int render_reconstruct(struct smear_context *c)
+static int render_filter(struct smear_context *c)
 {
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    if (c->raster.velocity_from_depth)
+        smear_reproject_make(&c->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
+                             c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
         int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
@@ -601,8 +702,12 @@ static void prepare(struct smear_context *c)
     c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : (int32_t)((degrees << 16) / 720u);
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
-    c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
-    c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
+    c->assembler.keep_motion = smear_method_is_filter(c->frame.method);
+    c->assembler.keep_paths = smear_method_is_timed(c->frame.method);
+    c->raster.velocity_from_depth = c->assembler.keep_motion && c->frame.camera_step != 0 && c->camera_moves
+                                 && !c->frame.cut && c->state != STATE_FILTER
+                                 && !(same_camera(&c->camera, &c->camera_open)
+                                      && same_camera(&c->camera, &c->camera_close));
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
                                          false };
     bool textured = false;
@@ -620,11 +725,16 @@ static void prepare(struct smear_context *c)
         c->blur.far_over_range = over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
     }
 
+    c->passes = smear_pingpong_plan(c->pass, &c->frame.pingpong, w->reach);
+    for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
+        c->pass_end[i] = 0;
+
     c->blends = false;
     for (uint32_t i = 0; i < c->draw_count; i++) {
         const smear_draw *d = &c->submitted[i].draw;
         struct smear_raster_draw *r = &c->raster_draw[i];
         const smear_material *m = d->material;
+        classify_draw(c, &c->submitted[i], r);
         r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
         r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
         if (m != NULL && m->texture != NULL)
@@ -659,7 +769,7 @@ int smear_frame_render(struct smear_context *c)
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
                : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
+               : smear_method_is_filter(c->frame.method) ? render_filter(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

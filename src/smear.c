@@ -37,8 +37,12 @@ static bool resolve(smear_desc *d)
         d->max_draws = 16;
     if (d->max_triangles == 0)
         d->max_triangles = 1024;
+    if (d->passes == 0)
+        d->passes = 1;
     if (d->vertex_cache == 0)
         d->vertex_cache = 64;
+    if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && d->sharp))
+        return false;
     return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && d->format <= SMEAR_L1_PAGES
         && d->dither <= SMEAR_DITHER_BLUE && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
@@ -84,6 +88,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->around = arena_take(a, 3 * columns, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
+    for (int i = 0; i + 1 < d->passes; i++)
+        c->pass_plane[i] = arena_take(a, plane, 4);
     if (!d->sharp || d->timed)
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     if (d->timed) {
@@ -193,12 +199,28 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method > SMEAR_AUTO || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method == SMEAR_CAMERA && f->camera_step == 0)
+        f->camera_step = 1;
+    if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
+        f->filter = SMEAR_FILTER_RECONSTRUCT;
+    else if (f->method == SMEAR_PINGPONG)
+        f->filter = SMEAR_FILTER_PINGPONG;
+    else if (f->filter == SMEAR_FILTER_DEFAULT)
+        f->filter = SMEAR_FILTER_MEAN;
+    if (f->filter > SMEAR_FILTER_PINGPONG || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
+        return false;
+    if (f->method > SMEAR_HALF || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
-    if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
+    if (!smear_pingpong_resolve(&f->pingpong))
         return false;
-    if (f->method >= SMEAR_SUBFRAMES && !c->desc.timed)
+    if (smear_method_is_filter(f->method) && c->desc.sharp)
+        return false;
+    if (smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG && f->pingpong.passes > c->desc.passes)
+        return false;
+    if (f->method == SMEAR_HALF && !c->desc.half)
+        return false;
+    if (smear_method_is_timed(f->method) && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }
@@ -351,7 +373,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
     if (c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || f.method != SMEAR_RECONSTRUCT || c->desc.workers > 1)
+    if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA || c->desc.workers > 1)
         return SMEAR_ERR_ARG;
     f.camera = f.open = f.close = NULL;
     f.shutter_poses = 0;

@@ -762,9 +762,23 @@ for option in --exposure --poses --method --quality --light --filter --format --
 done
 usage --reconstruct render "$plate" --reconstruct fence,
 usage --reconstruct render "$plate" --reconstruct fence,frob
-for method in object camera pingpong half layered; do
+for method in object layered; do
     usage --method render "$plate" --method $method
     claim "says that it is not built" err_has "not built yet"
+done
+usage --inside render "$plate" --inside mean
+usage --inside render "$plate" --method camera --inside gauss
+usage --camera-step render "$plate" --method camera --camera-step 3
+usage --camera-step render "$plate" --method timemask --camera-step 2
+usage --pingpong render "$plate" --pingpong taps=8
+for list in taps=1 taps=65 passes=0 passes=4 base=1 bias=0 bias=256 jitter=2 jitter=nan frob frob=1 taps taps=8, =; do
+    usage --pingpong render "$plate" --method pingpong --pingpong "$list"
+done
+usage --reconstruct render "$plate" --method camera --reconstruct fence
+for method in camera "camera --camera-step 4 --inside reconstruct --reconstruct fence,box" \
+    "camera --inside pingpong --pingpong passes=3,taps=4,base=4,bias=255,jitter=0.5,spread" \
+    "pingpong --camera-step 2" "reconstruct --camera-step 1"; do
+    claim "draws with --method $method" render builtin:suite/pan --size 64x48 --method $method -o filter.png
 done
 usage --mask render "$plate" --mask plate
 claim "says that it is not built" err_has "not built yet"

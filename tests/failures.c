@@ -66,7 +66,7 @@ static smear_context *context_for(const struct presented *p, int width, int heig
     desc.tile = FAIL_TILE;
     desc.format = SMEAR_XRGB8888;
     desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
-    desc.timed = p->frame.method >= SMEAR_SUBFRAMES;
+    desc.timed = smear_method_is_timed(p->frame.method);
     desc.max_triangles *= 5;
     desc.max_draws += 4;        /* more may come in later frames */
     desc.flush = take_band;

@@ -84,7 +84,7 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
     static const smear_material red = {.color = {220, 60, 40, 255}, .unlit = 1};
     smear_desc desc = {.width = QUAD_EDGE, .height = QUAD_EDGE, .reach = FAIL_REACH,
                        .accumulate = method->method == SMEAR_ACCUMULATE,
-                       .timed = method->method >= SMEAR_SUBFRAMES, .max_triangles = 16,
+                       .timed = smear_method_is_timed(method->method), .max_triangles = 16,
                        .flush = keep_band, .user = rgb};
     smear_camera camera = {.pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 15};
     size_t bytes = smear_memory_size(&desc);

@@ -236,7 +236,7 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
         .shutter_degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
-    if (method >= SMEAR_SUBFRAMES) {
+    if (smear_method_is_timed(method)) {
         scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
         if (take_chance(s, 4)) {
             for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)

@@ -108,8 +108,8 @@ bool chart_take(int index, struct take *out)
         return false;
     const struct chart_setting *s = &chart_settings[setting];
     *out = (struct take){
-        .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
-        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES,
+        .scene = kinds[kind].scene, .frame = -1, .windowed = smear_method_is_filter(s->method),
+        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = smear_method_is_timed(s->method),
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .linear = chart_conditions[condition].linear,

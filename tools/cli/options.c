@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include "arguments.h"
+#include "options_filter.h"
 #include "say.h"
 
 #include <math.h>
@@ -128,9 +129,9 @@ static const struct {
     { "auto", true, SMEAR_AUTO },               { "none", true, SMEAR_NONE },
     { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
     { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
-    { "object", false, SMEAR_DEFAULT_METHOD },  { "camera", false, SMEAR_DEFAULT_METHOD },
-    { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
-    { "layered", false, SMEAR_DEFAULT_METHOD },
+    { "camera", true, SMEAR_CAMERA },           { "pingpong", true, SMEAR_PINGPONG },
+    { "half", true, SMEAR_HALF },
+    { "object", false, SMEAR_DEFAULT_METHOD },  { "layered", false, SMEAR_DEFAULT_METHOD },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -153,7 +154,7 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate, reconstruct, subframes or timemask";
+    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong or half";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -394,6 +395,9 @@ static const struct option table[] = {
     { "--samples", true, read_samples },
     { "--exact", false, read_exact },
     { "--reconstruct", true, read_reconstruct },
+    { "--inside", true, read_inside },
+    { "--camera-step", true, read_camera_step },
+    { "--pingpong", true, read_pingpong },
     { "--quality", true, read_quality },
     { "--target", true, read_target },
     { "--reach", true, read_reach },
@@ -459,13 +463,11 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (!o->exact && o->samples > MAX_SAMPLES)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
-    if (o->reconstruct != 0 && o->method != SMEAR_RECONSTRUCT)
-        return say_bad_usage("--reconstruct", "goes with --method reconstruct");
     if (o->has_quality && o->has_target)
         return say_bad_usage("--target", "contradicts --quality");
     if (o->has_time && o->has_frames)
         return say_bad_usage("--time", "contradicts --frames");
-    return STATUS_OK;
+    return check_filter(o);
 }
 
 static int check_outputs(struct render_options *o)

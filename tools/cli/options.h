@@ -28,6 +28,10 @@ struct render_options {
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;
     int reconstruct;            /* SMEAR_FENCE | ... */
+    smear_filter filter;        /* of camera and half */
+    int camera_step;
+    bool has_pingpong;
+    smear_pingpong pingpong;
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;
     unsigned clear;

@@ -8,13 +8,12 @@
 
 static bool is_sharp_method(const struct render_options *o)
 {
-    return o->shutter_degrees == 0
-        || (o->method != SMEAR_RECONSTRUCT && o->method != SMEAR_AUTO);
+    return o->shutter_degrees == 0 || (!smear_method_is_filter(o->method) && o->method != SMEAR_AUTO);
 }
 
 static bool is_timed_method(const struct render_options *o)
 {
-    return o->shutter_degrees > 0 && o->method >= SMEAR_SUBFRAMES;
+    return o->shutter_degrees > 0 && smear_method_is_timed(o->method);
 }
 
 static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
@@ -52,6 +51,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
         .reconstruct = o->reconstruct, .target = o->target,
+        .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
         .motion = out->present.motion, .motion_count = out->present.motion_count,
     };
     return options_reach(o, out->height, &out->reach, &out->tile);

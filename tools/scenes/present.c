@@ -437,6 +437,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .reconstruct = (uint8_t)o->reconstruct,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
                             .shutter_degrees = (uint16_t)degrees,
+                            .filter = (uint8_t)o->filter, .camera_step = (uint8_t)o->camera_step,
+                            .pingpong = o->pingpong,
                             .clear = o->clear, .shutter = o->shutter };
     return true;
 }
@@ -655,7 +657,12 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
     /* Clipping turns a triangle into a few; most frames need far less than this. */
     uint32_t triangles = presented->triangle_count + presented->triangle_count / 8 + 64;
     int draws = presented->draw_count > 0 ? presented->draw_count : 1;
+    const smear_frame *frame = &presented->frame;
+    bool is_pingpong = frame->method == SMEAR_PINGPONG || frame->filter == SMEAR_FILTER_PINGPONG;
+    int passes = frame->pingpong.passes != 0 ? frame->pingpong.passes : 2;
     return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height,
+                         .passes = (uint8_t)(is_pingpong ? passes : 0),
+                         .half = frame->method == SMEAR_HALF,
                          .max_draws = (uint16_t)(draws < 65535 ? draws : 65535),
                          .max_triangles = triangles };
 }

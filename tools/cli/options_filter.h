@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* options_filter.h - options of `smear render` that belong to filters and to the shutter: one function each, for the table
+ * of options.c. */
+#ifndef SMEAR_TOOLS_CLI_OPTIONS_FILTER_H
+#define SMEAR_TOOLS_CLI_OPTIONS_FILTER_H
+
+#include "arguments.h"
+#include "options.h"
+
+option_read_fn read_inside, read_camera_step, read_pingpong;
+
+/* What contradicts each other. A status. */
+int check_filter(const struct render_options *options);
+
+#endif
