@@ -134,6 +134,13 @@ typedef enum smear_motion {
     SMEAR_MOTION_NONE           /* zero velocity, also over what moves behind it */
 } smear_motion;
 
+/* How a draw turns with the camera: with that of now, and in each other pose with that of the pose. */
+typedef enum smear_billboard {
+    SMEAR_BILLBOARD_NONE,
+    SMEAR_BILLBOARD_FACING,     /* its basis is relative to the camera's */
+    SMEAR_BILLBOARD_UPRIGHT     /* the same, turned about the world's y only */
+} smear_billboard;
+
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
  * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now` is
@@ -150,6 +157,9 @@ typedef struct smear_draw {
     const int16_t *close_position;      /* offset; null: mesh->position. Nothing is kept of positions. */
     uint8_t motion;             /* smear_motion */
     uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
+    uint8_t billboard;          /* smear_billboard */
+    uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the mesh has. With
+                                         * another number nothing is known of the deformation: the motion is rigid */
 } smear_draw;
 
 typedef enum smear_method {
@@ -169,12 +179,12 @@ typedef enum smear_method {
 } smear_method;
 
 /* What a method needs of the desc: `timed`; a window (no `sharp`). */
-static inline int smear_method_is_timed(int method)
+static inline uint8_t smear_method_is_timed(int method)
 {
     return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
 }
 
-static inline int smear_method_is_filter(int method)
+static inline uint8_t smear_method_is_filter(int method)
 {
     return method == SMEAR_RECONSTRUCT || (method >= SMEAR_CAMERA && method <= SMEAR_HALF);
 }
@@ -204,6 +214,16 @@ enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 
 /* Points of a shutter's openness over the exposure. */
 #define SMEAR_SHUTTER_POINTS 33
+
+/* How the exposure follows the time from frame to frame, smear_frame.frame_us. */
+typedef enum smear_shutter_mode {
+    SMEAR_SHUTTER_NATIVE,       /* shutter_degrees of the frame time */
+    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames that come late do not smear more */
+    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time is: streaks keep their length */
+} smear_shutter_mode;
+
+/* A scale of motion that is nothing. */
+#define SMEAR_SCALE_NONE 65535u
 
 typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
 typedef enum smear_light { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light;
@@ -238,6 +258,15 @@ typedef struct smear_frame {
                                  * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
                                  * vertices, the background none (SMEAR_CAMERA: as 1) */
     smear_pingpong pingpong;
+    uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the application's poses say it all */
+    uint16_t reference_hz;      /* 1..1000; 0 means 30 */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by shutter_us and by modes
+                                 * other than native */
+    uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by those. CAPPED: at most a
+                                 * frame */
+    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to 16128; */
+    uint16_t object_scale;              /* and of draws (which deform as they do, or with SMEAR_SCALE_NONE not at all);
+                                         * 0 means 256 */
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
 } smear_frame;

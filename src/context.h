@@ -51,6 +51,7 @@ struct smear_context {
     /* the frame */
     smear_frame frame;
     smear_camera camera, camera_open, camera_close;
+    int32_t half_exposure;          /* q24 frames */
     bool camera_moves;              /* the earlier camera is known */
     smear_camera kept_camera;
     bool has_kept_camera;

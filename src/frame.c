@@ -38,7 +38,7 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
         i.weight[2] = (int32_t)((square + u) * 128);
     } else {
         /* Frames from now: the exposure's centre plus u half exposures. */
-        int64_t half = ((uint32_t)c->frame.shutter_degrees << 20) / 45u;       /* degrees / 720, q24 */
+        int64_t half = c->half_exposure;
         int64_t centre = c->frame.exposure == SMEAR_TRAILING ? -half
                        : c->frame.exposure == SMEAR_LEADING ? half : 0;
         i.weight[1] = (int32_t)-(centre + (half * u >> 16));
@@ -79,7 +79,93 @@ struct draw_poses {
     const smear_transform *object[3];   /* now, open, close */
     const smear_camera *camera[3];
     const int16_t *position[3];
+    smear_transform made[3];            /* what `object` points to where it is not the application's */
 };
+
+static uint32_t magnitude_of(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
+{
+    return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
+}
+
+/* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
+static void scale_object(struct draw_poses *p, uint32_t scale)
+{
+    for (int i = 1; i < 3; i++) {
+        const smear_transform *other = p->object[i], *now = p->object[0];
+        smear_transform *made = &p->made[i];
+        for (int k = 0; k < 9; k++)
+            made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
+        for (int k = 0; k < 3; k++)
+            made->origin[k] = scaled(now->origin[k], other->origin[k], scale);
+        p->object[i] = made;
+        if (scale == 0)
+            p->position[i] = p->position[0];
+    }
+}
+
+/* Turns a billboard with the camera of each pose. */
+static void turn_billboard(struct draw_poses *p, bool upright)
+{
+    for (int pose = 0; pose < 3; pose++) {
+        const int32_t *camera = p->camera[pose]->pose.basis;
+        int32_t turn[9], made[9];
+        for (int i = 0; i < 9; i++)
+            turn[i] = camera[i];
+        if (upright) {
+            /* The camera's x axis, without its y. Looking straight up or down it stays as long. */
+            uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
+            int32_t x = 1 << 24, z = 0;
+            if (length > 1u << 16) {
+                x = ratio_q30((int64_t)min_u32(magnitude_of(camera[0]), length), length) >> 6;
+                z = ratio_q30((int64_t)min_u32(magnitude_of(camera[6]), length), length) >> 6;
+                x = camera[0] < 0 ? -x : x;
+                z = camera[6] < 0 ? -z : z;
+            }
+            const int32_t about_y[9] = { x, 0, -z, 0, 1 << 24, 0, z, 0, x };
+            for (int i = 0; i < 9; i++)
+                turn[i] = about_y[i];
+        }
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                int64_t sum = 0;
+                for (int k = 0; k < 3; k++)
+                    sum += (int64_t)turn[3 * i + k] * p->object[pose]->basis[3 * k + j];
+                made[3 * i + j] = narrow_sat(sum >> 24);
+            }
+        for (int i = 0; i < 3; i++)
+            p->made[pose].origin[i] = p->object[pose]->origin[i];
+        for (int i = 0; i < 9; i++)
+            p->made[pose].basis[i] = made[i];
+        p->object[pose] = &p->made[pose];
+    }
+}
+
+/* Of the object alone. */
+static void object_poses(const struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
+{
+    const smear_draw *d = &s->draw;
+    if (c->frame.cut || d->cut || d->motion != SMEAR_MOTION_FULL)
+        return;
+    if (d->open_position != NULL && (d->open_count == 0 || d->open_count == d->mesh->vertex_count))
+        p->position[1] = d->open_position;
+    if (d->open != NULL)
+        p->object[1] = d->open;
+    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
+        p->object[1] = &c->kept[s->kept].before;
+    if (c->frame.shutter_poses) {
+        if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
+            p->position[2] = d->close_position;
+        if (d->close != NULL)
+            p->object[2] = d->close;
+    }
+    if (c->frame.object_scale != 256)
+        scale_object(p, c->frame.object_scale);
+}
 
 static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
                      struct draw_poses *p)
@@ -92,27 +178,14 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
     }
-    if (c->frame.cut || d->motion == SMEAR_MOTION_NONE)
-        return;
-    if (c->camera_moves) {
+    if (c->camera_moves && !c->frame.cut && d->motion != SMEAR_MOTION_NONE) {
         p->camera[1] = &c->camera_open;
         if (c->frame.shutter_poses)
             p->camera[2] = &c->camera_close;
     }
-    if (d->cut || d->motion == SMEAR_MOTION_CAMERA)
-        return;
-    if (d->open_position != NULL)
-        p->position[1] = d->open_position;
-    if (d->open != NULL)
-        p->object[1] = d->open;
-    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
-        p->object[1] = &c->kept[s->kept].before;
-    if (c->frame.shutter_poses) {
-        if (d->close_position != NULL)
-            p->position[2] = d->close_position;
-        if (d->close != NULL)
-            p->object[2] = d->close;
-    }
+    object_poses(c, s, p);
+    if (d->billboard != SMEAR_BILLBOARD_NONE)
+        turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 
 static bool pose_differs(const struct draw_poses *p, int i)
@@ -699,7 +772,7 @@ static void prepare(struct smear_context *c)
     uint32_t degrees = c->frame.shutter_degrees;
 
     c->raster.linear = linear;
-    c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : (int32_t)((degrees << 16) / 720u);
+    c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : c->half_exposure >> 8;
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = smear_method_is_filter(c->frame.method);

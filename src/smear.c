@@ -2,8 +2,10 @@
 /* smear.c - the public functions: check, fill in defaults, cut memory, keep poses, call frame.c. */
 #include "context.h"
 
+#include "arc.h"
 #include "arena.h"
 #include "convert.h"
+#include "fixmath.h"
 
 /* ------------------------------------------------------------------ desc */
 
@@ -188,6 +190,69 @@ static bool is_camera(const smear_camera *c)
     return c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
 }
 
+/* a / b in q24, at most 100 of them. */
+static int32_t ratio_q24(uint32_t a, uint32_t b)
+{
+    int zeros = count_leading_zeros(b);
+    uint64_t ratio = (uint64_t)a * recip_norm_precise(b << zeros) >> (37 - zeros);
+    return (int32_t)(ratio < (uint64_t)100 << 24 ? ratio : (uint64_t)100 << 24);
+}
+
+/* Half the exposure in frames, q24; brings frame->shutter_degrees up to date. */
+static int32_t half_exposure(smear_frame *f)
+{
+    const int32_t whole = 1 << 24, longest = 10 << 24;
+    int32_t exposure;
+    if (f->shutter_us != 0) {
+        exposure = ratio_q24(f->shutter_us, f->frame_us);
+        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+            exposure = min_i32(exposure, whole);
+    } else {
+        /* Frames in which the shutter is to be as it is in one at the rate of reference. */
+        int32_t frames = whole;
+        if (f->shutter_mode != SMEAR_SHUTTER_NATIVE)
+            frames = ratio_q24(1000000, f->reference_hz * f->frame_us);
+        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+            frames = min_i32(frames, whole);
+        if (frames == whole)
+            return (int32_t)(((uint32_t)f->shutter_degrees << 20) / 45u);
+        uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;             /* 2^32 / 360 = 11930465 */
+        degrees = (degrees >> 8) * 11930465u >> 24;
+        exposure = (int32_t)(degrees < (uint64_t)longest ? degrees : (uint64_t)longest);
+    }
+    exposure = clamp_i32(exposure, 2, longest);
+    f->shutter_degrees = (uint16_t)clamp_i32((int32_t)((int64_t)exposure * 360 >> 24), 1, 3600);
+    return exposure / 2;
+}
+
+/* A scale of motion as it is used. False when out of range. */
+static bool resolve_scale(uint16_t *scale)
+{
+    if (*scale == 0)
+        *scale = 256;
+    else if (*scale == SMEAR_SCALE_NONE)
+        *scale = 0;
+    return *scale <= 16128;
+}
+
+/* Brings a camera's pose nearer to that of now, or farther: its turn and its way each by their scale. */
+static void scale_camera(smear_camera *other, const smear_camera *now, const smear_frame *f)
+{
+    smear_transform turned;
+    if (f->turn_scale != 256) {
+        smear_arc_between(&turned, &other->pose, &now->pose, -(int32_t)f->turn_scale * (1 << 16));
+        for (int i = 0; i < 9; i++)
+            other->pose.basis[i] = f->turn_scale == 0 ? now->pose.basis[i] : turned.basis[i];
+        int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->turn_scale >> 8);
+        int64_t half = now->half_height + (((int64_t)other->half_height - now->half_height) * f->turn_scale >> 8);
+        other->focal = now->focal > 0 ? max_i32(narrow_sat(focal), 1) : 0;
+        other->half_height = now->half_height > 0 ? max_i32(narrow_sat(half), 1) : 0;
+    }
+    for (int i = 0; i < 3 && f->way_scale != 256; i++)
+        other->pose.origin[i] = narrow_sat(now->pose.origin[i]
+                                           + (((int64_t)other->pose.origin[i] - now->pose.origin[i]) * f->way_scale >> 8));
+}
+
 /* Defaults of a frame; false when something is out of range. */
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
@@ -213,6 +278,13 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (!smear_pingpong_resolve(&f->pingpong))
+        return false;
+    if (f->reference_hz == 0)
+        f->reference_hz = 30;
+    if (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
+        || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0))
+        return false;
+    if (!resolve_scale(&f->turn_scale) || !resolve_scale(&f->way_scale) || !resolve_scale(&f->object_scale))
         return false;
     if (smear_method_is_filter(f->method) && c->desc.sharp)
         return false;
@@ -255,6 +327,9 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         c->camera_moves = false;
         c->camera_open = c->camera_close = *frame->camera;
     }
+    scale_camera(&c->camera_open, &c->camera, &f);
+    scale_camera(&c->camera_close, &c->camera, &f);
+    c->half_exposure = half_exposure(&f);
     c->kept_camera = *frame->camera;
     c->has_kept_camera = true;
     f.camera = f.open = f.close = NULL;
@@ -323,7 +398,8 @@ static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
-    if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
+    if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE
+        || draw->billboard > SMEAR_BILLBOARD_UPRIGHT)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
     if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))))
@@ -379,6 +455,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
     f.shutter_poses = 0;
     c->camera = *frame->camera;
     c->camera.half_height = 0;
+    c->half_exposure = half_exposure(&f);
     c->frame = f;
     c->state = STATE_FILTER;
     smear_frame_filter_begin(c);
