@@ -457,6 +457,16 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 2u) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, 3u))
 
+/* Beyond a window's memory: what passes but the last leave; a window of half the size and a tile of it. One worker. */
+#define SMEAR_PASSES_BYTES(width, reach, tile, passes) \
+    ((passes) > 1 ? ((passes) - 1u) * SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) : 0u)
+#define SMEAR_HALF_BYTES(width, reach, tile) \
+    (SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 4u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 2u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * ((reach) <= 30 ? 2u : 4u)) \
+     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
+     + SMEAR_ALIGN8((size_t)(tile) * (tile)) + 136u)
+
 /* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
  * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
 #define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \

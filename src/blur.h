@@ -12,6 +12,7 @@ struct smear_blur_settings {
     bool linear;                /* average linear light, else codes */
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
+    bool dense;                 /* plain means: a tap per pixel of the way, not one per two */
     uint8_t flags;              /* SMEAR_FENCE | ... */
     /* Orthographic only: distance over range at units 0, in q16: where "5 % nearer" is. */
     uint32_t far_over_range;

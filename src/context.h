@@ -12,6 +12,7 @@
 #include "camera.h"
 #include "choose.h"
 #include "geometry.h"
+#include "half.h"
 #include "jobs.h"
 #include "pingpong.h"
 #include "raster.h"
@@ -65,6 +66,8 @@ struct smear_context {
     struct smear_geometry geometry;
     struct smear_assembler assembler;
     struct smear_window window;
+    struct smear_window *half;              /* with desc.half */
+    const struct smear_window *filtered;    /* which of the two a filter reads */
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
     struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
@@ -72,6 +75,7 @@ struct smear_context {
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
+    uint32_t *half_scratch;         /* the same at half the size */
     /* passes */
     struct smear_pass pass[PINGPONG_PASSES_MAX];
     int passes;

@@ -209,8 +209,10 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
             attached = attached && !deforms && smear_is_attached(p.object[i], p.camera[i], p.object[0], p.camera[0]);
         }
         r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
-        r->moves = own && !attached && c->frame.method != SMEAR_CAMERA;
+        r->moves = own && !attached;
     }
+    if (c->frame.method == SMEAR_CAMERA)
+        r->moves = false;
     if (r->moves)
         c->stats.draws_moved++;
 }
@@ -453,12 +455,30 @@ static int finish_sharp(struct smear_context *c, int row)
 
 /* ------------------------------------------------------------------ finishing with a filter */
 
+/* First pixel row of a tile row in the window that filters read, and past its last. */
+static int32_t filtered_top(const struct smear_context *c, int row)
+{
+    return row << c->filtered->tile_shift;
+}
+
+static int32_t filtered_bottom(const struct smear_context *c, int row)
+{
+    return min_i32(filtered_top(c, row + 1), c->filtered->height);
+}
+
+static void half_job(void *argument, int column, int worker)
+{
+    const struct row_job *r = argument;
+    (void)worker;
+    smear_half_reduce(r->c->half, &r->c->window, r->row, column, r->c->blur.linear);
+}
+
 static void reduce_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
-    const struct smear_window *w = &r->c->window;
+    const struct smear_window *w = r->c->filtered;
     (void)worker;
-    if (w->moving[column])
+    if (r->c->window.moving[column])
         smear_tilemax(w, r->row, column);
     else
         window_motion(w, r->row)[column] = (struct smear_tile_motion){ 0, 0, 0, 0, 0, 0 };
@@ -468,13 +488,15 @@ static void reduce_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
     uint32_t start = stage_start(c);
+    if (c->filtered == c->half)
+        smear_jobs_run(&c->jobs, half_job, &job, c->window.columns);
     smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
     stage_end(c, &c->stats.time_reduce, start);
 }
 
 static struct smear_row_table row_table(const struct smear_context *c, int row)
 {
-    return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
+    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach };
 }
 
 static bool is_still(const struct smear_window *w, int row, int column)
@@ -485,7 +507,7 @@ static bool is_still(const struct smear_window *w, int row, int column)
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
 static void convert_still(const struct row_job *r, int column)
 {
-    const struct smear_window *w = &r->c->window;
+    const struct smear_window *w = r->c->filtered;
     if (column > 0 && is_still(w, r->row, column - 1))
         return;
     int end = column + 1;
@@ -497,32 +519,48 @@ static void convert_still(const struct row_job *r, int column)
 /* What a pass reads: what the one before it left, or the picture. */
 static const uint32_t *pass_input(const struct smear_context *c, int pass)
 {
-    return pass == 0 ? c->window.color : c->pass_plane[pass - 1];
+    return pass == 0 ? c->filtered->color : c->pass_plane[pass - 1];
+}
+
+/* The filter, over a tile of the window it reads; rows of `tile` are that window's tile apart. */
+static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int worker)
+{
+    const struct smear_window *w = c->filtered;
+    struct smear_row_table rows = row_table(c, row);
+    uint8_t kind = window_around(w, row)[column].kind;
+    uint32_t samples = 0;
+    if (kind == TILE_STILL)
+        smear_blur_copy(tile, w, row, column);
+    else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
+        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->passes - 1), w, &rows, &c->pass[c->passes - 1], row,
+                                      column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
+    else if (c->frame.filter == SMEAR_FILTER_MEAN
+             || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
+        samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
+    else
+        samples = smear_blur_reconstruct(tile, w, &rows, row, column, &c->blur);
+    c->worker_samples[worker] += samples;
 }
 
 static void tile_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
-    const struct smear_window *w = &c->window;
+    const struct smear_window *w = c->filtered;
     if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
         convert_still(r, column);
         return;
     }
-    struct smear_row_table rows = row_table(c, r->row);
-    uint32_t *tile = c->scratch + worker * w->tile * w->tile;
-    uint8_t kind = window_around(w, r->row)[column].kind;
-    if (kind == TILE_STILL)
-        smear_blur_copy(tile, w, r->row, column);
-    else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
-        c->worker_samples[worker] += smear_pingpong_pass(tile, w->tile, pass_input(c, c->passes - 1), w, &rows,
-                                                         &c->pass[c->passes - 1], r->row, column, row_top(c, r->row),
-                                                         row_bottom(c, r->row), &c->blur);
-    else if (c->frame.filter == SMEAR_FILTER_MEAN
-             || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
-        c->worker_samples[worker] += smear_blur_uniform(tile, w, &rows, r->row, column, &c->blur);
-    else
-        c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
+    uint32_t *tile = c->scratch + worker * c->window.tile * c->window.tile;
+    if (w != c->half) {
+        filter_tile(c, tile, r->row, column, worker);
+    } else if (is_still(w, r->row, column)) {
+        smear_blur_copy(tile, &c->window, r->row, column);
+    } else {
+        uint32_t *blurred = c->half_scratch + worker * w->tile * w->tile;
+        filter_tile(c, blurred, r->row, column, worker);
+        smear_half_blend(tile, blurred, w, &c->window, r->row, column);
+    }
     if (c->blend != SMEAR_NO_TRIANGLE)
         smear_band_blend_tile(r, column, tile);
     smear_band_convert_tile(r, column, tile);
@@ -542,15 +580,15 @@ static void pass_tile_job(void *argument, int column, int worker)
     const struct pass_job *r = argument;
     struct smear_context *c = r->c;
     struct smear_row_table rows = row_table(c, r->row);
-    c->worker_samples[worker] += smear_pingpong_pass(c->pass_plane[r->pass], 0, pass_input(c, r->pass), &c->window, &rows,
+    c->worker_samples[worker] += smear_pingpong_pass(c->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
                                                      &c->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
 }
 
 /* Offsets of the rows that a blur of tile row `row` may read; those below row `end` stand for row end - 1. */
 static void fill_row_table(struct smear_context *c, int row, int32_t end)
 {
-    const struct smear_window *w = &c->window;
-    int32_t first = row_top(c, row) - w->reach;
+    const struct smear_window *w = c->filtered;
+    int32_t first = filtered_top(c, row) - w->reach;
     for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
         c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, end - 1)) * w->width);
 }
@@ -559,14 +597,14 @@ static void fill_row_table(struct smear_context *c, int row, int32_t end)
  * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
 static int32_t run_passes(struct smear_context *c, int known)
 {
-    int32_t end = row_bottom(c, known);
+    int32_t end = filtered_bottom(c, known);
     for (int i = 0; i < c->passes - 1; i++) {
         int32_t input_end = end;
         if (known != c->window.rows - 1)
             end = max_i32(end - c->pass[i].reach, 0);
         for (int32_t y = c->pass_end[i]; y < end;) {
-            int row = y >> c->window.tile_shift;
-            struct pass_job job = { c, i, row, y, min_i32(end, row_bottom(c, row)) };
+            int row = y >> c->filtered->tile_shift;
+            struct pass_job job = { c, i, row, y, min_i32(end, filtered_bottom(c, row)) };
             fill_row_table(c, row, input_end);
             smear_jobs_run(&c->jobs, pass_tile_job, &job, c->window.columns);
             y = job.y1;
@@ -587,7 +625,7 @@ static uint32_t *count_of(struct smear_context *c)
 
 static void count_tiles(struct smear_context *c, int row)
 {
-    const struct smear_tile_neighborhood *around = window_around(&c->window, row);
+    const struct smear_tile_neighborhood *around = window_around(c->filtered, row);
     for (int32_t i = 0; i < c->window.columns; i++) {
         if (around[i].kind == TILE_STILL) {
             c->stats.tiles_still++;
@@ -605,7 +643,7 @@ static void count_tiles(struct smear_context *c, int row)
 /* Finishes tile row `row`; rows up to `known` are in the window. */
 static int finish_blurred(struct smear_context *c, int row, int known)
 {
-    struct smear_window *w = &c->window;
+    const struct smear_window *w = c->filtered;
     bool corner = c->frame.reconstruct & SMEAR_CORNER;
     smear_neighbormax_row(w, row, known, corner);
     if (known > row)
@@ -788,7 +826,7 @@ static void prepare(struct smear_context *c)
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,
-        .flags = c->frame.reconstruct
+        .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct
     };
     if (c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
@@ -798,7 +836,8 @@ static void prepare(struct smear_context *c)
         c->blur.far_over_range = over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
     }
 
-    c->passes = smear_pingpong_plan(c->pass, &c->frame.pingpong, w->reach);
+    c->filtered = c->frame.method == SMEAR_HALF ? c->half : w;
+    c->passes = smear_pingpong_plan(c->pass, &c->frame.pingpong, c->filtered->reach);
     for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
         c->pass_end[i] = 0;
 

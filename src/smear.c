@@ -64,10 +64,28 @@ _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_C
 _Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 _Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
 
+/* A window of half the size of `full`. */
+static void layout_half(struct smear_window *w, struct smear_arena *a, const struct smear_window *full)
+{
+    *w = (struct smear_window){ .width = (full->width + 1) / 2, .height = (full->height + 1) / 2, .tile = full->tile / 2,
+                                .tile_shift = full->tile_shift - 1, .reach = (full->reach + 1) / 2,
+                                .columns = full->columns, .rows = full->rows };
+    w->ring = 2 * w->tile + w->reach;
+    size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
+    w->color = arena_take(a, plane, 4);
+    w->depth = arena_take(a, plane, 2);
+    if (w->reach <= 15)
+        w->velocity8 = arena_take(a, plane, 2);
+    else
+        w->velocity16 = arena_take(a, plane, 4);
+    w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
+    w->around = arena_take(a, 3 * columns, sizeof *w->around);
+}
+
 /* Measures or cuts all that a context needs; `c` receives the pieces. d is resolved. */
 static void layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
-    struct smear_window *w = &c->window;
+    struct smear_window *w = &c->window, spare;
     *w = (struct smear_window){ .width = d->width, .height = d->height, .tile = d->tile,
                                 .reach = d->reach };
     for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
@@ -92,6 +110,12 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     }
     for (int i = 0; i + 1 < d->passes; i++)
         c->pass_plane[i] = arena_take(a, plane, 4);
+    c->half = NULL;
+    if (d->half) {
+        c->half = arena_take(a, 1, sizeof *c->half);
+        layout_half(c->half != NULL ? c->half : &spare, a, w);
+        c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
+    }
     if (!d->sharp || d->timed)
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     if (d->timed) {

@@ -81,7 +81,52 @@ static void test_camera_velocity_from_depth_is_that_of_vertices(void)
     }
 }
 
+/* ------------------------------------------------------------------ memory */
+
+static int take_nothing(void *user, const smear_band *band)
+{
+    (void)user;
+    (void)band;
+    return 0;
+}
+
+static void test_memory_of_passes_and_half_size_is_a_constant(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 } };
+    for (int i = 0; i < 7; i++)
+        for (int tile = 8; tile <= 64; tile *= 2)
+            for (int reach = 1; reach <= tile; reach++)
+                for (int passes = 0; passes <= 3; passes++)
+                    for (int half = 0; half < 2; half++) {
+                        size_t w = (size_t)size[i][0], h = (size_t)size[i][1], r = (size_t)reach, t = (size_t)tile;
+                        smear_desc desc = { .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach,
+                                            .tile = (int16_t)tile, .format = SMEAR_RGB565, .max_triangles = 100,
+                                            .max_draws = 4, .passes = (uint8_t)passes, .half = (uint8_t)half,
+                                            .flush = take_nothing };
+                        size_t room = SMEAR_MEMORY_SIZE_TILE(w, h, r, 100, 4, t)
+                                    + SMEAR_PASSES_BYTES(w, r, t, (size_t)passes)
+                                    + (half ? SMEAR_HALF_BYTES(w, r, t) : 0u), need = smear_memory_size(&desc);
+                        if (!CHECK(need > 0 && need <= room && room - need < 2048)) {
+                            say("  %d x %d, tile %d, reach %d, passes %d, half %d: %zu of %zu\n", size[i][0], size[i][1],
+                                tile, reach, passes, half, need, room);
+                            return;
+                        }
+                    }
+    smear_desc bad = { .width = 64, .height = 64, .flush = take_nothing, .passes = 4 };
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.passes = 2;
+    bad.sharp = 1;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.passes = 0;
+    bad.half = 1;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.sharp = 0;
+    bad.half = 2;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+}
+
 void suite_filters(void)
 {
+    RUN(test_memory_of_passes_and_half_size_is_a_constant);
     RUN(test_camera_velocity_from_depth_is_that_of_vertices);
 }

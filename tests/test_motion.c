@@ -47,6 +47,7 @@ static bool stage_open(struct rig *r)
 {
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.passes = 2;
+    desc.half = 1;
     return rig_begin(r, &desc, true);
 }
 
@@ -320,7 +321,8 @@ static const struct way ways[] = {
     { SMEAR_RECONSTRUCT, 0, 0, SMEAR_FENCE }, { SMEAR_RECONSTRUCT, 0, 1, SMEAR_FENCE },
     { SMEAR_CAMERA, SMEAR_FILTER_MEAN, 1, 0 }, { SMEAR_CAMERA, SMEAR_FILTER_MEAN, 4, 0 },
     { SMEAR_CAMERA, SMEAR_FILTER_PINGPONG, 2, 0 }, { SMEAR_CAMERA, SMEAR_FILTER_RECONSTRUCT, 1, SMEAR_FENCE },
-    { SMEAR_PINGPONG, 0, 0, 0 }, { SMEAR_PINGPONG, 0, 1, 0 }
+    { SMEAR_PINGPONG, 0, 0, 0 }, { SMEAR_PINGPONG, 0, 1, 0 }, { SMEAR_HALF, 0, 0, SMEAR_FENCE },
+    { SMEAR_HALF, SMEAR_FILTER_MEAN, 1, 0 }, { SMEAR_HALF, SMEAR_FILTER_PINGPONG, 2, 0 }
 };
 enum { WAYS = sizeof ways / sizeof *ways };
 
