@@ -238,6 +238,14 @@ enum {
                              * own velocity; motion below a pixel stays as it is */
 };
 
+/* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX and DIRECTION are departures of the first. */
+typedef enum smear_weights {
+    SMEAR_WEIGHTS_STACK,        /* Post Processing Stack v2 */
+    SMEAR_WEIGHTS_MCGUIRE,      /* McGuire, Hennessy, Bukowski, Osman 2012 */
+    SMEAR_WEIGHTS_GUERTIN,      /* Guertin, McGuire, Nowrouzezahrai 2014 */
+    SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
+} smear_weights;
+
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
     const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame
@@ -257,6 +265,7 @@ typedef struct smear_frame {
     uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
                                  * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
                                  * vertices, the background none (SMEAR_CAMERA: as 1) */
+    uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the `filter` */
     smear_pingpong pingpong;
     uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the application's poses say it all */
     uint16_t reference_hz;      /* 1..1000; 0 means 30 */

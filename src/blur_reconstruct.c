@@ -409,13 +409,6 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
         }
 }
 
-/* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
- * centres are at 1/2. */
-static inline int32_t jump(int32_t x, int32_t sine, int shift)
-{
-    return ((x << 8) + 128 + (sine * 258 * (64 << shift) >> 15)) >> (shift + 8);
-}
-
 static inline const struct direction *choose(const struct choice *c, const struct smear_window *w,
                                              int32_t x, int32_t y, uint32_t inner)
 {
@@ -427,8 +420,8 @@ static inline const struct direction *choose(const struct choice *c, const struc
     if (inside_x && inside_y)
         return &c->direction[4];
     uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
-    int32_t dx = inside_x ? 0 : jump(x, smear_sine[(angle + 64u) & 255u], shift);
-    int32_t dy = inside_y ? 0 : jump(y, smear_sine[angle & 255u], shift);
+    int32_t dx = inside_x ? 0 : tile_jump(x, smear_sine[(angle + 64u) & 255u], shift);
+    int32_t dy = inside_y ? 0 : tile_jump(y, smear_sine[angle & 255u], shift);
     return c->at[dy + 1][dx + 1];
 }
 

@@ -537,6 +537,8 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
     else if (c->frame.filter == SMEAR_FILTER_MEAN
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
+    else if (c->frame.weights != SMEAR_WEIGHTS_STACK)
+        samples = smear_blur_weights(tile, w, &rows, row, column, &c->blur);
     else
         samples = smear_blur_reconstruct(tile, w, &rows, row, column, &c->blur);
     c->worker_samples[worker] += samples;
@@ -826,7 +828,8 @@ static void prepare(struct smear_context *c)
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,
-        .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct
+        .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct,
+        .weights = c->frame.weights
     };
     if (c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);

@@ -296,7 +296,7 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->filter = SMEAR_FILTER_PINGPONG;
     else if (f->filter == SMEAR_FILTER_DEFAULT)
         f->filter = SMEAR_FILTER_MEAN;
-    if (f->filter > SMEAR_FILTER_PINGPONG || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
+    if (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
         return false;
     if (f->method > SMEAR_HALF || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)

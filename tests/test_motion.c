@@ -397,7 +397,7 @@ static void test_the_blur_ends_in_the_frame_in_which_motion_ends(void)
             return;
         for (int frame = 0; frame < 8; frame++) {
             bool object = ways[w].method != SMEAR_CAMERA;
-            double at = 0.2 * (frame < 5 ? frame : 4);
+            double at = 0.4 * (frame < 5 ? frame : 4);
             stage_make(&s, SMEAR_NONE);
             stage_way(&s, &ways[w]);
             s.material[0].texture = &checker_texture;

@@ -91,15 +91,6 @@ static const char *read_filter(void *to, const char *value)
     return found >= 0 ? NULL : "needs nearest or bilinear";
 }
 
-static const char *read_shutter(void *to, const char *value)
-{
-    double degrees;
-    if (!read_number(value, 0.0, 3600.0, &degrees))
-        return "needs degrees from 0 to 3600";
-    ((struct render_options *)to)->shutter_degrees = (int)lround(degrees);
-    return NULL;
-}
-
 static const char *read_exposure(void *to, const char *value)
 {
     static const char *const names[] = { "centred", "trailing", "leading", NULL };
@@ -274,18 +265,6 @@ static const char *read_cut(void *to, const char *value)
                                                                      : "needs a frame number";
 }
 
-static const char *read_shutter_mode(void *to, const char *value)
-{
-    double hertz;
-    (void)to;
-    if (strcmp(value, "native") == 0)
-        return NULL;
-    if (strcmp(value, "capped") == 0 || strcmp(value, "fixed") == 0 ||
-        (strncmp(value, "fixed:", 6) == 0 && read_number(value + 6, 1e-3, 1e6, &hertz)))
-        return "not built yet";
-    return "needs native, capped or fixed[:HZ]";
-}
-
 static const char *read_light(void *to, const char *value)
 {
     static const char *const names[] = { "linear", "encoded", NULL };
@@ -398,6 +377,8 @@ static const struct option table[] = {
     { "--inside", true, read_inside },
     { "--camera-step", true, read_camera_step },
     { "--pingpong", true, read_pingpong },
+    { "--weights", true, read_weights },
+    { "--scale", true, read_scale },
     { "--quality", true, read_quality },
     { "--target", true, read_target },
     { "--reach", true, read_reach },

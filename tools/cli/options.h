@@ -22,6 +22,9 @@ struct render_options {
     long first, last;           /* frames; 0 and 0 without --frames */
 
     int shutter_degrees;        /* 0: the sharp frame */
+    double shutter_seconds;     /* > 0: instead */
+    smear_shutter_mode shutter_mode;
+    double reference_hz;        /* of modes that are not native */
     smear_exposure exposure;
     bool shutter_poses;
     smear_method method;
@@ -32,6 +35,8 @@ struct render_options {
     int camera_step;
     bool has_pingpong;
     smear_pingpong pingpong;
+    smear_weights weights;
+    int turn_scale, way_scale, object_scale;    /* as in smear_frame */
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;
     unsigned clear;

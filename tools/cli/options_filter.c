@@ -84,6 +84,114 @@ const char *read_pingpong(void *to, const char *value)
     }
 }
 
+const char *read_weights(void *to, const char *value)
+{
+    static const char *const names[] = { "stack", "mcguire", "guertin", "jimenez", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs stack, mcguire, guertin or jimenez";
+    ((struct render_options *)to)->weights = (smear_weights)found;
+    return NULL;
+}
+
+/* A factor as smear_frame has it. */
+static bool read_factor(const char *text, int *scale)
+{
+    double factor;
+    if (!read_number(text, 0.0, 63.0, &factor))
+        return false;
+    int q8 = (int)lround(factor * 256);
+    *scale = q8 == 0 ? (int)SMEAR_SCALE_NONE : q8;
+    return true;
+}
+
+const char *read_scale(void *to, const char *value)
+{
+    static const char *const names[] = { "turn", "way", "objects", NULL };
+    struct render_options *o = to;
+    int *const scale[] = { &o->turn_scale, &o->way_scale, &o->object_scale };
+    for (;;) {
+        char setting[32];
+        size_t length = strcspn(value, ",");
+        if (length >= sizeof setting)
+            length = 0;
+        memcpy(setting, value, length);
+        setting[length] = '\0';
+        char *number = strchr(setting, '=');
+        if (number != NULL)
+            *number++ = '\0';
+        int found = read_name(setting, names);
+        if (found < 0 || number == NULL || !read_factor(number, scale[found]))
+            return "needs a list of turn=F, way=F, objects=F, factors from 0 to 63";
+        if (value[length] == '\0')
+            return NULL;
+        value += length + 1;
+    }
+}
+
+/* ------------------------------------------------------------------ the shutter */
+
+/* Degrees, or seconds with an "s" or "ms" behind them. */
+const char *read_shutter(void *to, const char *value)
+{
+    struct render_options *o = to;
+    char number[32];
+    size_t length = strlen(value);
+    double unit = 0.0, amount;
+    if (length > 1 && length < sizeof number && value[length - 1] == 's')
+        unit = value[length - 2] == 'm' ? 1e-3 : 1.0;
+    o->shutter_seconds = 0.0;
+    if (unit > 0.0) {
+        length -= unit < 1.0 ? 2 : 1;
+        memcpy(number, value, length);
+        number[length] = '\0';
+        if (!read_number(number, 1e-6, 1000.0, &amount) || amount * unit > 1.0)
+            return "needs seconds up to 1 (0.01s, 10ms)";
+        o->shutter_seconds = amount * unit;
+        o->shutter_degrees = 180;
+        return NULL;
+    }
+    if (!read_number(value, 0.0, 3600.0, &amount))
+        return "needs degrees from 0 to 3600, or seconds as 0.01s or 10ms";
+    o->shutter_degrees = (int)lround(amount);
+    return NULL;
+}
+
+const char *read_shutter_mode(void *to, const char *value)
+{
+    struct render_options *o = to;
+    o->reference_hz = 30.0;
+    if (strcmp(value, "native") == 0)
+        o->shutter_mode = SMEAR_SHUTTER_NATIVE;
+    else if (strcmp(value, "capped") == 0)
+        o->shutter_mode = SMEAR_SHUTTER_CAPPED;
+    else if (strcmp(value, "fixed") == 0)
+        o->shutter_mode = SMEAR_SHUTTER_FIXED;
+    else if (strncmp(value, "fixed:", 6) == 0 && read_number(value + 6, 1e-3, 1e6, &o->reference_hz))
+        o->shutter_mode = SMEAR_SHUTTER_FIXED;
+    else
+        return "needs native, capped or fixed[:HZ]";
+    return NULL;
+}
+
+double shutter_degrees_at(const struct render_options *o, double fps)
+{
+    double frames = 1.0, degrees;      /* times the shutter of a frame at the rate of reference */
+    if (o->shutter_degrees == 0)
+        return 0.0;
+    if (o->shutter_mode != SMEAR_SHUTTER_NATIVE)
+        frames = fps / o->reference_hz;
+    if (o->shutter_mode == SMEAR_SHUTTER_CAPPED)
+        frames = fmin(frames, 1.0);
+    degrees = o->shutter_degrees * frames;
+    if (o->shutter_seconds > 0.0) {
+        degrees = o->shutter_seconds * fps * 360.0;
+        if (o->shutter_mode == SMEAR_SHUTTER_CAPPED)
+            degrees = fmin(degrees, 360.0);
+    }
+    return fmin(fmax(degrees, 0.5), 3600.0);
+}
+
 int check_filter(const struct render_options *o)
 {
     bool has_inside = o->method == SMEAR_CAMERA || o->method == SMEAR_HALF;
@@ -99,5 +207,9 @@ int check_filter(const struct render_options *o)
         return say_bad_usage("--pingpong", "goes with --method pingpong, or --inside pingpong");
     if (o->reconstruct != 0 && !reconstructs)
         return say_bad_usage("--reconstruct", "goes with --method reconstruct, or --inside reconstruct");
+    if (o->weights != SMEAR_WEIGHTS_STACK && !reconstructs)
+        return say_bad_usage("--weights", "goes with --method reconstruct, or --inside reconstruct");
+    if ((o->turn_scale | o->way_scale | o->object_scale) != 0 && o->exact)
+        return say_bad_usage("--scale", "contradicts --exact, which moves all as the file does");
     return STATUS_OK;
 }

@@ -2,6 +2,7 @@
 /* setup.c - see setup.h. */
 #include "setup.h"
 
+#include "options_filter.h"
 #include "say.h"
 
 #include <stdlib.h>
@@ -46,14 +47,16 @@ int setup_change(const struct render_options *o, const struct source *source, st
     out->height = is_builtin && !o->has_size ? scene->height : o->height;
     out->present = (struct present_options){
         .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
-        .shutter_degrees = o->shutter_degrees, .exposure = o->exposure,
+        .exposure = o->exposure,
         .shutter_poses = o->shutter_poses, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
         .reconstruct = o->reconstruct, .target = o->target,
         .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
+        .weights = o->weights, .turn_scale = o->turn_scale, .way_scale = o->way_scale, .object_scale = o->object_scale,
         .motion = out->present.motion, .motion_count = out->present.motion_count,
     };
+    out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
 

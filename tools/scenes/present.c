@@ -438,7 +438,9 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
                             .shutter_degrees = (uint16_t)degrees,
                             .filter = (uint8_t)o->filter, .camera_step = (uint8_t)o->camera_step,
-                            .pingpong = o->pingpong,
+                            .pingpong = o->pingpong, .weights = (uint8_t)o->weights,
+                            .turn_scale = (uint16_t)o->turn_scale, .way_scale = (uint16_t)o->way_scale,
+                            .object_scale = (uint16_t)o->object_scale,
                             .clear = o->clear, .shutter = o->shutter };
     return true;
 }

@@ -51,6 +51,8 @@ struct present_options {
     smear_filter filter;            /* of SMEAR_CAMERA and SMEAR_HALF */
     int camera_step;                /* 1, 2, 4: still draws take their velocity from depth */
     smear_pingpong pingpong;
+    smear_weights weights;
+    int turn_scale, way_scale, object_scale;        /* as in smear_frame */
     const uint8_t *shutter;         /* SMEAR_SHUTTER_POINTS of openness; null: a box */
     bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera get an
                                      * earlier pose: the library has kept it. Scale and reference of
