@@ -328,6 +328,8 @@ typedef struct smear_desc {
     uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
                                  * each but the last; 0 and 1: none. In any case one pass may be had */
     uint8_t half;               /* 1: room for SMEAR_HALF */
+    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
+                                 * as many tile rows more are kept. Not with timed, passes or half */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
@@ -465,6 +467,15 @@ static inline uint32_t smear_depth_units(uint16_t code)
     (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
      + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 2u) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, 3u))
+
+/* Of a desc with `scatter`: the window has as many tiles more as the reach covers beyond one. */
+#define SMEAR_LAG(reach, tile) (((size_t)(reach) + (tile) - 1u) / (tile))
+#define SMEAR_MEMORY_SIZE_SCATTER(width, height, reach, triangles, draws, tile) \
+    (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
+     + (SMEAR_LAG(reach, tile) - 1u) \
+       * (SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
+          + SMEAR_ALIGN8((size_t)(width) * (tile) * ((reach) <= 15 ? 2u : 4u)) \
+          + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 40u) + 8u))
 
 /* Beyond a window's memory: what passes but the last leave; a window of half the size and a tile of it. One worker. */
 #define SMEAR_PASSES_BYTES(width, reach, tile, passes) \

@@ -648,8 +648,8 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     const struct smear_window *w = c->filtered;
     bool corner = c->frame.reconstruct & SMEAR_CORNER;
     smear_neighbormax_row(w, row, known, corner);
-    if (known > row)
-        smear_neighbormax_row(w, known, known, corner);
+    if (known > row)        /* looked at by the pixels of this row, and by passes that are ahead */
+        smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(c, row);
     int32_t end = w->height;
     if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->passes > 1)
@@ -687,13 +687,17 @@ static int render_none(struct smear_context *c)
  *      drawn      drawn      drawn       colour, depth, velocity: the blur only reads them
  *                 blurred -> band -> flush
  *
- * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). */
+ * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). Where it
+ * reaches farther, it is finished as many rows later. */
 static int roll(struct smear_context *c, int row)
 {
     reduce_row(c, row);
-    int result = row > 0 ? finish_blurred(c, row - 1, row) : SMEAR_OK;
-    if (result == SMEAR_OK && row == c->window.rows - 1)
-        result = finish_blurred(c, row, row);
+    int lag = c->filtered->lag, result = SMEAR_OK;
+    if (row >= lag)
+        result = finish_blurred(c, row - lag, row);
+    if (row == c->window.rows - 1)
+        for (int last = max_i32(row - lag + 1, 0); last <= row && result == SMEAR_OK; last++)
+            result = finish_blurred(c, last, row);
     return result;
 }
 
@@ -705,7 +709,7 @@ static int render_filter(struct smear_context *c)
         smear_reproject_make(&c->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
                              c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
-        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
+        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);

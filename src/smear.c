@@ -19,13 +19,15 @@ static bool resolve(smear_desc *d)
 {
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
         return false;
+    if (d->scatter > 1 || (d->scatter && (d->sharp || d->timed || d->half || d->passes > 1)))
+        return false;
     if (d->reach == 0)
         d->reach = (int16_t)clamp_i32(d->height * 5 / 100, 1, 64);
     if (d->reach < 1 || d->reach > 64)
         return false;
     if (d->tile == 0)
         d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || d->tile < d->reach)
+    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || (d->tile < d->reach && !d->scatter))
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
@@ -69,7 +71,7 @@ static void layout_half(struct smear_window *w, struct smear_arena *a, const str
 {
     *w = (struct smear_window){ .width = (full->width + 1) / 2, .height = (full->height + 1) / 2, .tile = full->tile / 2,
                                 .tile_shift = full->tile_shift - 1, .reach = (full->reach + 1) / 2,
-                                .columns = full->columns, .rows = full->rows };
+                                .columns = full->columns, .rows = full->rows, .lag = 1 };
     w->ring = 2 * w->tile + w->reach;
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     w->color = arena_take(a, plane, 4);
@@ -92,8 +94,10 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + d->band_rows - 1) / d->band_rows;
-    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : 2 * d->tile + d->reach;
+    w->lag = (d->reach + d->tile - 1) / d->tile;
+    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : (w->lag + 1) * d->tile + d->reach;
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
+    size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
     w->depth = arena_take(a, plane, 2);
     w->moving = arena_take(a, columns, 1);
@@ -104,8 +108,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             w->velocity8 = arena_take(a, plane, 2);
         else
             w->velocity16 = arena_take(a, plane, 4);
-        w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
-        w->around = arena_take(a, 3 * columns, sizeof *w->around);
+        w->motion = arena_take(a, reduced, sizeof *w->motion);
+        w->around = arena_take(a, reduced, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
     for (int i = 0; i + 1 < d->passes; i++)

@@ -378,6 +378,7 @@ static const struct option table[] = {
     { "--camera-step", true, read_camera_step },
     { "--pingpong", true, read_pingpong },
     { "--weights", true, read_weights },
+    { "--scatter", false, read_scatter },
     { "--scale", true, read_scale },
     { "--quality", true, read_quality },
     { "--target", true, read_target },
@@ -505,7 +506,7 @@ int options_read(struct render_options *o, int count, char **text, bool *wants_h
 int options_reach(const struct render_options *o, int height, int *reach, int *tile)
 {
     double percent = o->reach_percent > 0.0 ? o->reach_percent : 5.0;
-    int limit = o->tile > 0 ? o->tile : MAX_REACH;
+    int limit = o->tile > 0 && !o->scatter ? o->tile : MAX_REACH;
     *tile = o->tile;
     *reach = o->reach_px;
     if (*reach == 0) {
@@ -516,7 +517,8 @@ int options_reach(const struct render_options *o, int height, int *reach, int *t
             *reach = limit;         /* the default is 5 %, but at most one tile */
     }
     if (*reach > limit)
-        return say_bad_usage("--reach", "%d pixels are more than a tile of %d", *reach, limit);
+        return o->scatter ? say_bad_usage("--reach", "%d pixels are more than %d", *reach, limit)
+                          : say_bad_usage("--reach", "%d pixels are more than a tile of %d", *reach, limit);
     return STATUS_OK;
 }
 

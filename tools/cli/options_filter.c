@@ -94,6 +94,13 @@ const char *read_weights(void *to, const char *value)
     return NULL;
 }
 
+const char *read_scatter(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->scatter = true;
+    return NULL;
+}
+
 /* A factor as smear_frame has it. */
 static bool read_factor(const char *text, int *scale)
 {
@@ -209,6 +216,10 @@ int check_filter(const struct render_options *o)
         return say_bad_usage("--reconstruct", "goes with --method reconstruct, or --inside reconstruct");
     if (o->weights != SMEAR_WEIGHTS_STACK && !reconstructs)
         return say_bad_usage("--weights", "goes with --method reconstruct, or --inside reconstruct");
+    if (o->scatter && !(reconstructs || (o->method == SMEAR_CAMERA && !is_pingpong)))
+        return say_bad_usage("--scatter", "goes with --method reconstruct or camera, not with pingpong or half");
+    if (o->scatter && o->method == SMEAR_HALF)
+        return say_bad_usage("--scatter", "goes with --method reconstruct or camera, not with pingpong or half");
     if ((o->turn_scale | o->way_scale | o->object_scale) != 0 && o->exact)
         return say_bad_usage("--scale", "contradicts --exact, which moves all as the file does");
     return STATUS_OK;

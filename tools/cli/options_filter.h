@@ -7,7 +7,8 @@
 #include "arguments.h"
 #include "options.h"
 
-option_read_fn read_inside, read_camera_step, read_pingpong, read_weights, read_scale, read_shutter, read_shutter_mode;
+option_read_fn read_inside, read_camera_step, read_pingpong, read_weights, read_scatter, read_scale, read_shutter,
+    read_shutter_mode;
 
 /* The shutter in degrees of the frame time: what --shutter and --shutter-mode ask for at this rate. At least half a degree
  * (so that there is one) and at most 3600, unless it is 0. */

@@ -80,7 +80,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
         .timed = is_timed_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
-        .threads = o->threads, .arena = o->arena,
+        .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };
 }
 
