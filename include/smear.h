@@ -197,8 +197,8 @@ typedef enum smear_filter {
     SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
 } smear_filter;
 
-/* A blur in passes: each takes few taps of what the one before it left, `base` times as far apart, so that 8 and 8 taps
- * weigh like 64. */
+/* A blur in passes: each takes few taps of what the one before it left, `base` times closer, so that 8 and 8 taps weigh
+ * like 64. */
 typedef struct smear_pingpong {
     uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */

@@ -24,20 +24,23 @@ bool smear_pingpong_resolve(smear_pingpong *p)
 
 int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear_pingpong *p, int32_t reach)
 {
-    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in pass k: `whole` brings the
-     * outermost tap of all passes together, and half a spacing of the first beyond it, to the end of the streak. */
+    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th pass from the last:
+     * `whole` brings the outermost tap of all passes together, and half a spacing of the last beyond it, to the end of the
+     * streak. */
     int32_t power = 1, sum = 0;
     for (int k = 0; k < p->passes; k++, power *= p->base)
         sum += power;
     int32_t whole = (p->taps - 1) * sum + 1;
-    power = 1;
-    for (int k = 0; k < p->passes; k++, power *= p->base) {
+    power = power / p->base;
+    for (int k = 0; k < p->passes; k++, power /= p->base) {
         /* power is below whole; 2^20 power / whole in two digits of 2^10. */
         int32_t high = (power << 10) / whole, low = (((power << 10) - high * whole) << 10) / whole;
         int32_t spacing = (high << 10) + low;
         int32_t farthest = (p->taps - 1) * spacing + (spacing * p->jitter >> 7);
         pass[k] = (struct smear_pass){
-            .taps = p->taps, .spacing = spacing, .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread,
+            .taps = p->taps, .all_taps = min_i32(p->taps * p->passes, 64),
+            .direct_up_to = p->passes > 1 ? min_i32(p->taps * p->passes, 64) / 2 : -1,
+            .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64), .is_last = k == p->passes - 1, .spacing = spacing, .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread,
             .reach = min_i32(((farthest >> 4) * reach + (1 << 15)) >> 16, reach)
         };
     }
@@ -51,11 +54,12 @@ struct taps {
     int32_t first_x, first_y, step_x, step_y;
 };
 
-static struct taps taps_along(const struct smear_pass *pass, struct smear_pixel_velocity v)
+/* `count` taps, half of what lies between two `spacing` (q20 of v). */
+static struct taps taps_along(struct smear_pixel_velocity v, int32_t count, int32_t spacing)
 {
     /* |v| < 2^9 in q3, spacing at most 2^20: q23. */
-    int32_t x = v.x * pass->spacing >> 7, y = v.y * pass->spacing >> 7;
-    return (struct taps){ -(pass->taps - 1) * x, -(pass->taps - 1) * y, 2 * x, 2 * y };
+    int32_t x = v.x * spacing >> 7, y = v.y * spacing >> 7;
+    return (struct taps){ -(count - 1) * x, -(count - 1) * y, 2 * x, 2 * y };
 }
 
 /* 2^24 / n, rounded up: equal values keep their mean (blur_uniform.c). */
@@ -108,13 +112,27 @@ struct passing {
     const uint32_t *in;
     const uint16_t *depth;
     const uint32_t *row;        /* offsets of rows, from the table's first */
-    int32_t count;              /* taps */
     uint32_t far_units;         /* orthographic: from the eye to the far plane */
     /* kept from pixel to pixel: what follows from velocity and from depth */
     uint32_t word, code;
     struct taps taps;
+    int32_t count;              /* of them; 0: the pixel stays as it is */
     uint32_t limit;             /* the nearest that is not too near: a code */
 };
+
+/* The taps of a pixel in this pass. */
+static void taps_choose(struct passing *p, struct smear_pixel_velocity v)
+{
+    const struct smear_pass *pass = p->pass;
+    int32_t streak = (max_i32(abs_i32(v.x), abs_i32(v.y)) + 3) >> 2;        /* px */
+    int32_t spacing = pass->spacing;
+    p->count = pass->taps;
+    if (streak <= pass->direct_up_to) {
+        p->count = pass->is_last ? pass->all_taps : 0;
+        spacing = pass->direct_spacing;
+    }
+    p->taps = taps_along(v, p->count, spacing);
+}
 
 /* The code of the nearest depth that a tap may have. */
 static uint16_t nearest_allowed(const struct passing *p, uint16_t code)
@@ -154,7 +172,7 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
 {
     const struct smear_window *w = p->w;
     const int32_t right = w->width - 1, half = p->pass->taps - 1;
-    struct taps t = taps_along(p->pass, top);
+    struct taps t = taps_along(top, p->pass->taps, p->pass->spacing);
     bool linear = p->settings->linear;
     int32_t code = w->depth[at], behind = max_i32(2 * code - (int32_t)p->limit, 0);
     int32_t own_square = own.x * own.x + own.y * own.y;
@@ -200,18 +218,23 @@ SMEAR_INLINE uint32_t pass_tile(struct passing *p, uint32_t *out, int32_t stride
                 p->code = p->depth[at];
                 p->limit = nearest_allowed(p, (uint16_t)p->code);
             }
-            taken++;
             if (spreads) {
                 struct smear_pixel_velocity v = window_velocity(w, at);
                 if ((v.x * v.x + v.y * v.y) * 2 < top_square) {
                     *to = gather_spread(p, at, x, y - rows->first, v, top);
+                    taken += (uint32_t)p->pass->taps;
                     continue;
                 }
             }
             if (word != p->word) {
                 p->word = word;
-                p->taps = taps_along(p->pass, window_velocity(w, at));
+                taps_choose(p, window_velocity(w, at));
             }
+            if (p->count == 0) {
+                *to = p->in[at];
+                continue;
+            }
+            taken += (uint32_t)p->count;
             int32_t tx = middle_x + p->taps.first_x, ty = middle_y + p->taps.first_y;
             if (jitter != 0) {
                 int32_t noise = (int32_t)noise_of((uint32_t)x * NOISE_X + (uint32_t)y * NOISE_Y) - 32768;
@@ -222,7 +245,7 @@ SMEAR_INLINE uint32_t pass_tile(struct passing *p, uint32_t *out, int32_t stride
             *to = gather(p, at, tx, ty, linear, edge);
         }
     }
-    return taken * (uint32_t)p->count;
+    return taken;
 }
 
 uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, const struct smear_window *w,
@@ -230,7 +253,7 @@ uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, 
                              int32_t column, int32_t y0, int32_t y1, const struct smear_blur_settings *settings)
 {
     struct passing p = { .w = w, .pass = pass, .settings = settings, .in = in, .depth = w->depth,
-                         .row = rows->offset, .count = pass->taps };
+                         .row = rows->offset };
     if (settings->orthographic)
         p.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     int32_t x0 = column << w->tile_shift;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* pingpong.h - a blur in passes, each of few taps, spaced wider from pass to pass: what 8 and 8 taps gather weighs like 64.
+/* pingpong.h - a blur in passes, each of few taps, spaced closer from pass to pass: what 8 and 8 taps gather weighs like 64.
  *
  * After Sousa's directional blurs (GDC 2008, 2013) and their use for motion: velocity and depth are looked up where the
  * result goes, taps that are nearer than that are left out, so that what is in front does not bleed over what is behind.
- * Taps lie at even steps to both sides, and the steps of a pass are as wide as all the one before it covers: then no
- * position counts twice, and the passes are a box. */
+ * Taps lie at even steps to both sides, and a pass covers just one step of the one before it: then no position counts twice,
+ * and the passes are a box. Wide steps come first: the narrow ones even out what falls between pixels. */
 #ifndef SMEAR_PINGPONG_H
 #define SMEAR_PINGPONG_H
 
@@ -16,6 +16,10 @@ enum { PINGPONG_PASSES_MAX = 3 };
 /* A pass of a frame. */
 struct smear_pass {
     int32_t taps;
+    /* Streaks of so many pixels or fewer are left to the last pass, which then takes all passes' taps: no steps of passes
+     * fit between their pixels. */
+    int32_t direct_up_to, all_taps, direct_spacing;
+    bool is_last;
     int32_t spacing;            /* half of what lies between two taps, of half the exposure's displacement: q20 */
     int32_t reach;              /* rows above and below that it may read */
     int32_t jitter;             /* q8 of `spacing` to either side */
