@@ -441,6 +441,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .pingpong = o->pingpong, .weights = (uint8_t)o->weights,
                             .turn_scale = (uint16_t)o->turn_scale, .way_scale = (uint16_t)o->way_scale,
                             .object_scale = (uint16_t)o->object_scale,
+                            .shutter_mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
+                            .shutter_us = (uint32_t)o->shutter_us,
                             .clear = o->clear, .shutter = o->shutter };
     return true;
 }

@@ -53,6 +53,8 @@ struct present_options {
     smear_pingpong pingpong;
     smear_weights weights;
     int turn_scale, way_scale, object_scale;        /* as in smear_frame */
+    smear_shutter_mode shutter_mode;                /* likewise: what the library makes of a frame time, */
+    int frame_us, shutter_us;                       /* without shutter_poses */
     const uint8_t *shutter;         /* SMEAR_SHUTTER_POINTS of openness; null: a box */
     bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera get an
                                      * earlier pose: the library has kept it. Scale and reference of
