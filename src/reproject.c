@@ -23,7 +23,7 @@ static uint64_t size_of(int64_t a)
     return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
 }
 
-static struct number number_of(int64_t value, int e)
+static SMEAR_NOINLINE struct number number_of(int64_t value, int e)
 {
     if (value == 0)
         return (struct number){ 0, 0 };
@@ -33,13 +33,13 @@ static struct number number_of(int64_t value, int e)
     return (struct number){ (int32_t)(value >> shift), e + shift };
 }
 
-static struct number times(struct number a, struct number b)
+static SMEAR_NOINLINE struct number times(struct number a, struct number b)
 {
     return number_of((int64_t)a.m * b.m, a.e + b.e);
 }
 
 /* a / b for b > 0. */
-static struct number over(struct number a, struct number b)
+static SMEAR_NOINLINE struct number over(struct number a, struct number b)
 {
     int zeros = count_leading_zeros((uint32_t)b.m);
     struct number r = { (int32_t)recip_norm_precise((uint32_t)b.m << zeros), zeros - 61 - b.e };
@@ -47,7 +47,7 @@ static struct number over(struct number a, struct number b)
 }
 
 /* a 2^q, to nearest, at most 2^bits in magnitude. */
-static int32_t fixed_of(struct number a, int q, int bits)
+static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
 {
     const int64_t limit = ((int64_t)1 << bits) - 1;
     int shift = a.e + q;
@@ -62,7 +62,7 @@ static int32_t fixed_of(struct number a, int q, int bits)
 }
 
 /* The same with as many bits less as make it fit: the values share *shift, which only grows. */
-static void keep_room(int *shift, struct number a, int q)
+static SMEAR_NOINLINE void keep_room(int *shift, struct number a, int q)
 {
     int bits = a.m == 0 ? 0 : 32 - count_leading_zeros((uint32_t)(a.m < 0 ? -a.m : a.m)) + a.e + q;
     *shift = max_i32(*shift, bits - 30);
@@ -281,12 +281,18 @@ static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x
 void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units, int32_t out[2])
 {
     int32_t px = (x2 - r->width) * (1 << 20), py = (y2 - r->height) * (1 << 20);
-    int32_t u = (int32_t)(units << 11), first[2], second[2] = { 0, 0 };
-    pose_displacement(&r->pose[0], px, py, u, first);
-    if (r->poses == 2)
-        pose_displacement(&r->pose[1], px, py, u, second);
-    out[0] = second[0] - first[0];
-    out[1] = second[1] - first[1];
+    int32_t u = (int32_t)(units << 11);
+    out[0] = out[1] = 0;
+    for (int i = 0; i < r->poses; i++) {
+        int32_t displacement[2];
+        pose_displacement(&r->pose[i], px, py, u, displacement);
+        out[0] = displacement[0] - out[0];
+        out[1] = displacement[1] - out[1];
+    }
+    if (r->poses == 1) {
+        out[0] = -out[0];
+        out[1] = -out[1];
+    }
 }
 
 /* ------------------------------------------------------------------ attached objects */

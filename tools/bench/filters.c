@@ -14,7 +14,7 @@
 /* ------------------------------------------------------------------ takes */
 
 static const char *const camera_scenes[] = { "suite/pan", "suite/dolly", "suite/roll", "suite/textured", "suite/arena",
-                                             "peer/B64" };
+                                             "demo/race" };
 enum { CAMERA_SCENES = sizeof camera_scenes / sizeof *camera_scenes, STEPS = 3 };
 
 static const struct pan {
@@ -131,7 +131,7 @@ static const struct count_toggles passes_only = { 1, { "smear_pingpong_pass" } }
 
 static bool report_camera(struct sheet *sheet, struct failure *f)
 {
-    uint64_t each[CAMERA_SCENES * STEPS];
+    uint64_t each[CAMERA_SCENES * STEPS] = { 0 };
     double low[STEPS] = { INFINITY, INFINITY, INFINITY }, high[STEPS] = { 0, 0, 0 };
     printf("== camera velocity from depth: instructions per pixel of the frame\n\n"
            "scene             triangles    each pixel   2 x 2   4 x 4\n");
