@@ -23,17 +23,15 @@ void tiles_close(struct tiles *t)
     *t = (struct tiles){ .note = NULL };
 }
 
-/* The chooser is asked again; a smooth tile that was not to be had got what there is without a window. */
+/* The chooser is asked again. */
 static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
 {
-    struct smear_chooser chooser = c->chooser;
     struct smear_tile_choice choice;
-    chooser.has_window = load->method == TILE_SMOOTH;
     if (load->method == TILE_COPY)
         return (struct tile_note){ TILES_NONE, 1 };
-    smear_choose(&choice, &chooser, load);
+    smear_choose(&choice, &c->chooser, load);
     switch (load->method) {
-    case TILE_SMOOTH: return (struct tile_note){ TILES_SMOOTH, (uint16_t)choice.taps };
+    case TILE_SMOOTH: return (struct tile_note){ TILES_SMOOTH, (uint16_t)choice.timemask.slots };
     case TILE_SUBFRAMES: return (struct tile_note){ TILES_SUBFRAMES, (uint16_t)choice.instants };
     default: return (struct tile_note){ TILES_TIMEMASK, (uint16_t)choice.timemask.slots };
     }
@@ -52,7 +50,7 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO: {
-        const struct smear_row_movers *m = &c->row_movers[c->chooser.has_window ? row % ROWS_LISTED : 0];
+        const struct smear_row_movers *m = &c->row_movers;
         return timed_tile(c, &m->load[column]);
     }
     default:
