@@ -370,7 +370,7 @@ function showNumbers(f) {
     document.body.dataset.ms = ms.toFixed(2);
     if (S.paused || S.frame % 5 === 0 || !$("facts").firstChild) {
         const facts = [["Drawn here in", mean(0).toFixed(1) + " ms (" + Math.round(1000 / mean(0)) + " a second)"], ["Sharp frame", mean(1).toFixed(1) + " ms"],
-            ["Memory of smear", kilo(s.arena) + (s.limit ? " of " + kilo(s.limit) : "")], ["Triangles", count(s.in) + ", " + count(s.drawn) + " in view"],
+            ["Memory of smear", kilo(s.arena) + (s.limit ? " of " + kilo(s.limit) : "")], ["Triangles", count(s.in) + ", " + count(s.drawn) + " drawn"],
             ["Tiles", tilesText(s)]];
         if (s.board_us > 0) {
             const pace = us => us < 1e6 ? (1e6 / us).toFixed(us > 1e5 ? 1 : 0) + " a second" : (us / 1e6).toFixed(1) + " s a frame";
