@@ -462,6 +462,33 @@ static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
     scene_free(&scene);
 }
 
+/* After half a second of a round in two, the eye is a quarter further, and it is back after all of it. */
+static void test_a_turntable_goes_round(void)
+{
+    struct failure f = { "" };
+    struct scene scene;
+    struct orbit orbit;
+    struct scene_instant own = { 0 }, turned = { 0 };
+    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
+        return;
+    orbit_open(&orbit, &scene);
+    CHECK(orbit_find_focus(&orbit, 0.0, &f));
+    orbit.spin = 3.14159265358979323846;
+    for (int quarter = 0; quarter <= 4; quarter++) {
+        double time = quarter * 0.5;
+        CHECK(scene_pose(&scene, time, &own, &f) && scene_pose(&orbit.scene, time, &turned, &f));
+        const double *a = own.camera.pose, *b = turned.camera.pose;
+        /* of where both look along the ground: the cosine between */
+        double dot = (a[8] * b[8] + a[10] * b[10]) / (hypot(a[8], a[10]) * hypot(b[8], b[10]));
+        CHECK(fabs(dot - (quarter % 2 ? 0.0 : quarter == 2 ? -1.0 : 1.0)) < 1e-9);
+    }
+    orbit_reset(&orbit);
+    CHECK(!orbit_is_turned(&orbit));
+    scene_instant_free(&scene, &own);
+    scene_instant_free(&orbit.scene, &turned);
+    scene_free(&scene);
+}
+
 /* What the camera looks at stays in the middle, at the distance that was asked for. */
 static void test_a_turned_camera_looks_at_the_same_point(void)
 {
@@ -692,6 +719,7 @@ void suite_view(void)
     RUN(test_recorded_input_is_played);
     RUN(test_an_unturned_camera_is_the_scenes_own_bit_for_bit);
     RUN(test_a_turned_camera_looks_at_the_same_point);
+    RUN(test_a_turntable_goes_round);
     RUN(test_wires_lie_on_what_is_drawn);
     RUN(test_tiles_are_noted_as_they_are_counted);
     RUN(test_the_cookie_of_the_display_is_found);

@@ -286,6 +286,13 @@ const tests = {
         const frame = await crc();
         await browser.type("#file", names.join("\n"));
         check(await browser.until("S.scene === 'file' && !busyWithModel", 60), "it is not opened: " + await browser.text("#dropText"));
+        check(await browser.until(shown + " && scene.period === 30"), "what stands still is not put on a turntable");
+        check((await browser.text("#command")).includes("turntable"), "the command claims to show the turntable");
+        await browser.run("S.frame = 2; show() || pump()");
+        check(await browser.until(shown), "no frame is shown");
+        check(await picture("left") !== await picture("right"), "the turntable does not blur");
+        await browser.click("#spin");
+        check(await browser.until("!S.spin && " + shown), "the turntable does not stop");
         check(await sameAsHost("quad.obj") !== frame, "the picture is the old one");
         check((await browser.run("return document.getElementById('report').textContent")).includes("textures: 1"), "the texture is missing");
         equal(await browser.text("#dropText"), "", "the message");

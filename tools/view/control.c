@@ -337,6 +337,15 @@ static void do_move(struct view *v, int way)
         orbit_move(&v->orbit, way > 0 ? 1.0 / MOVE_STEP : MOVE_STEP);
 }
 
+/* A round in two seconds, so that what stands still is seen to move. */
+static void do_spin(struct view *v, int way)
+{
+    if (!find_focus(v))
+        return;
+    v->orbit.spin = v->orbit.spin == 0.0 ? way * PI : 0.0;
+    view_say(v, "turntable %s", v->orbit.spin != 0.0 ? "on" : "off");
+}
+
 static void do_reset(struct view *v, int way)
 {
     (void)way;
@@ -479,6 +488,7 @@ const struct control control_list[] = {
     { "right left", { SCREEN_RIGHT, SCREEN_LEFT }, do_yaw, "orbit (or drag)" },
     { "down up", { SCREEN_DOWN, SCREEN_UP }, do_pitch, "orbit (or drag)" },
     { "pageup -dn", { SCREEN_PAGE_UP, SCREEN_PAGE_DOWN }, do_move, "closer, farther (or wheel)" },
+    { "j", { 'j', 0 }, do_spin, "turntable" },
     { "x", { 'x', 0 }, do_reset, "the scene's own camera again" },
     { "c", { 'c', 'C' }, do_camera, "next camera of the file" },
     { "k K", { 'k', 'K' }, do_clip, "clip of the file" },

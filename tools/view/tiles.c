@@ -23,18 +23,17 @@ void tiles_close(struct tiles *t)
     *t = (struct tiles){ .note = NULL };
 }
 
-/* The chooser is asked again. */
+/* The chooser is asked again for what it has said of this tile. */
 static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
 {
     struct smear_tile_choice choice;
     if (load->method == TILE_COPY)
         return (struct tile_note){ TILES_NONE, 1 };
     smear_choose(&choice, &c->chooser, load);
-    switch (load->method) {
-    case TILE_SMOOTH: return (struct tile_note){ TILES_SMOOTH, (uint16_t)choice.timemask.slots };
-    case TILE_SUBFRAMES: return (struct tile_note){ TILES_SUBFRAMES, (uint16_t)choice.instants };
-    default: return (struct tile_note){ TILES_TIMEMASK, (uint16_t)choice.timemask.slots };
-    }
+    if (load->method == TILE_SUBFRAMES)
+        return (struct tile_note){ TILES_SUBFRAMES, (uint16_t)choice.instants };
+    return (struct tile_note){ load->method == TILE_SMOOTH ? TILES_SMOOTH : TILES_TIMEMASK,
+                               (uint16_t)choice.timemask.slots };
 }
 
 static struct tile_note tile_of(const smear_context *c, int row, int column)
@@ -49,10 +48,8 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
         return (struct tile_note){ TILES_RECONSTRUCT, samples };
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
-    case SMEAR_AUTO: {
-        const struct smear_row_movers *m = &c->row_movers;
-        return timed_tile(c, &m->load[column]);
-    }
+    case SMEAR_AUTO:
+        return timed_tile(c, &c->row_movers.load[column]);
     default:
         return (struct tile_note){ TILES_NONE, 1 };
     }

@@ -30,19 +30,19 @@ const SHELLS = { oled: "board", rp2040: "pocket", round: "watch", gba: "gba", me
 const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
     memlcd: "400\u00d7240 memory LCD, 1 bit", fb320: "320\u00d7240 framebuffer" };
 const SCENES = [{ name: "race", label: "Racing car, chased" }, { name: "drone", label: "Drone, fixed camera" }];
-const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, shutter: 180, method: 5, quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
+const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: 5, quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
 
 let S = { ...DEFAULTS };
 let model = null;                       // { name, files } of what has been dropped
 let scene = { period: 60, clips: [], width: 240, height: 240 };
-let turned = false;
+let turned = false, isStill = false;
 
 function readAddress() {
     const given = new URLSearchParams(location.hash.slice(1));
     const pick = (key, list) => list.includes(given.get(key)) ? given.get(key) : DEFAULTS[key];
     const whole = (key, low, high) => /^\d{1,6}$/.test(given.get(key) || "") ? Math.min(high, Math.max(low, +given.get(key))) : DEFAULTS[key];
     const index = (key, list) => Math.max(0, given.has(key) && list.includes(given.get(key)) ? list.indexOf(given.get(key)) : DEFAULTS[key]);
-    S = { scene: pick("scene", SCENES.map(s => s.name)), panel: pick("panel", PANELS.map(p => p.name)), clip: whole("clip", 0, 999),
+    S = { scene: pick("scene", SCENES.map(s => s.name)), panel: pick("panel", PANELS.map(p => p.name)), clip: whole("clip", 0, 999), spin: whole("spin", 0, 1),
         shutter: whole("shutter", 0, 360), method: index("method", METHODS.map(m => m.name)), quality: index("quality", QUALITIES),
         fps: RATES.includes(+given.get("fps")) ? +given.get("fps") : DEFAULTS.fps, split: whole("split", 0, 100),
         paused: given.get("paused") === "1", frame: whole("frame", 0, 99999), light: pick("light", ["linear", "encoded"]) };
@@ -52,7 +52,7 @@ function writeAddress() {
     const out = [];
     const note = (key, value) => { if (S[key] !== DEFAULTS[key]) out.push(key + "=" + value); };
     if (S.scene !== "file") note("scene", S.scene);
-    note("panel", S.panel); note("clip", S.clip); note("shutter", S.shutter); note("method", METHODS[S.method].name);
+    note("panel", S.panel); note("clip", S.clip); note("spin", S.spin); note("shutter", S.shutter); note("method", METHODS[S.method].name);
     note("quality", QUALITIES[S.quality]); note("fps", S.fps); note("split", S.split); note("light", S.light);
     if (S.paused) out.push("paused=1", "frame=" + S.frame);
     const hash = out.length ? "#" + out.join("&") : "";
@@ -94,6 +94,7 @@ class Engine {
         this.waiting = new Map();
         this.busy = 0;
         this.openKey = "";
+        this.spin = 0;
         this.epoch = -1;
         this.worker = new Worker(workerUrl);
         this.worker.onmessage = e => this.take(e.data);
@@ -138,9 +139,12 @@ class Engine {
 
 let engines = [];
 let epoch = 0;                          // of settings: frames of an older one are thrown away
-const poses = { yaw: 0, pitch: 0, factor: 1 };
+const poses = { frame: 0, yaw: 0, pitch: 0, factor: 1 };      // frame: at which the camera looks at what it is turned about
 
 const clean = text => text.trim().replace(/^smear: (warning: )?/gm, "");
+
+// What stands still is put on a turntable: a round in two seconds.
+const spinOf = scene => S.scene === "file" && S.spin && scene.period === 0 ? Math.PI : 0;
 
 // Brings an engine to the present settings. Resolves to its answer.
 async function tune(engine) {
@@ -150,8 +154,11 @@ async function tune(engine) {
     const answer = await engine.ask(opens ? "open" : "change", message, 30000);
     if (answer.status === 0) {
         engine.openKey = key;
-        if (opens && turned)
-            await engine.ask("turn", { frame: 0, ...poses, straight: true });
+        const spin = spinOf(answer.scene);
+        if (spin) answer.scene.period = 2 * S.fps;
+        if (engine.spin !== spin || (opens && (turned || spin)))
+            await engine.ask("turn", { ...poses, spin, straight: true });
+        engine.spin = spin;
         engine.epoch = wanted;
     }
     return answer;
@@ -185,8 +192,10 @@ function keep(answer) {
     }
 }
 
+const roomFor = () => Math.floor(MOST_BYTES / (scene.width * scene.height * 8)) - 1;
+
 function nextMissing() {
-    const room = Math.min(period(), Math.floor(MOST_BYTES / (scene.width * scene.height * 8)) - 1);
+    const room = Math.min(period(), roomFor());
     for (let i = 0; i < room; i++) {
         const n = (S.frame + i) % period();
         if (!frames.has(n) && !inFlight.has(n)) return n;
@@ -352,7 +361,7 @@ function showNumbers(f) {
     if (!f.noted) { f.noted = true; times.push([s.us, s.sharp_us]); if (times.length > 20) times.shift(); }
     const mean = k => times.reduce((sum, t) => sum + t[k], 0) / times.length / 1000;
     $("frameText").textContent = "frame " + S.frame + " of " + period() + ", " + S.fps + " per second";
-    $("speedText").textContent = frames.size < period() && !S.paused ? "drawing the loop, " + done + " %" : S.paused ? "paused" : "";
+    $("speedText").textContent = frames.size < Math.min(period(), roomFor()) && !S.paused ? "drawing the loop, " + done + " %" : S.paused ? "paused" : "";
     $("meter").style.width = done + "%";
     $("crc").textContent = s.crc;
     $("crcFrame").textContent = S.frame;
@@ -361,7 +370,7 @@ function showNumbers(f) {
     document.body.dataset.ms = ms.toFixed(2);
     if (S.paused || S.frame % 5 === 0 || !$("facts").firstChild) {
         const facts = [["Drawn here in", mean(0).toFixed(1) + " ms (" + Math.round(1000 / mean(0)) + " a second)"], ["Sharp frame", mean(1).toFixed(1) + " ms"],
-            ["Memory of smear", kilo(s.arena) + (s.limit ? " of " + kilo(s.limit) : "")], ["Triangles", count(s.in) + ", " + count(s.drawn) + " in view"],
+            ["Memory of smear", kilo(s.arena) + (s.limit ? " of " + kilo(s.limit) : "")], ["Triangles", count(s.in) + ", " + count(s.drawn) + " drawn"],
             ["Tiles", tilesText(s)]];
         if (s.board_us > 0) {
             const pace = us => us < 1e6 ? (1e6 / us).toFixed(us > 1e5 ? 1 : 0) + " a second" : (us / 1e6).toFixed(1) + " s a frame";
@@ -396,6 +405,7 @@ function showCommand() {
     const name = list.pop();
     const text = "build/smear render " + quote(name) + " " + list.map(quote).join(" ") + " --frames " + S.frame + "-" + S.frame + " --repeat 1";
     const note = turned ? "\n# the camera has been turned by hand: the command shows the scene's own"
+        : isStill && S.spin ? "\n# the model is on a turntable here: the command shows it at rest"
         : shownFrame && shownFrame.stats.dropped > 0 ? "\n# triangles are left out for want of memory, fewer here and on the board than where pointers have 8 bytes" : "";
     if ($("command").textContent !== text + note) $("command").textContent = text + note;
 }
@@ -511,6 +521,9 @@ function showSettings() {
 
 function showScene() {
     $("clipRow").hidden = scene.clips.length < 2;
+    isStill = S.scene === "file" && scene.clips.length === 0;
+    $("spinRow").hidden = !isStill;
+    $("spin").checked = S.spin === 1;
     options($("clip"), scene.clips.map((name, i) => [String(i), name || "clip " + i]), String(S.clip));
     fit();
     $("right").setAttribute("aria-label", "The scene as the panel shows it, " + scene.width + " by " + scene.height + " pixels, blurred");
@@ -523,6 +536,7 @@ function toggleBlur() {
 }
 
 async function turn(yaw, pitch, factor) {
+    if (!turned) poses.frame = S.frame;
     turned = true;
     poses.yaw += yaw;
     poses.pitch += pitch;
@@ -541,7 +555,7 @@ async function pose() {
         for (const engine of engines) {
             if (engine.openKey !== openKey()) continue;
             const wanted = epoch;
-            await engine.ask("turn", { frame: S.frame, ...poses, straight: true }, 30000);
+            await engine.ask("turn", { ...poses, spin: engine.spin, straight: true }, 30000);
             engine.epoch = wanted;
         }
     } while (poseAgain);
@@ -611,6 +625,7 @@ function bindControls() {
     $("scene").onchange = e => set({ scene: e.target.value, clip: 0, frame: 0 });
     $("panel").onchange = e => choosePanel(e.target.value);
     $("clip").onchange = e => set({ clip: +e.target.value, frame: 0 });
+    $("spin").onchange = e => set({ spin: e.target.checked ? 1 : 0, frame: 0 });
     $("pause").onclick = () => pause(!S.paused);
     $("blur").onclick = toggleBlur;
     $("stepBack").onclick = () => step(-1);
@@ -635,7 +650,7 @@ function bindControls() {
     document.addEventListener("keydown", e => {
         if (e.ctrlKey || e.altKey || e.metaKey || !KEYS[e.key]) return;
         const on = e.target.tagName;
-        if (on === "SELECT" || on === "TEXTAREA" || (on === "INPUT" && e.target.type !== "range") || (e.key === " " && /^(BUTTON|A|SUMMARY|LABEL)$/.test(on))) return;
+        if (on === "SELECT" || on === "TEXTAREA" || (on === "INPUT" && e.target.type !== "range" && e.target.type !== "checkbox") || (e.key === " " && (/^(BUTTON|A|SUMMARY|LABEL)$/.test(on) || e.target.type === "checkbox"))) return;
         e.preventDefault();
         KEYS[e.key]();
     });
@@ -837,7 +852,7 @@ async function record() {
         link.href = URL.createObjectURL(new Blob([answer.bytes], { type: "image/gif" }));
         link.download = "smear.gif";
         link.textContent = "smear.gif";
-        $("gifText").replaceChildren("Recorded: ", link, ", " + kilo(answer.bytes.byteLength) + ", a perfect loop.");
+        $("gifText").replaceChildren("Recorded: ", link, ", " + kilo(answer.bytes.byteLength) + (period() <= 240 ? ", a perfect loop." : ", its first 240 frames."));
         document.body.dataset.gif = link.href;
         link.click();
     } else {

@@ -442,12 +442,14 @@ static int find_focus(int frame)
     return say_bad_input(shown.source->name, &f);
 }
 
-EXPORT(web_turn) int web_turn(int frame, double yaw, double pitch, double factor)
+/* spin: radians per second. */
+EXPORT(web_turn) int web_turn(int frame, double yaw, double pitch, double factor, double spin)
 {
     int status = shown.is_open ? find_focus(frame) : STATUS_BAD_USAGE;
     if (status == STATUS_OK) {
         orbit_turn(shown.orbit, yaw, pitch);
         orbit_move(shown.orbit, factor);
+        shown.orbit->spin = spin;
     }
     return status;
 }

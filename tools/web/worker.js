@@ -81,7 +81,7 @@ const todo = {
     },
     turn(m) {
         if (m.straight) wasm.web_straight();
-        return { status: wasm.web_turn(m.frame, m.yaw, m.pitch, m.factor) };
+        return { status: wasm.web_turn(m.frame, m.yaw, m.pitch, m.factor, m.spin) };
     },
     draw(m) {
         const status = wasm.web_draw(m.frame, 1);
