@@ -81,6 +81,7 @@ struct smear_context {
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
+    bool direct;                    /* sharp rows are drawn as the display's pixels */
 
     /* bands */
     uint8_t *band[2];

@@ -55,6 +55,27 @@ static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, b
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
+/* Nearest levels, red on top. Red and blue in one product: 255 x 249 + 1014 stays below 2^16. */
+static inline uint32_t rgb565_nearest(uint32_t p)
+{
+    uint32_t rb = (p & 0xff00ffu) * 249u + 0x03f603f6u;
+    uint32_t g = pixel_green(p) * 253u + 505u;
+    return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
+}
+
+/* Sets n pixels of 16 bits. */
+static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
+{
+    if (n > 0 && ((uintptr_t)p & 2u) != 0) {
+        *p++ = (uint16_t)value;
+        n--;
+    }
+    for (value |= value << 16; n >= 2; n -= 2, p += 2)
+        __builtin_memcpy(__builtin_assume_aligned(p, 4), &value, 4);
+    if (n > 0)
+        *p = (uint16_t)value;
+}
+
 /* Sets n words. */
 static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
 {

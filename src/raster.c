@@ -73,8 +73,8 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
                               enum depth_slope slope, int32_t units, smear_span_fn *write)
 {
     const struct smear_raster_target *t = s->target;
-    p->color = t->color + (r->color + p->a);
     p->at = r->window + p->a;
+    p->color = target_is_direct(t) ? (void *)(t->direct + p->at) : t->color + (r->color + p->a);
     p->depth = t->depth + p->at;
     p->z = code_from_units(units, slope);
     p->dz = step_from_units(s->depth.dx, slope);
@@ -300,51 +300,64 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw)
     }
 }
 
-/* Depth test and write for one pixel of a run. */
-SMEAR_INLINE void put_flat(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t color)
+/* Depth test and write for pixel i of a run. */
+SMEAR_INLINE void put_flat(void *pixel, uint16_t *depth, int32_t i, uint32_t z, uint32_t color, bool narrow)
 {
     uint16_t code = (uint16_t)(z >> 16);
-    if (code > *depth) {
+    if (code > depth[i]) {
         __asm__ volatile ("");      /* one branch: cores that predicate pay for both stores even when hidden */
-        *pixel = color;
-        *depth = code;
+        if (narrow)
+            ((uint16_t *)pixel)[i] = (uint16_t)color;
+        else
+            ((uint32_t *)pixel)[i] = color;
+        depth[i] = code;
     }
 }
 
-SMEAR_INLINE void put_four(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color)
+SMEAR_INLINE void put_four(void *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
 {
-    put_flat(pixel, depth, z, color);
-    put_flat(pixel + 1, depth + 1, z += dz, color);
-    put_flat(pixel + 2, depth + 2, z += dz, color);
-    put_flat(pixel + 3, depth + 3, z + dz, color);
+    put_flat(pixel, depth, 0, z, color, narrow);
+    put_flat(pixel, depth, 1, z += dz, color, narrow);
+    put_flat(pixel, depth, 2, z += dz, color, narrow);
+    put_flat(pixel, depth, 3, z + dz, color, narrow);
 }
 
 /* n pixels of one colour, depth codes from z on in 16.16: the odd ones, then eights. */
-SMEAR_INLINE void run_flat(uint32_t *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color)
+SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
 {
     if (n & 1) {
-        put_flat(pixel, depth, z, color);
-        pixel++;
+        put_flat(pixel, depth, 0, z, color, narrow);
+        pixel = pixel_after(pixel, 1, narrow);
         depth++;
         z += dz;
     }
     if (n & 2) {
-        put_flat(pixel, depth, z, color);
-        put_flat(pixel + 1, depth + 1, z + dz, color);
-        pixel += 2;
+        put_flat(pixel, depth, 0, z, color, narrow);
+        put_flat(pixel, depth, 1, z + dz, color, narrow);
+        pixel = pixel_after(pixel, 2, narrow);
         depth += 2;
         z += 2 * dz;
     }
     if (n & 4) {
-        put_four(pixel, depth, z, dz, color);
-        pixel += 4;
+        put_four(pixel, depth, z, dz, color, narrow);
+        pixel = pixel_after(pixel, 4, narrow);
         depth += 4;
         z += 4 * dz;
     }
-    for (n >>= 3; n > 0; n--, pixel += 8, depth += 8, z += 8 * dz) {
-        put_four(pixel, depth, z, dz, color);
-        put_four(pixel + 4, depth + 4, z + 4 * dz, dz, color);
+    for (n >>= 3; n > 0; n--, pixel = pixel_after(pixel, 8, narrow), depth += 8, z += 8 * dz) {
+        put_four(pixel, depth, z, dz, color, narrow);
+        put_four(pixel_after(pixel, 4, narrow), depth + 4, z + 4 * dz, dz, color, narrow);
     }
+}
+
+/* The same from index `at` on; of the colour as the target has it. */
+SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z, uint32_t dz,
+                              uint32_t color)
+{
+    if (target_is_direct(t))
+        run_flat(t->direct + at, t->depth + at, n, z, dz, color, true);
+    else
+        run_flat(t->color + at, t->depth + at, n, z, dz, color, false);
 }
 
 /* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth
@@ -361,8 +374,8 @@ static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_
         int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
         if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
             n = pixels_to_bend(units, dx, n);
-        run_flat(t->color + (at + a), t->depth + (at + a), n, code_from_units(units, slope),
-                 (uint32_t)step_from_units(dx, slope), s->color & 0xffffffu);
+        run_flat_at(t, at + a, n, code_from_units(units, slope), (uint32_t)step_from_units(dx, slope),
+                    target_pixel(t, s->color));
         units = add_wrap(units, mul_wrap(dx, n));
         a += n;
     }
@@ -376,7 +389,7 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
     struct sides d;
     if (!sides_start(&d, s))
         return;
-    const uint32_t color = s->color & 0xffffffu, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t stride = t->window_rows.stride;
     uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
@@ -403,7 +416,7 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
             if (cut)
                 row_flat_cut(s, y - n, at, a, b);
             else
-                run_flat(t->color + (at + a), t->depth + (at + a), b - a, z + dz * (uint32_t)a, dz, color);
+                run_flat_at(t, at + a, b - a, z + dz * (uint32_t)a, dz, color);
         }
         d.left = left;
         d.right = right;
@@ -524,7 +537,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
-                t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
+                target_put(t, at, gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color);
                 if (s->writes_velocity)
                     smear_velocity_zero(t, at);
             }
@@ -640,7 +653,7 @@ static inline void draw_point(const struct smear_raster_target *target, const st
     if (t->depth <= target->depth[at])
         return;
     target->depth[at] = t->depth;
-    target->color[at] = t->color & 0xffffffu;
+    target_put(target, at, t->color);
     if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
         smear_velocity_zero(target, at);
 }

@@ -27,8 +27,20 @@ void smear_span_flat(const struct setup *s, const struct span *p)
 {
     uint32_t *color = p->color;
     uint16_t *depth = p->depth;
-    uint32_t z = p->z, c = s->color & 0xffffffu, dz = (uint32_t)p->dz;
+    uint32_t z = p->z, c = target_pixel(s->target, s->color), dz = (uint32_t)p->dz;
     int32_t n = p->b - p->a, i = 0;
+    if (target_is_direct(s->target)) {
+        uint16_t *narrow = p->color;
+        do {
+            uint32_t code = z >> 16;
+            if (code > depth[i]) {
+                depth[i] = (uint16_t)code;
+                narrow[i] = (uint16_t)c;
+            }
+            z += dz;
+        } while (++i < n);
+        return;
+    }
     do {
         uint32_t code = z >> 16;
         if (code > depth[i]) {
@@ -186,13 +198,22 @@ SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
     return (uint32_t)uv >> (32 - log2_height) << log2_width | (uint32_t)(uv >> 32) >> (32 - log2_width);
 }
 
-SMEAR_INLINE void texel_pixel(uint32_t *color, uint16_t *depth, uint32_t z, const uint32_t *texels, uint64_t uv,
-                              int log2_width, int log2_height)
+/* Pixel i becomes a texel. `narrow`: both have 16 bits, else 32. */
+SMEAR_INLINE void put_texel(void *color, int32_t i, const void *texels, uint32_t index, bool narrow)
+{
+    if (narrow)
+        ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
+    else
+        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
+}
+
+SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const void *texels, uint64_t uv,
+                              int log2_width, int log2_height, bool narrow)
 {
     uint16_t code = (uint16_t)(z >> 16);
     if (code > *depth) {
         *depth = code;
-        *color = texels[packed_index(uv, log2_width, log2_height)];
+        put_texel(color, 0, texels, packed_index(uv, log2_width, log2_height), narrow);
     }
 }
 
@@ -203,75 +224,82 @@ SMEAR_INLINE void texel_pixel(uint32_t *color, uint16_t *depth, uint32_t z, cons
 struct texel_pairs {
     uint32_t dz, du, dv, bend_u, bend_v;
     const uint16_t *end;
-    uint32_t *color;
+    void *color;
     uint16_t *depth;
     uint32_t z, u, v;
-    const uint32_t *texels;
+    const void *texels;
 };
+
+/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as a power of two, where the next one is, two. */
+#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0}\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t" \
+        "mov lr, r6\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
+        "1:\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #0]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 2f\n\t" \
+        "strh r6, [r1, #0]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #0]\n" \
+        "2: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #2]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 3f\n\t" \
+        "strh r6, [r1, #2]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #" NEXT "]\n" \
+        "3: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        "adds r0, #" STEP "\n\t" \
+        "adds r1, #4\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 1b\n\t" \
+        "pop {r7}\n\t" \
+        "str r0, [r7, #24]\n\t" \
+        "str r1, [r7, #28]\n\t" \
+        "str r2, [r7, #32]\n\t" \
+        "str r3, [r7, #36]\n\t" \
+        "str r4, [r7, #40]" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), [from_u] "i"(32 - log2_width) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
 /* run_texels for an even number of pixels, on cores with eight registers that do everything and six that only add:
  * compilers keep half of the values on the stack, which doubles the instructions. 17 a pixel. u and v are stepped each
  * alone. Afterwards *p has color, depth, z, u, v for the next pixel. */
-SMEAR_INLINE void pairs_by_hand(struct texel_pairs *p, int log2_width, int log2_height)
+SMEAR_INLINE void pairs_by_hand(struct texel_pairs *p, int log2_width, int log2_height, bool narrow)
 {
     register struct texel_pairs *r0 __asm__("r0") = p;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r0}\n\t"
-        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t"
-        "mov r8, r1\n\t"
-        "mov r9, r2\n\t"
-        "mov r10, r3\n\t"
-        "mov r11, r4\n\t"
-        "mov r12, r5\n\t"
-        "mov lr, r6\n\t"
-        "ldm r0, {r0, r1, r2, r3, r4, r5}\n"
-        "1:\n\t"
-        "lsrs r6, r2, #16\n\t"
-        "ldrh r7, [r1, #0]\n\t"
-        "add r2, r8\n\t"
-        "cmp r7, r6\n\t"
-        "bhs 2f\n\t"
-        "strh r6, [r1, #0]\n\t"
-        "lsrs r6, r4, %[from_v]\n\t"
-        "lsls r6, r6, %[to_v]\n\t"
-        "lsrs r7, r3, %[from_u]\n\t"
-        "lsls r7, r7, #2\n\t"
-        "orrs r6, r7\n\t"
-        "ldr r6, [r5, r6]\n\t"
-        "str r6, [r0, #0]\n"
-        "2: add r3, r9\n\t"
-        "add r4, r10\n\t"
-        "lsrs r6, r2, #16\n\t"
-        "ldrh r7, [r1, #2]\n\t"
-        "add r2, r8\n\t"
-        "cmp r7, r6\n\t"
-        "bhs 3f\n\t"
-        "strh r6, [r1, #2]\n\t"
-        "lsrs r6, r4, %[from_v]\n\t"
-        "lsls r6, r6, %[to_v]\n\t"
-        "lsrs r7, r3, %[from_u]\n\t"
-        "lsls r7, r7, #2\n\t"
-        "orrs r6, r7\n\t"
-        "ldr r6, [r5, r6]\n\t"
-        "str r6, [r0, #4]\n"
-        "3: add r3, r9\n\t"
-        "add r4, r10\n\t"
-        "add r9, r11\n\t"
-        "add r10, r12\n\t"
-        "adds r0, #8\n\t"
-        "adds r1, #4\n\t"
-        "cmp r1, lr\n\t"
-        "bne 1b\n\t"
-        "pop {r7}\n\t"
-        "str r0, [r7, #24]\n\t"
-        "str r1, [r7, #28]\n\t"
-        "str r2, [r7, #32]\n\t"
-        "str r3, [r7, #36]\n\t"
-        "str r4, [r7, #40]"
-        : "+r"(r0)
-        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + 2), [from_u] "i"(32 - log2_width)
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    if (narrow)
+        PAIRS_BY_HAND("ldrh", "strh", "1", "2", "4");
+    else
+        PAIRS_BY_HAND("ldr", "str", "2", "4", "8");
 }
 #else
 #define TEXELS_BY_HAND 0
@@ -329,22 +357,22 @@ SMEAR_INLINE uint32_t stepper_index(const struct stepper *s, int log2_width, int
 }
 #endif
 
-SMEAR_INLINE void texel_step(uint32_t *color, uint16_t *depth, uint32_t *z, uint32_t dz, const uint32_t *texels,
-                             struct stepper *s, int log2_width, int log2_height)
+SMEAR_INLINE void texel_step(void *color, uint16_t *depth, int32_t i, uint32_t *z, uint32_t dz, const void *texels,
+                             struct stepper *s, int log2_width, int log2_height, bool narrow)
 {
     uint16_t code = (uint16_t)(*z >> 16);
-    if (code > *depth) {
+    if (code > depth[i]) {
         __asm__ volatile ("");      /* nothing of this in advance: that takes more registers than there are */
-        *depth = code;
-        *color = texels[stepper_index(s, log2_width, log2_height)];
+        depth[i] = code;
+        put_texel(color, i, texels, stepper_index(s, log2_width, log2_height), narrow);
     }
     *z += dz;
     stepper_next(s);
 }
 
 /* n > 0 pixels from the start of a block. */
-SMEAR_INLINE void run_texels(uint32_t *color, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
-                             const uint32_t *texels, struct course course, int log2_width, int log2_height)
+SMEAR_INLINE void run_texels(void *color, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const void *texels,
+                             struct course course, int log2_width, int log2_height, bool narrow)
 {
 #if TEXELS_BY_HAND
     if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
@@ -352,37 +380,37 @@ SMEAR_INLINE void run_texels(uint32_t *color, uint16_t *depth, int32_t n, uint32
                                  color, depth, z, course.u, course.v, texels };
         if (n >= 2) {
             if (log2_width == 6)
-                pairs_by_hand(&p, 6, 6);
+                pairs_by_hand(&p, 6, 6, narrow);
             else if (log2_width == 7)
-                pairs_by_hand(&p, 7, 7);
+                pairs_by_hand(&p, 7, 7, narrow);
             else
-                pairs_by_hand(&p, 8, 8);
+                pairs_by_hand(&p, 8, 8, narrow);
         }
         if (n & 1)
-            texel_pixel(p.color, p.depth, p.z, texels, packed_uv(p.u, p.v), log2_width, log2_height);
+            texel_pixel(p.color, p.depth, p.z, texels, packed_uv(p.u, p.v), log2_width, log2_height, narrow);
         return;
     }
 #endif
     struct stepper s = stepper_make(course);
-    for (; n >= 4; n -= 4, depth += 4, color += 4) {
+    for (; n >= 4; n -= 4, depth += 4, color = pixel_after(color, 4, narrow)) {
         __asm__("" : "+r"(n));      /* else compilers multiply to know all values at the end in advance */
-        texel_step(color, depth, &z, dz, texels, &s, log2_width, log2_height);
-        texel_step(color + 1, depth + 1, &z, dz, texels, &s, log2_width, log2_height);
+        texel_step(color, depth, 0, &z, dz, texels, &s, log2_width, log2_height, narrow);
+        texel_step(color, depth, 1, &z, dz, texels, &s, log2_width, log2_height, narrow);
         stepper_bend(&s);
-        texel_step(color + 2, depth + 2, &z, dz, texels, &s, log2_width, log2_height);
-        texel_step(color + 3, depth + 3, &z, dz, texels, &s, log2_width, log2_height);
+        texel_step(color, depth, 2, &z, dz, texels, &s, log2_width, log2_height, narrow);
+        texel_step(color, depth, 3, &z, dz, texels, &s, log2_width, log2_height, narrow);
         stepper_bend(&s);
     }
     if (n >= 2) {
-        texel_step(color, depth, &z, dz, texels, &s, log2_width, log2_height);
-        texel_step(color + 1, depth + 1, &z, dz, texels, &s, log2_width, log2_height);
+        texel_step(color, depth, 0, &z, dz, texels, &s, log2_width, log2_height, narrow);
+        texel_step(color, depth, 1, &z, dz, texels, &s, log2_width, log2_height, narrow);
         stepper_bend(&s);
         n -= 2;
         depth += 2;
-        color += 2;
+        color = pixel_after(color, 2, narrow);
     }
     if (n != 0)
-        texel_step(color, depth, &z, dz, texels, &s, log2_width, log2_height);
+        texel_step(color, depth, 0, &z, dz, texels, &s, log2_width, log2_height, narrow);
 }
 
 /* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
@@ -396,13 +424,15 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
 }
 
 /* Pixels [first, n) of a block that is cut, by the frame's columns or by a bend of the depth code. */
-static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, uint32_t *color, uint16_t *depth, int32_t first,
+static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, void *color, uint16_t *depth, int32_t first,
                                           int32_t n, uint32_t z, uint32_t dz, struct smear_texture_run run)
 {
+    const bool narrow = target_is_direct(s->target);
     const struct smear_sampler *m = &s->draw->sampler;
     for (int32_t i = 0; i < n; i++, z += dz) {
         if (i >= first)
-            texel_pixel(color + i, depth + i, z, m->texels, run.at, m->log2_width, m->log2_height);
+            texel_pixel(pixel_after(color, i, narrow), depth + i, z, m->texels, run.at, m->log2_width, m->log2_height,
+                        narrow);
         run.at += run.step;
         if (i & 1)
             run.step += run.bend;
@@ -410,18 +440,20 @@ static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, uint32_t *color
 }
 
 /* Where blocks would be single pixels: a quotient for each. */
-static SMEAR_NOINLINE void row_exact(const struct setup *s, uint32_t *color, uint16_t *depth, int32_t n, uint32_t z,
+static SMEAR_NOINLINE void row_exact(const struct setup *s, void *color, uint16_t *depth, int32_t n, uint32_t z,
                                      uint32_t dz, int32_t q, int32_t u, int32_t v)
 {
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
-    const uint32_t *texels = m->texels;
+    const void *texels = m->texels;
+    const bool narrow = target_is_direct(s->target);
     const int log2_width = m->log2_width, log2_height = m->log2_height, up = t->up;
-    for (; n > 0; n--, color++, depth++) {
+    for (; n > 0; n--, color = pixel_after(color, 1, narrow), depth++) {
         if ((uint16_t)(z >> 16) > *depth) {
             const struct place p = place_at(t, NULL, q, u, v, true);
             *depth = (uint16_t)(z >> 16);
-            *color = texels[packed_index(packed_uv((uint32_t)p.u << up, (uint32_t)p.v << up), log2_width, log2_height)];
+            put_texel(color, 0, texels,
+                      packed_index(packed_uv((uint32_t)p.u << up, (uint32_t)p.v << up), log2_width, log2_height), narrow);
         }
         z += dz;
         q = add_wrap(q, t->q.dx);
@@ -466,17 +498,17 @@ static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, co
     return true;
 }
 
-/* Nearest texels, opaque, unlit, 32-bit, sizes powers of two, repeated: the plain case. */
-SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
+/* Nearest texels, opaque, unlit, sizes powers of two, repeated, of the target's pixels: the plain case. */
+SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const uint32_t *texels = s->draw->sampler.texels;
+    const void *texels = s->draw->sampler.texels;
     const bool in_pieces = s->slope == SLOPE_BOTH || s->writes_velocity || target->x0 > 0
                         || target->x1 < s->frame->width;
     int32_t row_q = plane_at(&t->q, 0, r->y), row_u = plane_at(&t->u, 0, r->y), row_v = plane_at(&t->v, 0, r->y);
     uint32_t row_z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
-    uint32_t *row_color = target->color + r->at;
+    void *row_color = narrow ? (void *)(target->direct + r->at) : target->color + r->at;
     uint16_t *row_depth = target->depth + r->at;
     for (int32_t row = 0; row < r->count; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
@@ -499,7 +531,7 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
             int32_t q = add_wrap(row_q, mul_wrap(t->q.dx, x)), u = add_wrap(row_u, mul_wrap(t->u.dx, x));
             int32_t v = add_wrap(row_v, mul_wrap(t->v.dx, x));
             if (exact) {
-                row_exact(s, row_color + x, row_depth + x, b - x, z + dz * (uint32_t)x, dz, q, u, v);
+                row_exact(s, pixel_after(row_color, x, narrow), row_depth + x, b - x, z + dz * (uint32_t)x, dz, q, u, v);
             } else {
                 struct place here = place_at(t, NULL, q, u, v, true);
                 do {
@@ -513,10 +545,10 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
                     x = from + n == right - 1 ? right : from + n;
                     const uint32_t z_from = z + dz * (uint32_t)from;
                     if (from >= a)
-                        run_texels(row_color + from, row_depth + from, min_i32(x, b) - from, z_from, dz, texels, course,
-                                   log2_width, log2_height);
+                        run_texels(pixel_after(row_color, from, narrow), row_depth + from, min_i32(x, b) - from, z_from, dz,
+                                   texels, course, log2_width, log2_height, narrow);
                     else
-                        run_texels_cut(s, row_color + from, row_depth + from, a - from, min_i32(x, b) - from, z_from, dz,
+                        run_texels_cut(s, pixel_after(row_color, from, narrow), row_depth + from, a - from, min_i32(x, b) - from, z_from, dz,
                                        course_packed(course));
                 } while (x < b);
             }
@@ -527,28 +559,51 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
         row_q = add_wrap(row_q, t->q.dy);
         row_u = add_wrap(row_u, t->u.dy);
         row_v = add_wrap(row_v, t->v.dy);
-        row_color += target->window_rows.stride;
+        row_color = pixel_after(row_color, target->window_rows.stride, narrow);
         row_depth += target->window_rows.stride;
     }
 }
 
 static void rows_texel_any(const struct setup *s, const struct span_rows *r)
 {
-    rows_texel(s, r, s->draw->sampler.log2_width, s->draw->sampler.log2_height);
+    rows_texel(s, r, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false);
 }
 
+#if SMEAR_DIRECT
+static void rows_narrow_any(const struct setup *s, const struct span_rows *r)
+{
+    rows_texel(s, r, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true);
+}
+#endif
+
 #if !TEXELS_BY_HAND
-static void rows_texel_64(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 6, 6); }
-static void rows_texel_128(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 7, 7); }
-static void rows_texel_256(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 8, 8); }
+static void rows_texel_64(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 6, 6, false); }
+static void rows_texel_128(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 7, 7, false); }
+static void rows_texel_256(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 8, 8, false); }
+#if SMEAR_DIRECT
+static void rows_narrow_64(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 6, 6, true); }
+static void rows_narrow_128(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 7, 7, true); }
+static void rows_narrow_256(const struct setup *s, const struct span_rows *r) { rows_texel(s, r, 8, 8, true); }
+#endif
 #endif
 
 smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
     const struct smear_sampler *t = &s->draw->sampler;
     if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
-        || t->format != SMEAR_TEXEL_8888 || t->log2_width == 0 || t->log2_height == 0)
+        || t->format != (target_is_direct(s->target) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)
+        || t->log2_width == 0 || t->log2_height == 0)
         return NULL;
+#if SMEAR_DIRECT
+    if (target_is_direct(s->target)) {
+#if !TEXELS_BY_HAND
+        if (t->width == t->height)
+            return t->width == 64 ? rows_narrow_64 : t->width == 128 ? rows_narrow_128
+                 : t->width == 256 ? rows_narrow_256 : rows_narrow_any;
+#endif
+        return rows_narrow_any;
+    }
+#endif
 #if !TEXELS_BY_HAND
     if (t->width == t->height)
         return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
@@ -650,9 +705,20 @@ static void shade_plain(uint32_t *out, const struct setup *s, const struct span 
 }
 
 /* Writes a block of colours: depth test, cutout, blend. */
-static void write_block(const uint32_t *in, uint32_t *color, uint16_t *depth, uint32_t z, int32_t dz,
+static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint32_t z, int32_t dz,
                         int32_t n, const struct setup *s, uint32_t *mask, int32_t first)
 {
+    uint32_t *color = pixels;
+    if (target_is_direct(s->target)) {
+        uint32_t least = s->draw->alpha == SMEAR_CUTOUT ? s->draw->cutoff : 0;
+        uint16_t *narrow = pixels;
+        for (; n > 0; n--, in++, narrow++, depth++, z += (uint32_t)dz)
+            if (z >> 16 > *depth && pixel_alpha(*in) >= least) {
+                *depth = (uint16_t)(z >> 16);
+                *narrow = (uint16_t)rgb565_nearest(*in);
+            }
+        return;
+    }
     if (s->draw->alpha == SMEAR_CUTOUT) {
         for (int32_t i = 0; i < n; i++, z += (uint32_t)dz) {
             if (z >> 16 <= depth[i] || pixel_alpha(in[i]) < s->draw->cutoff)
@@ -698,7 +764,7 @@ static int32_t plain_first(struct walk *w, const struct setup *s, const struct s
 void smear_span_general(const struct setup *s, const struct span *p)
 {
     uint32_t block[BLOCK_MAX + 1];
-    uint32_t *color = p->color;
+    void *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
     bool textured = s->segment->uv != 0;
@@ -726,7 +792,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
         }
         write_block(block, color, depth, z, p->dz, n, s, p->mask, k.x - p->a);
         k.x += n;
-        color += n;
+        color = pixel_after(color, n, target_is_direct(s->target));
         depth += n;
         z += (uint32_t)p->dz * (uint32_t)n;
         if (k.x >= p->b)

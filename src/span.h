@@ -8,7 +8,7 @@
 /* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
 struct span {
     int32_t a, b, left, right, y;
-    uint32_t *color;            /* of pixel a */
+    void *color;                /* of pixel a: 16 bits where the target is direct, else 32 */
     uint16_t *depth;
     int32_t at;                 /* index of pixel a in the window's planes */
     uint32_t z;                 /* code 16.16 of pixel a */

@@ -639,6 +639,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
 const struct presented *presenter_frame(struct presenter *presenter, double time,
                                         const struct present_options *options, struct failure *f)
 {
+    presenter->texture.narrow = options->texels_565;
     return present(presenter, time, options, f) ? &presenter->out : NULL;
 }
 

@@ -14,7 +14,7 @@ enum { MAX_PART_VERTICES = 65535, POSITION_STEPS = 32766, OFFSET_LIMIT = 1 << 20
 struct stored_texture {
     const struct image *image;
     smear_texture texture;
-    uint32_t *texels;               /* null when another stored texture has them */
+    void *texels;                   /* null when another stored texture has them */
 };
 
 /* ------------------------------------------------------------------ small things */
@@ -419,6 +419,34 @@ static uint8_t wrap_mode(enum model_wrap wrap)
                                        : SMEAR_REPEAT;
 }
 
+static bool is_opaque(const uint8_t *rgba, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (rgba[4 * i + 3] != 255)
+            return false;
+    return true;
+}
+
+static void *texels_8888(const uint8_t *rgba, size_t count)
+{
+    uint32_t *texels = malloc(count * sizeof *texels);
+    for (size_t i = 0; i < count && texels != NULL; i++, rgba += 4)
+        texels[i] = (uint32_t)rgba[3] << 24 | (uint32_t)rgba[0] << 16 | (uint32_t)rgba[1] << 8 | rgba[2];
+    return texels;
+}
+
+/* Nearest levels. */
+static void *texels_565(const uint8_t *rgba, size_t count)
+{
+    uint16_t *texels = malloc(count * sizeof *texels);
+    for (size_t i = 0; i < count && texels != NULL; i++, rgba += 4) {
+        int red = (rgba[0] * 62 + 255) / 510, green = (rgba[1] * 126 + 255) / 510;
+        int blue = (rgba[2] * 62 + 255) / 510;
+        texels[i] = (uint16_t)(red << 11 | green << 5 | blue);
+    }
+    return texels;
+}
+
 static const smear_texture *texture_for(struct texture_store *store, const struct scene_material *m,
                                         struct failure *f)
 {
@@ -449,19 +477,18 @@ static const smear_texture *texture_for(struct texture_store *store, const struc
     t->image = m->image;
     size_t count = (size_t)width * (size_t)height;
     if (same == NULL) {             /* else the other's texels are shared */
-        t->texels = malloc(count * sizeof *t->texels);
+        const uint8_t *rgba = m->image->rgba;
+        t->texture.format = store->narrow && is_opaque(rgba, count) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888;
+        t->texels = t->texture.format == SMEAR_TEXEL_565 ? texels_565(rgba, count) : texels_8888(rgba, count);
         if (t->texels == NULL) {
             out_of_memory(f);
             return NULL;
         }
-        const uint8_t *rgba = m->image->rgba;
-        for (size_t i = 0; i < count; i++, rgba += 4)
-            t->texels[i] = (uint32_t)rgba[3] << 24 | (uint32_t)rgba[0] << 16 |
-                           (uint32_t)rgba[1] << 8 | rgba[2];
     }
     t->texture = (smear_texture){ .texels = same != NULL ? same->texture.texels : t->texels,
                                   .width = (uint16_t)width, .height = (uint16_t)height,
-                                  .format = SMEAR_TEXEL_8888, .wrap_u = wrap_u, .wrap_v = wrap_v };
+                                  .format = same != NULL ? same->texture.format : t->texture.format,
+                                  .wrap_u = wrap_u, .wrap_v = wrap_v };
     return &t->texture;
 }
 

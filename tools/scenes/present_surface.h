@@ -51,6 +51,7 @@ struct converted {
 struct texture_store {
     int count, room;
     struct stored_texture **texture;
+    bool narrow;                    /* those without alpha become RGB565 */
 };
 
 extern const struct bounds empty_bounds;
