@@ -8,6 +8,7 @@
 #include "raster.h"
 
 #include "pixel.h"
+#include "rows.h"
 #include "setup.h"
 #include "span.h"
 #include "tiny.h"
@@ -274,13 +275,14 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->slot = 0;
 }
 
-static void cover_rows(const struct setup *s, smear_rows_fn *draw)
+static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
     struct gather g;
     if (!sides_start(&d, s))
         return;
     gather_start(&g, s, d.y);
+    g.rows.cut = cut;
     while (g.rows.y < d.end) {
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
@@ -627,10 +629,12 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     if (s.writes_velocity)
         smear_setup_velocity(&s);
 #if SMEAR_SPAN_ROWS
-    smear_rows_fn *rows = smear_rows_choose(&s);
-    if (rows != NULL && !small) {
-        cover_rows(&s, rows);
-        return;
+    if (!small) {
+        smear_rows_fn *rows = smear_rows_choose(&s);
+        if (rows != NULL) {
+            cover_rows(&s, rows, max_i32(left, 0) < target->x0 || min_i32(right, frame->width) > target->x1);
+            return;
+        }
     }
 #endif
     smear_span_fn *write = flat ? smear_span_flat : smear_span_general;

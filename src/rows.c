@@ -1,0 +1,617 @@
+/* SPDX-License-Identifier: MIT */
+/* rows.c - plain texels: nearest, opaque, unlit, sizes powers of two, repeated, in the target's own pixels. Rows of a triangle
+ * are drawn together, a block of pixels after the other. */
+#include "rows.h"
+
+#include "course.h"
+
+#if SMEAR_SPAN_ROWS
+
+/* ------------------------------------------------------------------ pixels */
+
+SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
+{
+    return (uint32_t)uv >> (32 - log2_height) << log2_width | (uint32_t)(uv >> 32) >> (32 - log2_width);
+}
+
+/* Pixel i becomes a texel. `narrow`: both have 16 bits, else 32. */
+SMEAR_INLINE void put_texel(void *color, int32_t i, const void *texels, uint32_t index, bool narrow)
+{
+    if (narrow)
+        ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
+    else
+        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
+}
+
+SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const void *texels, uint64_t uv,
+                              int log2_width, int log2_height, bool narrow)
+{
+    uint16_t code = (uint16_t)(z >> 16);
+    if (code > *depth) {
+        *depth = code;
+        put_texel(color, 0, texels, packed_index(uv, log2_width, log2_height), narrow);
+    }
+}
+
+/* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words have 64 bits,
+ * else each alone. Bends are negative: what steps gain every 2 pixels. */
+#if UINTPTR_MAX > 0xffffffffu
+struct texel_run {
+    uint64_t uv, step, bend;
+    void *color;
+    uint16_t *depth;
+    uint32_t z, dz;
+    const void *texels;
+};
+
+SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
+{
+    const struct smear_texture_run run = course_packed(c);
+    r->uv = run.at;
+    r->step = run.step;
+    r->bend = run.bend;
+}
+
+SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return r->uv; }
+
+SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
+{
+    return packed_index(r->uv, log2_width, log2_height);
+}
+
+SMEAR_INLINE void run_step(struct texel_run *r) { r->uv += r->step; }
+SMEAR_INLINE void run_bend(struct texel_run *r) { r->step += r->bend; }
+#else
+struct texel_run {              /* the order in which registers are filled by hand */
+    uint32_t dz, du, dv, bend_u, bend_v;
+    const uint16_t *end;
+    void *color;
+    uint16_t *depth;
+    uint32_t z, u, v;
+    const void *texels;
+};
+
+SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
+{
+    r->u = c.u;
+    r->v = c.v;
+    r->du = c.du;
+    r->dv = c.dv;
+    r->bend_u = 0u - c.bend_u;
+    r->bend_v = 0u - c.bend_v;
+}
+
+SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return packed_uv(r->u, r->v); }
+
+SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
+{
+    return r->v >> (32 - log2_height) << log2_width | r->u >> (32 - log2_width);
+}
+
+SMEAR_INLINE void run_step(struct texel_run *r)
+{
+    r->u += r->du;
+    r->v += r->dv;
+}
+
+SMEAR_INLINE void run_bend(struct texel_run *r)
+{
+    r->du += r->bend_u;
+    r->dv += r->bend_v;
+}
+#endif
+
+#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#define TEXELS_BY_HAND 1
+
+/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as a power of two, where the next one is, two. */
+#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0}\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t" \
+        "mov lr, r6\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
+        "1:\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #0]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 2f\n\t" \
+        "strh r6, [r1, #0]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #0]\n" \
+        "2: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #2]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 3f\n\t" \
+        "strh r6, [r1, #2]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #" NEXT "]\n" \
+        "3: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        "adds r0, #" STEP "\n\t" \
+        "adds r1, #4\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 1b\n\t" \
+        "pop {r7}\n\t" \
+        "str r0, [r7, #24]\n\t" \
+        "str r1, [r7, #28]\n\t" \
+        "str r2, [r7, #32]\n\t" \
+        "str r3, [r7, #36]\n\t" \
+        "str r4, [r7, #40]" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), [from_u] "i"(32 - log2_width) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+/* run_texels for an even number of pixels, on cores with eight registers that do everything and six that only add:
+ * compilers keep half of the values on the stack, which doubles the instructions. 17 a pixel. u and v are stepped each
+ * alone. Afterwards *p has color, depth, z, u, v for the next pixel. */
+SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, bool narrow)
+{
+    register struct texel_run *r0 __asm__("r0") = p;
+    if (narrow)
+        PAIRS_BY_HAND("ldrh", "strh", "1", "2", "4");
+    else
+        PAIRS_BY_HAND("ldr", "str", "2", "4", "8");
+}
+#else
+#define TEXELS_BY_HAND 0
+#endif
+
+SMEAR_INLINE void texel_step(struct texel_run *r, int32_t i, int log2_width, int log2_height, bool narrow)
+{
+    uint16_t code = (uint16_t)(r->z >> 16);
+    if (code > r->depth[i]) {
+        __asm__ volatile ("");      /* nothing of this in advance: that takes more registers than there are */
+        r->depth[i] = code;
+        put_texel(r->color, i, r->texels, run_index(r, log2_width, log2_height), narrow);
+    }
+    r->z += r->dz;
+    __asm__("" : "+r"(r->z));       /* one sum, not one for every other pixel */
+    run_step(r);
+}
+
+SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
+{
+    r->depth += n;
+    r->color = pixel_after(r->color, n, narrow);
+}
+
+/* n > 0 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
+SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
+{
+#if TEXELS_BY_HAND
+    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
+        if (n >= 2) {
+            run->end = run->depth + (n & ~1);
+            if (log2_width == 6)
+                pairs_by_hand(run, 6, 6, narrow);
+            else if (log2_width == 7)
+                pairs_by_hand(run, 7, 7, narrow);
+            else
+                pairs_by_hand(run, 8, 8, narrow);
+        }
+        if (n & 1) {
+            texel_pixel(run->color, run->depth, run->z, run->texels, packed_uv(run->u, run->v), log2_width, log2_height,
+                        narrow);
+            run_advance(run, 1, narrow);
+            run->z += run->dz;
+        }
+        return;
+    }
+#endif
+    struct texel_run r = *run;      /* in registers */
+    for (; n >= 4; n -= 4) {
+        __asm__("" : "+r"(n));      /* else compilers multiply to know all values at the end in advance */
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        texel_step(&r, 1, log2_width, log2_height, narrow);
+        run_bend(&r);
+        texel_step(&r, 2, log2_width, log2_height, narrow);
+        texel_step(&r, 3, log2_width, log2_height, narrow);
+        run_bend(&r);
+        run_advance(&r, 4, narrow);
+    }
+    if (n & 2) {
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        texel_step(&r, 1, log2_width, log2_height, narrow);
+        run_bend(&r);
+        run_advance(&r, 2, narrow);
+    }
+    if (n & 1) {
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        run_advance(&r, 1, narrow);
+    }
+    run->color = r.color;
+    run->depth = r.depth;
+    run->z = r.z;
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+/* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
+static inline const struct texture_setup *texture_of(const struct setup *s)
+{
+    const struct texture_setup *t = &s->texture;
+#if defined(__ARM_ARCH_6M__)
+    __asm__("" : "+r"(t));
+#endif
+    return t;
+}
+
+/* A run, and planes and place where its block ends. */
+struct track {
+    struct texel_run run;
+    int32_t q, u, v;
+    struct place place;
+};
+
+SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
+{
+    const struct place from = k->place;
+    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->u.dx, n));
+    const int32_t v = add_wrap(k->v, mul_wrap(t->v.dx, n));
+    const struct place to = place_at(t, mode, NULL, q, u, v, true);
+    const struct course c = course_between(t, mode, from, to, n, true);
+    k->q = q;
+    k->u = u;
+    k->v = v;
+    k->place = to;
+    run_course(&k->run, c);
+}
+
+/* With few registers functions of their own: the loops over pixels take them all. */
+#if UINTPTR_MAX > 0xffffffffu
+#define TRACK_FUNCTION SMEAR_INLINE
+#else
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+#endif
+
+/* The course of the next n pixels. */
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
+#if UINTPTR_MAX > 0xffffffffu
+    track_go(k, t, t->mode, n);
+#else
+    if (t->mode == TEXTURE_QUADRATIC)
+        track_go(k, t, TEXTURE_QUADRATIC, n);
+    else if (t->mode == TEXTURE_AFFINE)
+        track_go(k, t, TEXTURE_AFFINE, n);
+    else
+        track_go(k, t, TEXTURE_DIVIDED, n);
+#endif
+}
+
+/* At pixel (x, y). */
+TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, int32_t x, int32_t y)
+{
+    k->q = plane_at(&t->q, x, y);
+    k->u = plane_at(&t->u, x, y);
+    k->v = plane_at(&t->v, x, y);
+    k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
+}
+
+/* ------------------------------------------------------------------ quotients */
+
+/* A piece of a row whose blocks would be single pixels: n quotients. */
+struct quotients {
+    int32_t q, u, v, n;
+    void *color;
+    uint16_t *depth;
+    uint32_t z, dz;
+};
+
+/* All that does not change from row to row. The index of a texel is v >> down_v & mask_v | u >> down_u & mask_u. */
+struct parabola {
+    uint32_t recip_base, u_base, v_base, mask_u, mask_v;
+    int down_u, down_v;
+    int32_t dq, du, dv;
+    const void *texels;
+};
+
+static inline bool parabola_make(struct parabola *p, const struct texture_setup *t, const struct smear_sampler *m)
+{
+    p->down_u = 32 - m->log2_width - t->up;
+    p->down_v = 32 - m->log2_height - t->up - m->log2_width;
+    if (t->mode != TEXTURE_QUADRATIC || p->down_u < 0 || p->down_v < 0)
+        return false;
+    p->mask_u = (uint32_t)m->width - 1;
+    p->mask_v = ((uint32_t)m->height - 1) << m->log2_width;
+    p->recip_base = t->recip_base;
+    p->u_base = (uint32_t)t->u_base;
+    p->v_base = (uint32_t)t->v_base;
+    p->dq = t->q.dx;
+    p->du = t->u.dx;
+    p->dv = t->v.dx;
+    p->texels = m->texels;
+    return true;
+}
+
+SMEAR_INLINE void quotients_parabola(const struct quotients *k, const struct parabola *p, bool narrow)
+{
+    int32_t q = k->q, u = k->u, v = k->v;
+    void *color = k->color;
+    uint16_t *depth = k->depth, *const end = depth + k->n;
+    uint32_t z = k->z;
+    do {
+        if ((uint16_t)(z >> 16) > *depth) {
+            const uint32_t w = (uint32_t)q >> 16, r = p->recip_base + (w * w >> 17);       /* as in place_at */
+            const uint32_t at_u = (uint32_t)(u >> 16) * r + p->u_base, at_v = (uint32_t)(v >> 16) * r + p->v_base;
+            *depth = (uint16_t)(z >> 16);
+            put_texel(color, 0, p->texels, (at_v >> p->down_v & p->mask_v) | (at_u >> p->down_u & p->mask_u), narrow);
+        }
+        z += k->dz;
+        q = add_wrap(q, p->dq);
+        u = add_wrap(u, p->du);
+        v = add_wrap(v, p->dv);
+        color = pixel_after(color, 1, narrow);
+    } while (++depth != end);
+}
+
+/* The same by place_at. */
+static SMEAR_NOINLINE void quotients_any(struct quotients *k, const struct setup *s, bool narrow)
+{
+    const struct texture_setup *t = texture_of(s);
+    const struct smear_sampler *m = &s->draw->sampler;
+    for (; k->n > 0; k->n--) {
+        if ((uint16_t)(k->z >> 16) > *k->depth) {
+            const struct place p = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
+            *k->depth = (uint16_t)(k->z >> 16);
+            put_texel(k->color, 0, m->texels, packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up),
+                                                           m->log2_width, m->log2_height), narrow);
+        }
+        k->z += k->dz;
+        k->q = add_wrap(k->q, t->q.dx);
+        k->u = add_wrap(k->u, t->u.dx);
+        k->v = add_wrap(k->v, t->v.dx);
+        k->color = pixel_after(k->color, 1, narrow);
+        k->depth++;
+    }
+}
+
+/* ------------------------------------------------------------------ pieces */
+
+/* A part of a row: pixels [a, b), and depth codes 16.16 from pixel 0 on. */
+struct piece {
+    int32_t a, b;
+    uint32_t z, dz;
+};
+
+/* The next piece of a row [left, right) after pixel a: within the target's columns and one slope of the depth code. False
+ * when there is none. Writes its velocities. */
+static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, const struct span_rows *r, int32_t row,
+                                      int32_t a)
+{
+    int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
+    enum depth_slope slope = s->slope;
+    p->a = max_i32(a, s->target->x0);
+    p->b = min_i32(r->side[row].right, s->target->x1);
+    if (p->a >= p->b)
+        return false;
+    if (slope == SLOPE_BOTH) {
+        int32_t here = add_wrap(units, mul_wrap(dx, p->a)), last = add_wrap(units, mul_wrap(dx, p->b - 1));
+        slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+        if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK))
+            p->b = p->a + pixels_to_bend(here, dx, p->b - p->a);
+    }
+    p->z = code_from_units(units, slope);
+    p->dz = (uint32_t)step_from_units(dx, slope);
+    if (s->writes_velocity) {
+        const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
+        const struct span span = {
+            .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y, .depth = s->target->depth + at, .at = at,
+            .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
+        };
+        smear_span_velocity(s, &span);
+    }
+    return true;
+}
+
+/* Pixels [first, end) of a block of which the run has come to pixel i. */
+static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
+{
+    const bool narrow = target_is_direct(s->target);
+    const struct smear_sampler *m = &s->draw->sampler;
+    for (; i < end; i++, r->z += r->dz) {
+        if (i >= first)
+            texel_pixel(r->color, r->depth, r->z, m->texels, run_uv(r), m->log2_width, m->log2_height, narrow);
+        run_advance(r, 1, narrow);
+        run_step(r);
+        if (i & 1)
+            run_bend(r);
+    }
+}
+
+/* Pixels [from, end) of a row, which are a block; some may lie outside the piece. Returns how many pixels come after them
+ * before the piece's end, or -1 when no more are to be drawn. */
+static SMEAR_NOINLINE int32_t run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
+                                                struct texel_run *run, struct piece *p, int32_t from, int32_t end)
+{
+    for (int32_t x = from;; x = p->a) {
+        run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
+        if (p->b >= end)
+            return p->b - end;
+        if (!piece_next(p, s, r, row, p->b))
+            return -1;
+        run->dz = p->dz;
+        run->z = p->z + p->dz * (uint32_t)p->a;
+    }
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static inline bool is_plain(const struct setup *s, const struct span_rows *r)
+{
+    return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
+}
+
+/* Those rows that are drawn by quotients. */
+SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, bool narrow)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    struct parabola parabola;
+    const bool plain = is_plain(s, r), parabolas = parabola_make(&parabola, t, &s->draw->sampler);
+    struct piece p;
+    p.z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    int32_t row_at = r->at, y = r->y;
+    for (int32_t row = 0; row < r->count; row++, y++, row_at += target->window_rows.stride, p.z += dz_down) {
+        p.a = r->side[row].left;
+        p.b = r->side[row].right;
+        if (p.a >= p.b || block_of(t, p.a, p.b) > 1 || (!plain && !piece_next(&p, s, r, row, p.a)))
+            continue;
+        do {
+            struct quotients k;
+            k.q = plane_at(&t->q, p.a, y);
+            k.u = plane_at(&t->u, p.a, y);
+            k.v = plane_at(&t->v, p.a, y);
+            k.n = p.b - p.a;
+            k.dz = p.dz;
+            k.z = p.z + p.dz * (uint32_t)p.a;
+            k.depth = target->depth + (row_at + p.a);
+            k.color = narrow ? (void *)(target->direct + (row_at + p.a)) : target->color + (row_at + p.a);
+            if (parabolas) {
+                quotients_parabola(&k, &parabola, narrow);
+            } else {
+                struct quotients copy = k;              /* the other stays in registers */
+                quotients_any(&copy, s, narrow);
+            }
+        } while (!plain && piece_next(&p, s, r, row, p.b));
+    }
+}
+
+static SMEAR_NOINLINE void draw_quotients_wide(const struct setup *s, const struct span_rows *r)
+{
+    draw_quotients(s, r, false);
+}
+
+#if SMEAR_DIRECT
+static SMEAR_NOINLINE void draw_quotients_narrow(const struct setup *s, const struct span_rows *r)
+{
+    draw_quotients(s, r, true);
+}
+#endif
+
+SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, bool narrow)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
+    const bool plain = is_plain(s, r);
+    uint32_t row_z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+    int32_t row_at = r->at;
+    bool quotients = false;
+    struct track k;
+    k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    k.run.texels = s->draw->sampler.texels;
+    for (int32_t row = 0; row < r->count; row++, row_z += dz_down, row_at += target->window_rows.stride) {
+        const int32_t left = r->side[row].left, right = r->side[row].right;
+        struct piece p;
+        if (right - left <= least) {
+            quotients = quotients || left < right;
+            continue;
+        }
+        int32_t x = left, until = INT32_MAX;            /* pixels before the piece's end */
+        if (!plain) {
+            if (!piece_next(&p, s, r, row, left))
+                continue;
+            x = block_start(left, right - 1, p.a, block);
+            until = x < p.a ? 0 : p.b - x;
+            row_z = p.z;
+            k.run.dz = p.dz;
+        }
+        k.run.z = row_z + k.run.dz * (uint32_t)x;
+        k.run.depth = target->depth + (row_at + x);
+        k.run.color = narrow ? (void *)(target->direct + (row_at + x)) : target->color + (row_at + x);
+        track_start(&k, t, x, r->y + row);
+        int32_t rest = right - 1 - x;
+        do {
+            const int32_t n = min_i32(block, rest);
+            track_next(&k, t, n);
+            rest -= n;
+            const int32_t count = n + (rest == 0);
+            if (count <= until) {
+                run_texels(&k.run, count, log2_width, log2_height, narrow);
+                until -= count;
+            } else {
+                const int32_t end = right - 1 - rest + (rest == 0);
+                struct texel_run run = k.run;       /* that one stays in registers */
+                until = run_texels_pieces(s, r, row, &run, &p, end - count, end);
+                k.run = run;
+            }
+        } while (rest > 0 && until >= 0);
+    }
+#if SMEAR_DIRECT
+    if (quotients && narrow)
+        draw_quotients_narrow(s, r);
+#endif
+    if (quotients && !narrow)
+        draw_quotients_wide(s, r);
+}
+
+#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
+    static void NAME(const struct setup *s, const struct span_rows *r) { draw_rows(s, r, LOG2_WIDTH, LOG2_HEIGHT, NARROW); }
+
+ROWS(rows_texel_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
+#if !TEXELS_BY_HAND
+ROWS(rows_texel_64, 6, 6, false)
+ROWS(rows_texel_128, 7, 7, false)
+ROWS(rows_texel_256, 8, 8, false)
+#endif
+#if SMEAR_DIRECT
+ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
+#if !TEXELS_BY_HAND
+ROWS(rows_narrow_64, 6, 6, true)
+ROWS(rows_narrow_128, 7, 7, true)
+ROWS(rows_narrow_256, 8, 8, true)
+#endif
+#endif
+
+smear_rows_fn *smear_rows_choose(const struct setup *s)
+{
+    const struct smear_sampler *t = &s->draw->sampler;
+    const bool narrow = target_is_direct(s->target);
+    if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
+        || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888) || t->log2_width == 0 || t->log2_height == 0)
+        return NULL;
+#if SMEAR_DIRECT
+    if (narrow) {
+#if !TEXELS_BY_HAND
+        if (t->width == t->height)
+            return t->width == 64 ? rows_narrow_64 : t->width == 128 ? rows_narrow_128
+                 : t->width == 256 ? rows_narrow_256 : rows_narrow_any;
+#endif
+        return rows_narrow_any;
+    }
+#endif
+#if !TEXELS_BY_HAND
+    if (t->width == t->height)
+        return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
+             : t->width == 256 ? rows_texel_256 : rows_texel_any;
+#endif
+    return rows_texel_any;
+}
+#endif
