@@ -14,15 +14,18 @@ static const int32_t inverse[BLOCK_MAX + 1] = {     /* 2^16 / n */
     0, 65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192, 7282, 6554, 5958, 5461, 5041, 4681, 4369, 4096
 };
 
-/* a / n for n up to 16, good to 2^-16 of it; exact where n is a power of two. */
-static inline int32_t part_of(int32_t a, int32_t n)
+/* a part / 2^16. */
+static inline int32_t part_by(int32_t a, int32_t part)
 {
 #if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)a * inverse[n] >> 16);
+    return (int32_t)((int64_t)a * part >> 16);
 #else
-    return (a >> 16) * inverse[n] + (int32_t)(((uint32_t)a & 0xffffu) * (uint32_t)inverse[n] >> 16);
+    return (a >> 16) * part + (int32_t)(((uint32_t)a & 0xffffu) * (uint32_t)part >> 16);
 #endif
 }
+
+/* a / n for n up to 16, good to 2^-16 of it; exact where n is a power of two. */
+static inline int32_t part_of(int32_t a, int32_t n) { return part_by(a, inverse[n]); }
 
 /* Where blocks meet: texels q16, or turns 2^(32 - shift). */
 struct place {

@@ -281,7 +281,7 @@ static void direct_job(void *argument, int job, int worker)
     int32_t at = t.x0, n = t.x1 - t.x0;
     for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width) {
         pixels_fill_narrow(t.direct + at, clear, n);
-        __builtin_memset(t.depth + at, 0, (size_t)n * 2);
+        pixels_fill_narrow(t.depth + at, 0, n);
     }
     smear_raster_list(&c->raster, &t, c->opaque);
     at = t.x0;

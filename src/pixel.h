@@ -63,19 +63,6 @@ static inline uint32_t rgb565_nearest(uint32_t p)
     return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
 }
 
-/* Sets n pixels of 16 bits. */
-static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
-{
-    if (n > 0 && ((uintptr_t)p & 2u) != 0) {
-        *p++ = (uint16_t)value;
-        n--;
-    }
-    for (value |= value << 16; n >= 2; n -= 2, p += 2)
-        __builtin_memcpy(__builtin_assume_aligned(p, 4), &value, 4);
-    if (n > 0)
-        *p = (uint16_t)value;
-}
-
 /* Sets n words. */
 static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
 {
@@ -85,6 +72,25 @@ static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
             p[i + k] = value;
     for (; i < n; i++)
         p[i] = value;
+}
+
+/* Sets n pixels of 16 bits. */
+static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
+{
+    typedef uint32_t __attribute__((may_alias)) pair;
+    if (n > 0 && ((uintptr_t)p & 2u) != 0) {
+        *p++ = (uint16_t)value;
+        n--;
+    }
+    pair *pairs = (pair *)(void *)p;
+    value |= value << 16;
+    for (; n >= 16; n -= 16, pairs += 8)
+        for (int k = 0; k < 8; k++)
+            pairs[k] = value;
+    for (; n >= 2; n -= 2)
+        *pairs++ = value;
+    if (n > 0)
+        *(uint16_t *)(void *)pairs = (uint16_t)value;
 }
 
 #endif

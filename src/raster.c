@@ -275,6 +275,29 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->slot = 0;
 }
 
+/* Pixels of an edge in n rows: one edge after the other, in registers. */
+SMEAR_INLINE void gather_left(struct span_rows *r, struct edge_walk *edge, int32_t n)
+{
+    struct edge_walk e = *edge;
+    for (int32_t i = 0; i < n; i++) {
+        r->side[i].left = max_i32(edge_pixel(&e), 0);
+        edge_step(&e);
+    }
+    *edge = e;
+}
+
+SMEAR_INLINE void gather_right(struct span_rows *r, struct edge_walk *edge, int32_t n, int32_t width)
+{
+    struct edge_walk e = *edge;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t x = edge_pixel(&e);
+        r->side[i].right = min_i32(x, width);
+        r->side[i].edge = x;
+        edge_step(&e);
+    }
+    *edge = e;
+}
+
 static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
@@ -287,14 +310,8 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.slot);
-            for (int32_t i = 0; i < n; i++) {
-                int32_t edge = edge_pixel(&d.right);
-                g.rows.side[i].left = max_i32(edge_pixel(&d.left), 0);
-                g.rows.side[i].right = min_i32(edge, s->frame->width);
-                g.rows.side[i].edge = edge;
-                edge_step(&d.left);
-                edge_step(&d.right);
-            }
+            gather_left(&g.rows, &d.left, n);
+            gather_right(&g.rows, &d.right, n, s->frame->width);
             g.rows.count = n;
             g.slot += n;
             gather_draw(&g, s, draw);

@@ -202,15 +202,10 @@ SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
 SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
 {
 #if TEXELS_BY_HAND
-    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
+    if (__builtin_constant_p(log2_width)) {
         if (n >= 2) {
             run->end = run->depth + (n & ~1);
-            if (log2_width == 6)
-                pairs_by_hand(run, 6, 6, narrow);
-            else if (log2_width == 7)
-                pairs_by_hand(run, 7, 7, narrow);
-            else
-                pairs_by_hand(run, 8, 8, narrow);
+            pairs_by_hand(run, log2_width, log2_height, narrow);
         }
         if (n & 1) {
             texel_pixel(run->color, run->depth, run->z, run->texels, packed_uv(run->u, run->v), log2_width, log2_height,
@@ -280,27 +275,70 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
     run_course(&k->run, c);
 }
 
-/* With few registers functions of their own: the loops over pixels take them all. */
 #if UINTPTR_MAX > 0xffffffffu
 #define TRACK_FUNCTION SMEAR_INLINE
-#else
-#define TRACK_FUNCTION static SMEAR_NOINLINE
-#endif
 
 /* The course of the next n pixels. */
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
-#if UINTPTR_MAX > 0xffffffffu
     track_go(k, t, t->mode, n);
+}
 #else
+/* With few registers functions of their own: the loops over pixels take them all. */
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+
+/* What both coordinates of a block have in common. */
+struct going {
+    int32_t n, recip, rate, part;       /* middle over q, q15; change of q, q16; 2^16 / n */
+    int up;
+    bool bent;
+};
+
+/* track_go of a quadratic, one coordinate after the other: what both take at once is more than there are registers. */
+SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t base, int32_t *restrict value,
+                                int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
+                                uint32_t *restrict bend, uint32_t mask)
+{
+    const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
+    const int32_t to = add_wrap((here >> 16) * g->recip, base), d = sub_wrap(to, from);
+    int32_t change = part_by(d, g->part);
+    *value = here;
+    *place = to;
+    *at = (uint32_t)from << g->up;
+    *bend = 0;
+    if (g->bent) {
+        const int32_t b = mul_wrap(change >> 13, g->rate) >> 1;
+        change = add_wrap(change, mul_wrap(b >> 2, g->n - 2));
+        *bend = 0u - ((uint32_t)b << g->up & mask);
+    }
+    *step = (uint32_t)change << g->up & mask;
+}
+
+static SMEAR_NOINLINE void quadratic_go(struct track *restrict k, const struct texture_setup *restrict t, int32_t n)
+{
+    struct going g = { .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
+    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
+    const uint32_t w = (uint32_t)q >> 16;
+    k->q = q;
+    g.recip = (int32_t)(t->recip_base + (w * w >> 17));
+    g.rate = mul_wrap(t->slope, k->place.nearness + g.recip) >> 17;
+    k->place.nearness = g.recip;
+    coordinate_go(&g, &t->u, t->u_base, &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~255u);
+    k->run.u = turns_start(k->run.u);
+    coordinate_go(&g, &t->v, t->v_base, &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~0u);
+}
+
+/* The course of the next n pixels. */
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
     if (t->mode == TEXTURE_QUADRATIC)
-        track_go(k, t, TEXTURE_QUADRATIC, n);
+        quadratic_go(k, t, n);
     else if (t->mode == TEXTURE_AFFINE)
         track_go(k, t, TEXTURE_AFFINE, n);
     else
         track_go(k, t, TEXTURE_DIVIDED, n);
-#endif
 }
+#endif
 
 /* At pixel (x, y). */
 TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, int32_t x, int32_t y)
@@ -313,59 +351,126 @@ TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, 
 
 /* ------------------------------------------------------------------ quotients */
 
-/* A piece of a row whose blocks would be single pixels: n quotients. */
+/* A piece of a row whose blocks would be single pixels: a quotient for each pixel up to `end`. */
 struct quotients {
-    int32_t q, u, v, n;
-    void *color;
-    uint16_t *depth;
-    uint32_t z, dz;
-};
-
-/* All that does not change from row to row. The index of a texel is v >> down_v & mask_v | u >> down_u & mask_u. */
-struct parabola {
-    uint32_t recip_base, u_base, v_base, mask_u, mask_v;
-    int down_u, down_v;
+    uint32_t dz;                /* in the order in which registers are filled by hand */
     int32_t dq, du, dv;
+    const uint16_t *end;
+    uint32_t z;
+    int32_t q, u, v;
+    uint16_t *depth;
+    uintptr_t to_color;         /* from (twice, where pixels have 32 bits) a depth's address to its pixel's */
+    /* where 1/q is a parabola, shifted up: */
+    uint32_t recip_base, u_base, v_base;
+    int up;
     const void *texels;
 };
 
-static inline bool parabola_make(struct parabola *p, const struct texture_setup *t, const struct smear_sampler *m)
+SMEAR_INLINE void *color_of(const struct quotients *k, const uint16_t *depth, bool narrow)
 {
-    p->down_u = 32 - m->log2_width - t->up;
-    p->down_v = 32 - m->log2_height - t->up - m->log2_width;
-    if (t->mode != TEXTURE_QUADRATIC || p->down_u < 0 || p->down_v < 0)
-        return false;
-    p->mask_u = (uint32_t)m->width - 1;
-    p->mask_v = ((uint32_t)m->height - 1) << m->log2_width;
-    p->recip_base = t->recip_base;
-    p->u_base = (uint32_t)t->u_base;
-    p->v_base = (uint32_t)t->v_base;
-    p->dq = t->q.dx;
-    p->du = t->u.dx;
-    p->dv = t->v.dx;
-    p->texels = m->texels;
-    return true;
+    return (void *)((narrow ? 1u : 2u) * (uintptr_t)depth + k->to_color);
 }
 
-SMEAR_INLINE void quotients_parabola(const struct quotients *k, const struct parabola *p, bool narrow)
+#if TEXELS_BY_HAND
+/* quotients_parabola in 39 instructions a pixel: five of the values that change stay in registers, and their steps. */
+#define QUOTIENTS_BY_HAND(LOAD, STORE, SIZE, COLOR) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "mov lr, r0\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4}\n" \
+        "1:\n\t" \
+        "lsrs r5, r0, #16\n\t" \
+        "ldrh r6, [r4]\n\t" \
+        "cmp r6, r5\n\t" \
+        "bhs 2f\n\t" \
+        "strh r5, [r4]\n\t" \
+        "mov r7, lr\n\t" \
+        "lsrs r5, r1, #16\n\t" \
+        "muls r5, r5, r5\n\t" \
+        "lsrs r5, r5, #17\n\t" \
+        "ldr r6, [r7, #44]\n\t" \
+        "adds r5, r5, r6\n\t" \
+        "ldr r6, [r7, #56]\n\t" \
+        "lsls r5, r6\n\t" \
+        "asrs r6, r3, #16\n\t" \
+        "muls r6, r5, r6\n\t" \
+        "ldr r7, [r7, #52]\n\t" \
+        "adds r6, r6, r7\n\t" \
+        "lsrs r6, r6, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "asrs r7, r2, #16\n\t" \
+        "muls r5, r7, r5\n\t" \
+        "mov r7, lr\n\t" \
+        "ldr r7, [r7, #48]\n\t" \
+        "adds r5, r5, r7\n\t" \
+        "lsrs r5, r5, %[from_u]\n\t" \
+        "orrs r5, r6\n\t" \
+        "lsls r5, r5, #" SIZE "\n\t" \
+        "mov r7, lr\n\t" \
+        "ldr r6, [r7, #60]\n\t" \
+        LOAD " r5, [r6, r5]\n\t" \
+        "ldr r6, [r7, #40]\n\t" \
+        COLOR \
+        STORE "\n" \
+        "2: add r0, r8\n\t" \
+        "add r1, r9\n\t" \
+        "add r2, r10\n\t" \
+        "add r3, r11\n\t" \
+        "adds r4, #2\n\t" \
+        "cmp r4, r12\n\t" \
+        "bne 1b" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2), [to_v] "i"(log2), [from_u] "i"(32 - log2) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+SMEAR_INLINE void quotients_by_hand(struct quotients *k, int log2, bool narrow)
 {
-    int32_t q = k->q, u = k->u, v = k->v;
-    void *color = k->color;
-    uint16_t *depth = k->depth, *const end = depth + k->n;
-    uint32_t z = k->z;
+    register struct quotients *r0 __asm__("r0") = k;
+    if (narrow)
+        QUOTIENTS_BY_HAND("ldrh", "strh r5, [r6, r4]", "1", "");
+    else
+        QUOTIENTS_BY_HAND("ldr", "str r5, [r6, r7]", "2", "lsls r7, r4, #1\n\t");
+}
+#endif
+
+/* Quadratic, see place_at. At least a pixel. */
+SMEAR_INLINE void quotients_parabola(struct quotients *k, const struct smear_sampler *m, bool narrow)
+{
+#if TEXELS_BY_HAND
+    if (m->log2_width == m->log2_height && (m->log2_width == 6 || m->log2_width == 7 || m->log2_width == 8)) {
+        if (m->log2_width == 6)
+            quotients_by_hand(k, 6, narrow);
+        else if (m->log2_width == 7)
+            quotients_by_hand(k, 7, narrow);
+        else
+            quotients_by_hand(k, 8, narrow);
+        return;
+    }
+#endif
+    const int log2_width = m->log2_width, log2_height = m->log2_height;
+    const struct quotients c = *k;      /* what is constant, in registers */
+    int32_t q = c.q, u = c.u, v = c.v;
+    uint16_t *depth = c.depth;
+    uint32_t z = c.z;
     do {
         if ((uint16_t)(z >> 16) > *depth) {
-            const uint32_t w = (uint32_t)q >> 16, r = p->recip_base + (w * w >> 17);       /* as in place_at */
-            const uint32_t at_u = (uint32_t)(u >> 16) * r + p->u_base, at_v = (uint32_t)(v >> 16) * r + p->v_base;
+            const uint32_t w = (uint32_t)q >> 16, r = (c.recip_base + (w * w >> 17)) << c.up;
+            const uint32_t at_u = (uint32_t)(u >> 16) * r + c.u_base, at_v = (uint32_t)(v >> 16) * r + c.v_base;
             *depth = (uint16_t)(z >> 16);
-            put_texel(color, 0, p->texels, (at_v >> p->down_v & p->mask_v) | (at_u >> p->down_u & p->mask_u), narrow);
+            put_texel(color_of(&c, depth, narrow), 0, c.texels,
+                      at_v >> (32 - log2_height) << log2_width | at_u >> (32 - log2_width), narrow);
         }
-        z += k->dz;
-        q = add_wrap(q, p->dq);
-        u = add_wrap(u, p->du);
-        v = add_wrap(v, p->dv);
-        color = pixel_after(color, 1, narrow);
-    } while (++depth != end);
+        z += c.dz;
+        q = add_wrap(q, c.dq);
+        u = add_wrap(u, c.du);
+        v = add_wrap(v, c.dv);
+    } while (++depth != c.end);
 }
 
 /* The same by place_at. */
@@ -373,20 +478,19 @@ static SMEAR_NOINLINE void quotients_any(struct quotients *k, const struct setup
 {
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
-    for (; k->n > 0; k->n--) {
+    do {
         if ((uint16_t)(k->z >> 16) > *k->depth) {
             const struct place p = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
             *k->depth = (uint16_t)(k->z >> 16);
-            put_texel(k->color, 0, m->texels, packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up),
-                                                           m->log2_width, m->log2_height), narrow);
+            put_texel(color_of(k, k->depth, narrow), 0, k->texels,
+                      packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up), m->log2_width,
+                                   m->log2_height), narrow);
         }
         k->z += k->dz;
-        k->q = add_wrap(k->q, t->q.dx);
-        k->u = add_wrap(k->u, t->u.dx);
-        k->v = add_wrap(k->v, t->v.dx);
-        k->color = pixel_after(k->color, 1, narrow);
-        k->depth++;
-    }
+        k->q = add_wrap(k->q, k->dq);
+        k->u = add_wrap(k->u, k->du);
+        k->v = add_wrap(k->v, k->dv);
+    } while (++k->depth != k->end);
 }
 
 /* ------------------------------------------------------------------ pieces */
@@ -465,35 +569,53 @@ static inline bool is_plain(const struct setup *s, const struct span_rows *r)
     return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
-/* Those rows that are drawn by quotients. */
-SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, bool narrow)
+/* Numbers of rows. */
+struct row_list {
+    int32_t count;
+    uint8_t row[SPAN_ROWS];
+};
+
+/* Rows that are drawn by quotients. */
+SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    struct parabola parabola;
-    const bool plain = is_plain(s, r), parabolas = parabola_make(&parabola, t, &s->draw->sampler);
-    struct piece p;
-    p.z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
-    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
-    int32_t row_at = r->at, y = r->y;
-    for (int32_t row = 0; row < r->count; row++, y++, row_at += target->window_rows.stride, p.z += dz_down) {
+    const struct smear_sampler *m = &s->draw->sampler;
+    const bool plain = is_plain(s, r);
+    struct quotients k;
+    k.texels = m->texels;
+    k.to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
+                        : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
+    k.up = t->up;
+    k.recip_base = t->recip_base;
+    k.u_base = (uint32_t)t->u_base << t->up;
+    k.v_base = (uint32_t)t->v_base << t->up;
+    k.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    k.dq = t->q.dx;
+    k.du = t->u.dx;
+    k.dv = t->v.dx;
+    for (int32_t i = 0; i < list->count; i++) {
+        const int32_t row = list->row[i], y = r->y + row;
+        struct piece p;
         p.a = r->side[row].left;
         p.b = r->side[row].right;
-        if (p.a >= p.b || block_of(t, p.a, p.b) > 1 || (!plain && !piece_next(&p, s, r, row, p.a)))
+        if (!plain && !piece_next(&p, s, r, row, p.a))
             continue;
         do {
-            struct quotients k;
+            uint16_t *row_depth = target->depth + (r->at + row * target->window_rows.stride);
             k.q = plane_at(&t->q, p.a, y);
             k.u = plane_at(&t->u, p.a, y);
             k.v = plane_at(&t->v, p.a, y);
-            k.n = p.b - p.a;
-            k.dz = p.dz;
-            k.z = p.z + p.dz * (uint32_t)p.a;
-            k.depth = target->depth + (row_at + p.a);
-            k.color = narrow ? (void *)(target->direct + (row_at + p.a)) : target->color + (row_at + p.a);
-            if (parabolas) {
-                quotients_parabola(&k, &parabola, narrow);
+            if (plain) {
+                k.z = code_from_units(plane_at(&s->depth, p.a, y), s->slope);
+            } else {
+                k.dz = p.dz;
+                k.z = p.z + p.dz * (uint32_t)p.a;
+            }
+            k.depth = row_depth + p.a;
+            k.end = row_depth + p.b;
+            if (t->mode == TEXTURE_QUADRATIC) {
+                quotients_parabola(&k, m, narrow);
             } else {
                 struct quotients copy = k;              /* the other stays in registers */
                 quotients_any(&copy, s, narrow);
@@ -502,15 +624,16 @@ SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *
     }
 }
 
-static SMEAR_NOINLINE void draw_quotients_wide(const struct setup *s, const struct span_rows *r)
+static SMEAR_NOINLINE void draw_quotients_wide(const struct setup *s, const struct span_rows *r, const struct row_list *list)
 {
-    draw_quotients(s, r, false);
+    draw_quotients(s, r, list, false);
 }
 
 #if SMEAR_DIRECT
-static SMEAR_NOINLINE void draw_quotients_narrow(const struct setup *s, const struct span_rows *r)
+static SMEAR_NOINLINE void draw_quotients_narrow(const struct setup *s, const struct span_rows *r,
+                                                 const struct row_list *list)
 {
-    draw_quotients(s, r, true);
+    draw_quotients(s, r, list, true);
 }
 #endif
 
@@ -518,34 +641,35 @@ SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, in
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
     const bool plain = is_plain(s, r);
-    uint32_t row_z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
-    int32_t row_at = r->at;
-    bool quotients = false;
+    struct row_list quotients;
     struct track k;
+    quotients.count = 0;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
-    for (int32_t row = 0; row < r->count; row++, row_z += dz_down, row_at += target->window_rows.stride) {
+    for (int32_t row = 0; row < r->count; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
         struct piece p;
         if (right - left <= least) {
-            quotients = quotients || left < right;
+            quotients.row[quotients.count] = (uint8_t)row;
+            quotients.count += left < right;
             continue;
         }
         int32_t x = left, until = INT32_MAX;            /* pixels before the piece's end */
-        if (!plain) {
+        if (plain) {
+            k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
+        } else {
             if (!piece_next(&p, s, r, row, left))
                 continue;
             x = block_start(left, right - 1, p.a, block);
             until = x < p.a ? 0 : p.b - x;
-            row_z = p.z;
             k.run.dz = p.dz;
+            k.run.z = p.z + p.dz * (uint32_t)x;
         }
-        k.run.z = row_z + k.run.dz * (uint32_t)x;
-        k.run.depth = target->depth + (row_at + x);
-        k.run.color = narrow ? (void *)(target->direct + (row_at + x)) : target->color + (row_at + x);
+        const int32_t at = r->at + row * target->window_rows.stride + x;
+        k.run.depth = target->depth + at;
+        k.run.color = narrow ? (void *)(target->direct + at) : target->color + at;
         track_start(&k, t, x, r->y + row);
         int32_t rest = right - 1 - x;
         do {
@@ -564,31 +688,32 @@ SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, in
             }
         } while (rest > 0 && until >= 0);
     }
+    if (quotients.count == 0)
+        return;
 #if SMEAR_DIRECT
-    if (quotients && narrow)
-        draw_quotients_narrow(s, r);
+    if (narrow)
+        draw_quotients_narrow(s, r, &quotients);
 #endif
-    if (quotients && !narrow)
-        draw_quotients_wide(s, r);
+    if (!narrow)
+        draw_quotients_wide(s, r, &quotients);
 }
 
 #define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
     static void NAME(const struct setup *s, const struct span_rows *r) { draw_rows(s, r, LOG2_WIDTH, LOG2_HEIGHT, NARROW); }
 
-ROWS(rows_texel_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
-#if !TEXELS_BY_HAND
-ROWS(rows_texel_64, 6, 6, false)
-ROWS(rows_texel_128, 7, 7, false)
-ROWS(rows_texel_256, 8, 8, false)
-#endif
+ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
+ROWS(rows_wide_64, 6, 6, false)
+ROWS(rows_wide_128, 7, 7, false)
+ROWS(rows_wide_256, 8, 8, false)
 #if SMEAR_DIRECT
 ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
-#if !TEXELS_BY_HAND
 ROWS(rows_narrow_64, 6, 6, true)
 ROWS(rows_narrow_128, 7, 7, true)
 ROWS(rows_narrow_256, 8, 8, true)
 #endif
-#endif
+
+#define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
+                         : (T)->width == 128 ? KIND##_128 : (T)->width == 256 ? KIND##_256 : KIND##_any)
 
 smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
@@ -598,20 +723,9 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
         || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888) || t->log2_width == 0 || t->log2_height == 0)
         return NULL;
 #if SMEAR_DIRECT
-    if (narrow) {
-#if !TEXELS_BY_HAND
-        if (t->width == t->height)
-            return t->width == 64 ? rows_narrow_64 : t->width == 128 ? rows_narrow_128
-                 : t->width == 256 ? rows_narrow_256 : rows_narrow_any;
+    if (narrow)
+        return CHOOSE(rows_narrow, t);
 #endif
-        return rows_narrow_any;
-    }
-#endif
-#if !TEXELS_BY_HAND
-    if (t->width == t->height)
-        return t->width == 64 ? rows_texel_64 : t->width == 128 ? rows_texel_128
-             : t->width == 256 ? rows_texel_256 : rows_texel_any;
-#endif
-    return rows_texel_any;
+    return CHOOSE(rows_wide, t);
 }
 #endif
