@@ -275,33 +275,49 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
     run_course(&k->run, c);
 }
 
+/* With few registers functions of their own: the loops over pixels take them all. */
 #if UINTPTR_MAX > 0xffffffffu
 #define TRACK_FUNCTION SMEAR_INLINE
+#else
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+#endif
 
+#if UINTPTR_MAX > 0xffffffffu
 /* The course of the next n pixels. */
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
     track_go(k, t, t->mode, n);
 }
+#elif SMEAR_HAS_MUL64
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    if (t->mode == TEXTURE_QUADRATIC)
+        track_go(k, t, TEXTURE_QUADRATIC, n);
+    else if (t->mode == TEXTURE_DIVIDED)
+        track_go(k, t, TEXTURE_DIVIDED, n);
+    else
+        track_go(k, t, TEXTURE_AFFINE, n);
+}
 #else
-/* With few registers functions of their own: the loops over pixels take them all. */
-#define TRACK_FUNCTION static SMEAR_NOINLINE
 
 /* What both coordinates of a block have in common. */
 struct going {
-    int32_t n, recip, rate, part;       /* middle over q, q15; change of q, q16; 2^16 / n */
-    int up;
+    enum texture_mode mode;
+    int32_t n, part;            /* 2^16 / n */
+    int32_t recip, rate;        /* place_at's k or r; change of q, q16 */
+    int up, recip_up;
     bool bent;
 };
 
-/* track_go of a quadratic, one coordinate after the other: what both take at once is more than there are registers. */
+/* track_go for one coordinate after the other: what both take at once is more than there are registers. */
 SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t base, int32_t *restrict value,
                                 int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
                                 uint32_t *restrict bend, uint32_t mask)
 {
     const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
-    const int32_t to = add_wrap((here >> 16) * g->recip, base), d = sub_wrap(to, from);
-    int32_t change = part_by(d, g->part);
+    const int32_t to = g->mode == TEXTURE_QUADRATIC ? add_wrap((here >> 16) * g->recip, base)
+                     : g->mode == TEXTURE_DIVIDED ? mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip) : here;
+    int32_t change = part_by(sub_wrap(to, from), g->part);
     *value = here;
     *place = to;
     *at = (uint32_t)from << g->up;
@@ -314,18 +330,40 @@ SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane
     *step = (uint32_t)change << g->up & mask;
 }
 
-static SMEAR_NOINLINE void quadratic_go(struct track *restrict k, const struct texture_setup *restrict t, int32_t n)
+SMEAR_INLINE void coordinates_go(struct track *restrict k, const struct texture_setup *restrict t, enum texture_mode mode,
+                                 int32_t n)
 {
-    struct going g = { .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
+    struct going g = { .mode = mode, .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
-    const uint32_t w = (uint32_t)q >> 16;
+    int32_t nearness = 0;
     k->q = q;
-    g.recip = (int32_t)(t->recip_base + (w * w >> 17));
-    g.rate = mul_wrap(t->slope, k->place.nearness + g.recip) >> 17;
-    k->place.nearness = g.recip;
+    if (mode == TEXTURE_QUADRATIC) {
+        const uint32_t w = (uint32_t)q >> 16;
+        g.recip = nearness = (int32_t)(t->recip_base + (w * w >> 17));
+        g.rate = mul_wrap(t->slope, k->place.nearness + nearness) >> 17;
+    } else if (mode == TEXTURE_DIVIDED) {
+        const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
+        const int zeros = count_leading_zeros(d);
+        g.recip = (int32_t)recip_norm(d << zeros);
+        g.recip_up = zeros - 1;
+        if (g.bent)
+            nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
+        g.rate = (k->place.nearness + nearness) >> 1;
+    }
+    k->place.nearness = nearness;
     coordinate_go(&g, &t->u, t->u_base, &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~255u);
     k->run.u = turns_start(k->run.u);
     coordinate_go(&g, &t->v, t->v_base, &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~0u);
+}
+
+static SMEAR_NOINLINE void quadratic_go(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    coordinates_go(k, t, TEXTURE_QUADRATIC, n);
+}
+
+static SMEAR_NOINLINE void divided_go(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    coordinates_go(k, t, TEXTURE_DIVIDED, n);
 }
 
 /* The course of the next n pixels. */
@@ -333,10 +371,10 @@ TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, i
 {
     if (t->mode == TEXTURE_QUADRATIC)
         quadratic_go(k, t, n);
-    else if (t->mode == TEXTURE_AFFINE)
-        track_go(k, t, TEXTURE_AFFINE, n);
+    else if (t->mode == TEXTURE_DIVIDED)
+        divided_go(k, t, n);
     else
-        track_go(k, t, TEXTURE_DIVIDED, n);
+        track_go(k, t, TEXTURE_AFFINE, n);
 }
 #endif
 
@@ -440,20 +478,14 @@ SMEAR_INLINE void quotients_by_hand(struct quotients *k, int log2, bool narrow)
 #endif
 
 /* Quadratic, see place_at. At least a pixel. */
-SMEAR_INLINE void quotients_parabola(struct quotients *k, const struct smear_sampler *m, bool narrow)
+SMEAR_INLINE void quotients_parabola(struct quotients *k, int log2_width, int log2_height, bool narrow)
 {
 #if TEXELS_BY_HAND
-    if (m->log2_width == m->log2_height && (m->log2_width == 6 || m->log2_width == 7 || m->log2_width == 8)) {
-        if (m->log2_width == 6)
-            quotients_by_hand(k, 6, narrow);
-        else if (m->log2_width == 7)
-            quotients_by_hand(k, 7, narrow);
-        else
-            quotients_by_hand(k, 8, narrow);
+    if (__builtin_constant_p(log2_width)) {
+        quotients_by_hand(k, log2_width, narrow);
         return;
     }
 #endif
-    const int log2_width = m->log2_width, log2_height = m->log2_height;
     const struct quotients c = *k;      /* what is constant, in registers */
     int32_t q = c.q, u = c.u, v = c.v;
     uint16_t *depth = c.depth;
@@ -476,11 +508,12 @@ SMEAR_INLINE void quotients_parabola(struct quotients *k, const struct smear_sam
 /* The same by place_at. */
 static SMEAR_NOINLINE void quotients_any(struct quotients *k, const struct setup *s, bool narrow)
 {
+    const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
     do {
         if ((uint16_t)(k->z >> 16) > *k->depth) {
-            const struct place p = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
+            const struct place p = place_at(t, mode, NULL, k->q, k->u, k->v, true);
             *k->depth = (uint16_t)(k->z >> 16);
             put_texel(color_of(k, k->depth, narrow), 0, k->texels,
                       packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up), m->log2_width,
@@ -546,17 +579,16 @@ static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i
     }
 }
 
-/* Pixels [from, end) of a row, which are a block; some may lie outside the piece. Returns how many pixels come after them
- * before the piece's end, or -1 when no more are to be drawn. */
-static SMEAR_NOINLINE int32_t run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
+/* Pixels [from, end) of a row, which are a block; some may lie outside the piece. False when no more are to be drawn. */
+static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
                                                 struct texel_run *run, struct piece *p, int32_t from, int32_t end)
 {
     for (int32_t x = from;; x = p->a) {
         run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
         if (p->b >= end)
-            return p->b - end;
+            return true;
         if (!piece_next(p, s, r, row, p->b))
-            return -1;
+            return false;
         run->dz = p->dz;
         run->z = p->z + p->dz * (uint32_t)p->a;
     }
@@ -576,14 +608,14 @@ struct row_list {
 };
 
 /* Rows that are drawn by quotients. */
-SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list, bool narrow)
+SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list,
+                                 int log2_width, int log2_height, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const struct smear_sampler *m = &s->draw->sampler;
-    const bool plain = is_plain(s, r);
+    const bool plain = is_plain(s, r), quadratic = t->mode == TEXTURE_QUADRATIC;
     struct quotients k;
-    k.texels = m->texels;
+    k.texels = s->draw->sampler.texels;
     k.to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                         : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
     k.up = t->up;
@@ -614,8 +646,8 @@ SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *
             }
             k.depth = row_depth + p.a;
             k.end = row_depth + p.b;
-            if (t->mode == TEXTURE_QUADRATIC) {
-                quotients_parabola(&k, m, narrow);
+            if (quadratic) {
+                quotients_parabola(&k, log2_width, log2_height, narrow);
             } else {
                 struct quotients copy = k;              /* the other stays in registers */
                 quotients_any(&copy, s, narrow);
@@ -624,46 +656,34 @@ SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *
     }
 }
 
-static SMEAR_NOINLINE void draw_quotients_wide(const struct setup *s, const struct span_rows *r, const struct row_list *list)
-{
-    draw_quotients(s, r, list, false);
-}
-
-#if SMEAR_DIRECT
-static SMEAR_NOINLINE void draw_quotients_narrow(const struct setup *s, const struct span_rows *r,
-                                                 const struct row_list *list)
-{
-    draw_quotients(s, r, list, true);
-}
-#endif
-
-SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, bool narrow)
+/* Lists the others in `quotients`. */
+SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients, int log2_width,
+                              int log2_height, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
     const bool plain = is_plain(s, r);
-    struct row_list quotients;
     struct track k;
-    quotients.count = 0;
+    int32_t count_of_quotients = 0;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
     for (int32_t row = 0; row < r->count; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
         struct piece p;
         if (right - left <= least) {
-            quotients.row[quotients.count] = (uint8_t)row;
-            quotients.count += left < right;
+            quotients->row[count_of_quotients] = (uint8_t)row;
+            count_of_quotients += left < right;
             continue;
         }
-        int32_t x = left, until = INT32_MAX;            /* pixels before the piece's end */
+        int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the piece */
         if (plain) {
             k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
         } else {
             if (!piece_next(&p, s, r, row, left))
                 continue;
             x = block_start(left, right - 1, p.a, block);
-            until = x < p.a ? 0 : p.b - x;
+            least_rest = x < p.a ? INT32_MAX : right - 1 - p.b;
             k.run.dz = p.dz;
             k.run.z = p.z + p.dz * (uint32_t)x;
         }
@@ -676,30 +696,34 @@ SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, in
             const int32_t n = min_i32(block, rest);
             track_next(&k, t, n);
             rest -= n;
-            const int32_t count = n + (rest == 0);
-            if (count <= until) {
+            const int32_t last = rest == 0, count = n + last;
+            if (rest - last >= least_rest) {
                 run_texels(&k.run, count, log2_width, log2_height, narrow);
-                until -= count;
             } else {
-                const int32_t end = right - 1 - rest + (rest == 0);
+                const int32_t end = right - 1 - rest + last;
                 struct texel_run run = k.run;       /* that one stays in registers */
-                until = run_texels_pieces(s, r, row, &run, &p, end - count, end);
+                if (!run_texels_pieces(s, r, row, &run, &p, end - count, end))
+                    break;
+                least_rest = right - 1 - p.b;
                 k.run = run;
             }
-        } while (rest > 0 && until >= 0);
+        } while (rest > 0);
     }
-    if (quotients.count == 0)
-        return;
-#if SMEAR_DIRECT
-    if (narrow)
-        draw_quotients_narrow(s, r, &quotients);
-#endif
-    if (!narrow)
-        draw_quotients_wide(s, r, &quotients);
+    quotients->count = count_of_quotients;
 }
 
 #define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
-    static void NAME(const struct setup *s, const struct span_rows *r) { draw_rows(s, r, LOG2_WIDTH, LOG2_HEIGHT, NARROW); }
+    static SMEAR_NOINLINE void NAME##_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list) \
+    { \
+        draw_quotients(s, r, list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
+    } \
+    static void NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        struct row_list list; \
+        draw_blocks(s, r, &list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
+        if (list.count != 0) \
+            NAME##_quotients(s, r, &list); \
+    }
 
 ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
 ROWS(rows_wide_64, 6, 6, false)
