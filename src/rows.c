@@ -69,6 +69,7 @@ struct texel_run {              /* the order in which registers are filled by ha
     uint16_t *depth;
     uint32_t z, u, v;
     const void *texels;
+    int32_t count;
 };
 
 SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
@@ -154,19 +155,36 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
         "adds r1, #4\n\t" \
         "cmp r1, lr\n\t" \
         "bne 1b\n\t" \
-        "pop {r7}\n\t" \
+        "ldr r6, [sp]\n\t" \
+        "ldr r6, [r6, #48]\n\t" \
+        "lsrs r6, r6, #1\n\t" \
+        "bcc 5f\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #0]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 4f\n\t" \
+        "strh r6, [r1, #0]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #0]\n" \
+        "4: adds r0, #" NEXT "\n\t" \
+        "adds r1, #2\n" \
+        "5: pop {r7}\n\t" \
         "str r0, [r7, #24]\n\t" \
         "str r1, [r7, #28]\n\t" \
-        "str r2, [r7, #32]\n\t" \
-        "str r3, [r7, #36]\n\t" \
-        "str r4, [r7, #40]" \
+        "str r2, [r7, #32]" \
         : "+r"(r0) \
         : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* run_texels for an even number of pixels, on cores with eight registers that do everything and six that only add:
+/* run_texels on cores with eight registers that do everything and six that only add:
  * compilers keep half of the values on the stack, which doubles the instructions. 17 a pixel. u and v are stepped each
- * alone. Afterwards *p has color, depth, z, u, v for the next pixel. */
+ * alone. */
 SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, bool narrow)
 {
     register struct texel_run *r0 __asm__("r0") = p;
@@ -198,21 +216,14 @@ SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
     r->color = pixel_after(r->color, n, narrow);
 }
 
-/* n > 0 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
+/* n > 1 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
 SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
 {
 #if TEXELS_BY_HAND
     if (__builtin_constant_p(log2_width)) {
-        if (n >= 2) {
-            run->end = run->depth + (n & ~1);
-            pairs_by_hand(run, log2_width, log2_height, narrow);
-        }
-        if (n & 1) {
-            texel_pixel(run->color, run->depth, run->z, run->texels, packed_uv(run->u, run->v), log2_width, log2_height,
-                        narrow);
-            run_advance(run, 1, narrow);
-            run->z += run->dz;
-        }
+        run->count = n;
+        run->end = run->depth + (n & ~1);
+        pairs_by_hand(run, log2_width, log2_height, narrow);
         return;
     }
 #endif
@@ -665,15 +676,16 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
     const bool plain = is_plain(s, r);
     struct track k;
-    int32_t count_of_quotients = 0;
+    uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
-    for (int32_t row = 0; row < r->count; row++) {
+    const int32_t rows = r->count;
+    for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
         struct piece p;
         if (right - left <= least) {
-            quotients->row[count_of_quotients] = (uint8_t)row;
-            count_of_quotients += left < right;
+            *next_quotient = (uint8_t)row;
+            next_quotient += left < right;
             continue;
         }
         int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the piece */
@@ -709,7 +721,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             }
         } while (rest > 0);
     }
-    quotients->count = count_of_quotients;
+    quotients->count = (int32_t)(next_quotient - quotients->row);
 }
 
 #define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
