@@ -492,8 +492,13 @@ SMEAR_INLINE void quotients_by_hand(struct quotients *k, int log2, bool narrow)
 SMEAR_INLINE void quotients_parabola(struct quotients *k, int log2_width, int log2_height, bool narrow)
 {
 #if TEXELS_BY_HAND
-    if (__builtin_constant_p(log2_width)) {
-        quotients_by_hand(k, log2_width, narrow);
+    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
+        if (log2_width == 6)
+            quotients_by_hand(k, 6, narrow);
+        else if (log2_width == 7)
+            quotients_by_hand(k, 7, narrow);
+        else
+            quotients_by_hand(k, 8, narrow);
         return;
     }
 #endif
@@ -724,28 +729,33 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     quotients->count = (int32_t)(next_quotient - quotients->row);
 }
 
-#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
-    static SMEAR_NOINLINE void NAME##_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list) \
+/* Blocks, then quotients: in functions of their own, of which the sizes that are drawn as working pixels share one. */
+#define QUOTIENTS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
+    static SMEAR_NOINLINE void NAME(const struct setup *s, const struct span_rows *r, const struct row_list *list) \
     { \
         draw_quotients(s, r, list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
-    } \
+    }
+#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW, QUOTIENTS_NAME) \
     static void NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct row_list list; \
         draw_blocks(s, r, &list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
         if (list.count != 0) \
-            NAME##_quotients(s, r, &list); \
+            QUOTIENTS_NAME(s, r, &list); \
     }
 
-ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
-ROWS(rows_wide_64, 6, 6, false)
-ROWS(rows_wide_128, 7, 7, false)
-ROWS(rows_wide_256, 8, 8, false)
+QUOTIENTS(quotients_wide, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
+ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false, quotients_wide)
+ROWS(rows_wide_64, 6, 6, false, quotients_wide)
+ROWS(rows_wide_128, 7, 7, false, quotients_wide)
+ROWS(rows_wide_256, 8, 8, false, quotients_wide)
 #if SMEAR_DIRECT
-ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
-ROWS(rows_narrow_64, 6, 6, true)
-ROWS(rows_narrow_128, 7, 7, true)
-ROWS(rows_narrow_256, 8, 8, true)
+QUOTIENTS(quotients_narrow, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
+QUOTIENTS(quotients_narrow_64, 6, 6, true)
+ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true, quotients_narrow)
+ROWS(rows_narrow_64, 6, 6, true, quotients_narrow_64)
+ROWS(rows_narrow_128, 7, 7, true, quotients_narrow)
+ROWS(rows_narrow_256, 8, 8, true, quotients_narrow)
 #endif
 
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
