@@ -17,6 +17,20 @@ static inline int64_t product(int32_t a, int32_t b)
 #endif
 }
 
+/* a b / 2^down, which fits; b often has 16 bits. */
+static inline int32_t times_down(int32_t a, int32_t b, int down)
+{
+#if !SMEAR_HAS_MUL64
+    if ((uint32_t)b + 32768u < 65536u) {
+        int32_t high = (a >> 16) * b, low = (int32_t)((uint32_t)a & 0xffffu) * b;      /* a b = high 2^16 + low */
+        high += low >> 16;
+        return down >= 16 ? high >> (down - 16)
+                          : (int32_t)((uint32_t)high << (16 - down) | ((uint32_t)low & 0xffffu) >> down);
+    }
+#endif
+    return (int32_t)(product(a, b) >> down);
+}
+
 /* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
 static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
 {
@@ -366,8 +380,8 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     int down = max_i32(0, bits + bits_q - 30);              /* what brings c q into 31 bits */
     int32_t a[3], b[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = (int32_t)(product(cu[i], q[i]) >> down);
-        b[i] = (int32_t)(product(cv[i], q[i]) >> down);
+        a[i] = times_down(q[i], cu[i], down);
+        b[i] = times_down(q[i], cv[i], down);
     }
     int to_units = 45 - zeros - fine - down;                /* times recip_u, then right: U with 16 more bits */
     uint32_t slope_recip = mulh_u32(s->area_recip << 1, recip_u << 1);

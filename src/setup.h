@@ -126,6 +126,12 @@ static inline uint64_t setup_edges(struct setup *s)
     s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
     s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
     s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
+#if !SMEAR_HAS_MUL64
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)s->x1 + small) | ((uint32_t)s->y1 + small) | ((uint32_t)s->x2 + small)
+         | ((uint32_t)s->y2 + small)) < 2 * small)
+        return (uint32_t)(s->x1 * s->y2) - (uint32_t)(s->x2 * s->y1);       /* positive: fits */
+#endif
     return (uint64_t)((int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1);
 }
 
