@@ -218,6 +218,17 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     return true;
 }
 
+/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
+static void cache_free_pool(struct smear_context *c)
+{
+    const struct smear_geometry *g = &c->geometry;
+    uint32_t first = (g->vertex_words + 1u) & ~1u;
+    uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+    uint32_t each = first < end ? (end - first) / (uint32_t)c->jobs.workers & ~1u : 0;
+    for (int i = 0; i < c->jobs.workers; i++)
+        smear_raster_cache_make(&c->cache[i], g->pool + first + (uint32_t)i * each, (size_t)each * 4);
+}
+
 /* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
  * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
  * dropped and counted. */
@@ -239,6 +250,8 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
+    if (SMEAR_RASTER_CACHE && !c->assembler.keep_paths)
+        cache_free_pool(c);
     for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     stage_end(c, &c->stats.time_submit, start);
@@ -277,6 +290,7 @@ static void direct_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     t.direct = (uint16_t *)(void *)r->band;
+    t.cache = c->cache[job];
     const uint32_t clear = rgb565_nearest(c->frame.clear);
     int32_t at = t.x0, n = t.x1 - t.x0;
     for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width) {
@@ -312,6 +326,7 @@ static void raster_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
+    t.cache = c->cache[job];
     if (c->assembler.keep_motion) {
         t.velocity8 = w->velocity8;
         t.velocity16 = w->velocity16;

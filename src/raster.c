@@ -492,10 +492,9 @@ static void cover_small(const struct setup *s, int32_t area, int32_t left, int32
  * their gradients. Untextured, opaque, no motion. */
 enum { TINY_PIXELS = 32 };
 
-static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
+static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
-    return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
-        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
+    return pixels <= TINY_PIXELS && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
         && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -589,76 +588,125 @@ static bool is_flat(struct setup *s)
     return true;
 }
 
+/* A triangle that goes on in the next rows. Memory of its own, between the pool's vertices and triangles (frame.c). */
+struct slot {
+    struct setup s;
+    uint32_t triangle;
+};
+
+enum { SLOTS_MAX = 512 };
+
+void smear_raster_cache_make(struct smear_raster_cache *cache, void *memory, size_t bytes)
+{
+    struct slot *slot = memory;
+    cache->slot = memory;
+    cache->slots = (uint32_t)(bytes / sizeof *slot < SLOTS_MAX ? bytes / sizeof *slot : SLOTS_MAX);
+    for (uint32_t i = 0; i < cache->slots; i++)
+        slot[i].triangle = SMEAR_NO_TRIANGLE;
+}
+
+/* Gradients and planes. */
+static void setup_all(struct setup *s, uint64_t area)
+{
+    smear_setup_area(s, area);
+    smear_setup_depth(s);
+    s->flat = is_flat(s);
+    s->has_velocity = false;
+    if (!s->flat)
+        smear_setup_color(s);
+    if (s->segment->uv != 0)
+        smear_setup_texture(s);
+}
+
+static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom, bool small)
+{
+    const struct smear_raster_target *target = s->target;
+#if SMEAR_SPAN_ROWS
+    if (s->flat && !s->writes_velocity && !small) {
+        cover_flat(s, s->slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
+        return;
+    }
+#endif
+    if (s->writes_velocity && !s->has_velocity) {
+        smear_setup_velocity(s);
+        s->has_velocity = true;
+    }
+#if SMEAR_SPAN_ROWS
+    if (!small) {
+        smear_rows_fn *rows = smear_rows_choose(s);
+        if (rows != NULL) {
+            cover_rows(s, rows, max_i32(left, 0) < target->x0 || min_i32(right, s->frame->width) > target->x1);
+            return;
+        }
+    }
+#endif
+    smear_span_fn *write = s->flat ? smear_span_flat : smear_span_general;
+    if (small)
+        cover_small(s, (int32_t)setup_edges(s), left, right, top, bottom, write);
+    else
+        cover_large(s, write);
+}
+
+/* Triangle number `triangle` of the list's geometry, or none. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
-                                         const struct smear_segment *segment, uint32_t color,
+                                         const struct smear_segment *segment, uint32_t color, uint32_t triangle,
                                          const int32_t *const v[3], bool *moved)
 {
-    struct setup s;
-    s.frame = frame;
-    s.target = target;
-    s.segment = segment;
-    s.draw = &frame->draw[s.segment->draw];
-    s.color = color;
-    for (int i = 0; i < 3; i++)
-        s.v[i] = v[i];
-
-    int32_t left = min_i32(s.v[0][VERTEX_X], min_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
-    int32_t right = max_i32(s.v[0][VERTEX_X], max_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
-    int32_t top = min_i32(s.v[0][VERTEX_Y], min_i32(s.v[1][VERTEX_Y], s.v[2][VERTEX_Y]));
-    int32_t bottom = max_i32(s.v[0][VERTEX_Y], max_i32(s.v[1][VERTEX_Y], s.v[2][VERTEX_Y]));
+    int32_t left = min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
+    int32_t right = max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
+    int32_t top = min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
+    int32_t bottom = max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
     left = (left + 127) >> 8;
     right = (right + 127) >> 8;
     top = (top + 127) >> 8;
     bottom = (bottom + 127) >> 8;
-    int32_t width = right - left, height = bottom - top;
+    const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
+    const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
         return;
+    const bool resumes = top < target->y0, goes_on = bottom > target->y1;
     top = max_i32(top, target->y0);
     bottom = min_i32(bottom, target->y1);
     if (top >= bottom)
         return;
 
-    uint64_t area = setup_edges(&s);
+    struct setup here, *s = &here;
+    struct slot *slot = NULL;
+    bool known = false;
+    if (SMEAR_RASTER_CACHE && target->cache.slots != 0 && (resumes || goes_on)) {
+        slot = (struct slot *)target->cache.slot + triangle % target->cache.slots;
+        known = resumes && slot->triangle == triangle;
+        if (known || goes_on)
+            s = &slot->s;
+    }
+    s->target = target;
+    if (!known) {
+        s->frame = frame;
+        s->segment = segment;
+        s->draw = &frame->draw[segment->draw];
+        s->color = color;
+        for (int i = 0; i < 3; i++)
+            s->v[i] = v[i];
+    }
     /* The planes start with zero velocity: still triangles need to write it only over moving ones. */
-    s.writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
-                     && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || *moved);
-    if (s.segment->moves != 0)
+    s->writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
+                      && s->draw->alpha != SMEAR_BLEND && (segment->moves != 0 || *moved);
+    if (segment->moves != 0)
         *moved = true;
-    if (is_tiny(&s, width, height)) {
-        draw_tiny(&s, (int32_t)area, left, right, top, bottom);
-        return;
-    }
-    smear_setup_area(&s, area);
-    smear_setup_depth(&s);
-    const bool flat = is_flat(&s);
-#if SMEAR_SPAN_ROWS
-    const bool small = width <= SMALL_PX && height <= SMALL_PX;
-    if (flat && !s.writes_velocity && !small) {
-        cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
-        return;
-    }
-#endif
-    if (!flat)
-        smear_setup_color(&s);
-    if (s.segment->uv != 0)
-        smear_setup_texture(&s);
-    if (s.writes_velocity)
-        smear_setup_velocity(&s);
-#if SMEAR_SPAN_ROWS
-    if (!small) {
-        smear_rows_fn *rows = smear_rows_choose(&s);
-        if (rows != NULL) {
-            cover_rows(&s, rows, max_i32(left, 0) < target->x0 || min_i32(right, frame->width) > target->x1);
+    if (!known) {
+        uint64_t area = setup_edges(s);
+        if (is_tiny(s, pixels)) {
+            if (s != &here)
+                slot->triangle = SMEAR_NO_TRIANGLE;
+            draw_tiny(s, (int32_t)area, left, right, top, bottom);
             return;
         }
+        setup_all(s, area);
+        if (s != &here)
+            slot->triangle = triangle;
     }
-#endif
-    smear_span_fn *write = flat ? smear_span_flat : smear_span_general;
-    if (width <= SMALL_PX && height <= SMALL_PX)
-        cover_small(&s, (int32_t)area, left, right, top, bottom, write);
-    else
-        cover_large(&s, write);
+    cover(s, left, right, top, bottom, small);
 }
 
 /* A finished pixel. */
@@ -684,7 +732,8 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
 {
     bool moved = false;
     while (head != SMEAR_NO_TRIANGLE) {
-        const struct smear_triangle *t = geometry_triangle(frame->geometry, head);
+        const uint32_t number = head;
+        const struct smear_triangle *t = geometry_triangle(frame->geometry, number);
         head = t->next;
         if (t->segment == SMEAR_POINT) {
             draw_point(target, t, moved);
@@ -694,7 +743,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
-        draw_triangle(frame, target, segment, t->color, v, &moved);
+        draw_triangle(frame, target, segment, t->color, number, v, &moved);
     }
 }
 
@@ -702,5 +751,5 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
 {
     bool moved = false;
-    draw_triangle(frame, target, segment, color, v, &moved);
+    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, &moved);
 }

@@ -5,6 +5,9 @@
 
 #include "target.h"
 
+/* Cuts memory (8-byte aligned) into a cache, which is empty. */
+void smear_raster_cache_make(struct smear_raster_cache *cache, void *memory, size_t bytes);
+
 /* Draws the list that starts with triangle `head`, in order. */
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);

@@ -77,6 +77,8 @@ struct setup {
 
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool writes_velocity;
+    bool has_velocity;              /* its planes are made */
+    bool flat;                      /* one colour, opaque: `color` */
     bool velocity_affine;
     bool clamp_velocity;
     struct plane vx, vy;            /* affine: displacement q18 px */

@@ -14,6 +14,12 @@ struct smear_plane_rows {
     int32_t slot0, ring, x0;
 };
 
+/* Memory for what was found out about triangles that reach beyond a target's rows, for the rows after them: raster.c. */
+struct smear_raster_cache {
+    void *slot;
+    uint32_t slots;         /* 0: none */
+};
+
 /* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples of 16 (or
  * at the frame's sides): then it does not matter how many cuts there are. */
 struct smear_raster_target {
@@ -27,6 +33,7 @@ struct smear_raster_target {
     int8_t *velocity8;              /* x y in 1/8 px, half the displacement in the exposure; or null */
     int16_t *velocity16;            /* the same where the reach needs 16 bits; or null */
     int32_t *inspect;               /* x y in 1/256 px per frame, before clamp and packing; or null */
+    struct smear_raster_cache cache;        /* of these columns, from target to target */
     uint8_t *moving;                /* per column of tiles: set when a moving triangle was drawn there */
     uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
 };
@@ -37,6 +44,15 @@ struct smear_raster_target {
 #define SMEAR_DIRECT 0
 #else
 #define SMEAR_DIRECT 1
+#endif
+#endif
+
+/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
+#ifndef SMEAR_RASTER_CACHE
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_RASTER_CACHE 0
+#else
+#define SMEAR_RASTER_CACHE 1
 #endif
 #endif
 

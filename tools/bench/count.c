@@ -157,7 +157,7 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->samples == b->samples && a->reconstruct == b->reconstruct
         && a->timed == b->timed && a->target == b->target
         && a->shutter_poses == b->shutter_poses && a->workers == b->workers
-        && a->texels_565 == b->texels_565 && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
+        && a->texels_565 == b->texels_565 && a->fit_grid == b->fit_grid && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
         && a->change == b->change;
 }
 

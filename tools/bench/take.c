@@ -131,7 +131,7 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
         .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
-        .texels_565 = t->texels_565, .clear = rig->scene.clear
+        .texels_565 = t->texels_565, .fit_grid = t->fit_grid, .clear = rig->scene.clear
     };
     rig->frame = presenter_frame(rig->presenter, seconds, &options, f);
     return rig->frame != NULL;

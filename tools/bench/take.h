@@ -34,6 +34,7 @@ struct take {
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
     bool texels_565;            /* textures as RGB565 */
+    bool fit_grid;              /* meshes on grids that fit them */
     int workers;                /* 0: one */
     bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
 };
