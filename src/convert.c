@@ -69,12 +69,6 @@ static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
     return swapped ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
 }
 
-bool smear_convert_is_swapped(smear_format format)
-{
-    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
-    return (format == SMEAR_RGB565_SWAPPED) != big;
-}
-
 void smear_convert_swap(uint16_t *pixels, int32_t n)
 {
     for (; n > 0; n--, pixels++)

@@ -20,7 +20,12 @@ void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32
                        int32_t y0, smear_format format, smear_dither dither);
 
 /* RGB565 whose bytes are not this machine's order; and from one to the other. */
-bool smear_convert_is_swapped(smear_format format);
+static inline bool smear_convert_is_swapped(smear_format format)
+{
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    return (format == SMEAR_RGB565_SWAPPED) != big;
+}
+
 void smear_convert_swap(uint16_t *pixels, int32_t n);
 
 /* CRC-32 as in zlib, continued from `crc` (0 to start with). */

@@ -678,7 +678,7 @@ static void prepare(struct smear_context *c)
     }
 
     c->blends = false;
-    c->direct = c->desc.sharp && c->frame.method == SMEAR_NONE && c->desc.dither == SMEAR_DITHER_NONE
+    c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE && c->desc.dither == SMEAR_DITHER_NONE
              && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
         const smear_draw *d = &c->submitted[i].draw;
@@ -692,7 +692,7 @@ static void prepare(struct smear_context *c)
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
         textured = textured || (m != NULL && m->texture != NULL);
         /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
-        c->direct = c->direct && !c->blends
+        c->direct = SMEAR_DIRECT && c->direct && !c->blends
                  && (m == NULL || m->texture == NULL || m->texture->format == SMEAR_TEXEL_565);
         s->triangles_in += d->mesh->triangle_count;
     }

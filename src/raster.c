@@ -620,8 +620,8 @@ static void setup_all(struct setup *s, uint64_t area)
 
 static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom, bool small)
 {
-    const struct smear_raster_target *target = s->target;
 #if SMEAR_SPAN_ROWS
+    const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
         cover_flat(s, s->slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
         return;

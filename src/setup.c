@@ -20,7 +20,7 @@ static inline int64_t product(int32_t a, int32_t b)
 /* a b / 2^down, which fits; b often has 16 bits. */
 static inline int32_t times_down(int32_t a, int32_t b, int down)
 {
-#if !SMEAR_HAS_MUL64
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
     if ((uint32_t)b + 32768u < 65536u) {
         int32_t high = (a >> 16) * b, low = (int32_t)((uint32_t)a & 0xffffu) * b;      /* a b = high 2^16 + low */
         high += low >> 16;
@@ -34,7 +34,7 @@ static inline int32_t times_down(int32_t a, int32_t b, int down)
 /* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
 static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
 {
-#if !SMEAR_HAS_MUL64
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
     if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
         int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
         int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
@@ -56,7 +56,7 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 /* a b below 2^64; a is seldom above 2^32. */
 static inline uint64_t times(uint64_t a, uint32_t b)
 {
-    return a >> 32 == 0 ? product_u32((uint32_t)a, b) : a * b;
+    return !SMEAR_ONE_COPY && a >> 32 == 0 ? product_u32((uint32_t)a, b) : a * b;
 }
 
 /* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1
@@ -67,7 +67,7 @@ static int32_t gradient(int64_t n, uint32_t recip, int shift)
         return 0;
     uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
     int zeros;                                              /* n = top 2^(33 - zeros) */
-#if UINTPTR_MAX > 0xffffffffu
+#if UINTPTR_MAX > 0xffffffffu || SMEAR_ONE_COPY
     zeros = count_leading_zeros_64(size);
     uint32_t high = (uint32_t)(size << zeros >> 32);
 #else
@@ -406,7 +406,7 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     /* Per pixel u changes by at most |U'| + longest |w'|; its second derivative is twice that times w' = q'/q. */
     uint32_t change = magnitude_i32(t->q.dx);
     uint32_t rate = max_u32(magnitude_i32(t->u.dx), magnitude_i32(t->v.dx)) + (change >> 2 >> (14 - bits - fine));
-    off = product_u32(mulh_u32(change, rate), texels) >> (4 + fine + m->uv_shift);
+    off = times(mulh_u32(change, rate), texels) >> (4 + fine + m->uv_shift);
     off += times(off, 3 * e) >> 16;
     t->slope = clamp_i32((int32_t)(product(-t->q.dx, (int32_t)(k >> 14)) >> 30), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX);
     choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen->width,

@@ -128,7 +128,7 @@ static inline uint64_t setup_edges(struct setup *s)
     s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
     s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
     s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
-#if !SMEAR_HAS_MUL64
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
     const uint32_t small = 1 << 15;
     if ((((uint32_t)s->x1 + small) | ((uint32_t)s->y1 + small) | ((uint32_t)s->x2 + small)
          | ((uint32_t)s->y2 + small)) < 2 * small)
