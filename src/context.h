@@ -62,7 +62,7 @@ struct smear_context {
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
     struct smear_jobs jobs;
-    struct smear_raster_cache cache[SMEAR_WORKERS_MAX];
+    struct smear_raster_cache cache;        /* of the first raster job */
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */

@@ -224,9 +224,8 @@ static void cache_free_pool(struct smear_context *c)
     const struct smear_geometry *g = &c->geometry;
     uint32_t first = (g->vertex_words + 1u) & ~1u;
     uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-    uint32_t each = first < end ? (end - first) / (uint32_t)c->jobs.workers & ~1u : 0;
-    for (int i = 0; i < c->jobs.workers; i++)
-        smear_raster_cache_make(&c->cache[i], g->pool + first + (uint32_t)i * each, (size_t)each * 4);
+    size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
+    c->cache = smear_raster_cache_make(g->pool + first, bytes, c->jobs.workers);
 }
 
 /* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
@@ -290,7 +289,7 @@ static void direct_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     t.direct = (uint16_t *)(void *)r->band;
-    t.cache = c->cache[job];
+    t.cache = smear_raster_cache_of(&c->cache, job);
     const uint32_t clear = rgb565_nearest(c->frame.clear);
     int32_t at = t.x0, n = t.x1 - t.x0;
     for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width) {
@@ -326,7 +325,7 @@ static void raster_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
-    t.cache = c->cache[job];
+    t.cache = smear_raster_cache_of(&c->cache, job);
     if (c->assembler.keep_motion) {
         t.velocity8 = w->velocity8;
         t.velocity16 = w->velocity16;

@@ -596,13 +596,18 @@ struct slot {
 
 enum { SLOTS_MAX = 512 };
 
-void smear_raster_cache_make(struct smear_raster_cache *cache, void *memory, size_t bytes)
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count)
 {
     struct slot *slot = memory;
-    cache->slot = memory;
-    cache->slots = (uint32_t)(bytes / sizeof *slot < SLOTS_MAX ? bytes / sizeof *slot : SLOTS_MAX);
-    for (uint32_t i = 0; i < cache->slots; i++)
+    uint32_t slots = min_u32((uint32_t)(bytes / sizeof *slot), SLOTS_MAX) / (uint32_t)count;
+    for (uint32_t i = 0; i < slots * (uint32_t)count; i++)
         slot[i].triangle = SMEAR_NO_TRIANGLE;
+    return (struct smear_raster_cache){ slot, slots };
+}
+
+struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
+{
+    return (struct smear_raster_cache){ (struct slot *)first->slot + (uint32_t)i * first->slots, first->slots };
 }
 
 /* Gradients and planes. */

@@ -39,7 +39,8 @@ static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
 /* Every method, output format, dither and light, all tile sizes, both pose models, kept poses, a
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. Methods
  * that look at several instants: all settings, with and without the window, still and moving
- * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. */
+ * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. Sharp
+ * frames that are drawn as the display's pixels. */
 static const struct spec golden[] = {
     { "none-xrgb", "peer/E", 0, 2, 1,
       { .width = 160, .height = 120, .format = SMEAR_XRGB8888, .max_triangles = 600 },
@@ -193,6 +194,13 @@ static const struct spec golden[] = {
     { "auto-cut", "peer/E", 4, 1, 1,
       { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .timed = 1, .max_triangles = 600 },
       { .method = SMEAR_AUTO, .cut = true } },
+    { "direct-565", "peer/B64", 3, 2, 1,
+      { .width = 160, .height = 120, .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .sharp = 1, .band_rows = 16 },
+      { .method = SMEAR_NONE, .texels_565 = true }, .has_large_textures = true },
+    { "direct-swapped", "peer/E", 3, 1, 1,
+      { .width = 97, .height = 61, .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .sharp = 1,
+        .band_rows = 8, .max_triangles = 600 },
+      { .method = SMEAR_NONE } },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */
