@@ -426,7 +426,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* ------------------------------------------------------------------ memory in detail */
 
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
-#define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
+#define SMEAR_CONTEXT_BYTES 2048u           /* the context itself, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */

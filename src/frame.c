@@ -79,7 +79,6 @@ struct draw_poses {
     const smear_transform *object[3];   /* now, open, close */
     const smear_camera *camera[3];
     const int16_t *position[3];
-    smear_transform made[3];            /* what `object` points to where it is not the application's */
 };
 
 static uint32_t magnitude_of(int32_t a)
@@ -93,11 +92,11 @@ static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
 }
 
 /* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
-static void scale_object(struct draw_poses *p, uint32_t scale)
+static void scale_object(struct draw_poses *p, smear_transform made_poses[3], uint32_t scale)
 {
     for (int i = 1; i < 3; i++) {
         const smear_transform *other = p->object[i], *now = p->object[0];
-        smear_transform *made = &p->made[i];
+        smear_transform *made = &made_poses[i];
         for (int k = 0; k < 9; k++)
             made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
         for (int k = 0; k < 3; k++)
@@ -109,7 +108,7 @@ static void scale_object(struct draw_poses *p, uint32_t scale)
 }
 
 /* Turns a billboard with the camera of each pose. */
-static void turn_billboard(struct draw_poses *p, bool upright)
+static void turn_billboard(struct draw_poses *p, smear_transform made_poses[3], bool upright)
 {
     for (int pose = 0; pose < 3; pose++) {
         const int32_t *camera = p->camera[pose]->pose.basis;
@@ -138,15 +137,15 @@ static void turn_billboard(struct draw_poses *p, bool upright)
                 made[3 * i + j] = narrow_sat(sum >> 24);
             }
         for (int i = 0; i < 3; i++)
-            p->made[pose].origin[i] = p->object[pose]->origin[i];
+            made_poses[pose].origin[i] = p->object[pose]->origin[i];
         for (int i = 0; i < 9; i++)
-            p->made[pose].basis[i] = made[i];
-        p->object[pose] = &p->made[pose];
+            made_poses[pose].basis[i] = made[i];
+        p->object[pose] = &made_poses[pose];
     }
 }
 
 /* Of the object alone. */
-static void object_poses(const struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
+static void object_poses(struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
 {
     const smear_draw *d = &s->draw;
     if (c->frame.cut || d->cut || d->motion != SMEAR_MOTION_FULL)
@@ -164,11 +163,11 @@ static void object_poses(const struct smear_context *c, const struct smear_submi
             p->object[2] = d->close;
     }
     if (c->frame.object_scale != 256)
-        scale_object(p, c->frame.object_scale);
+        scale_object(p, c->made, c->frame.object_scale);
 }
 
-static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
-                     struct draw_poses *p)
+/* Valid until the next draw's. */
+static void poses_of(struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
     const smear_draw *d = &s->draw;
@@ -185,7 +184,7 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
     }
     object_poses(c, s, p);
     if (d->billboard != SMEAR_BILLBOARD_NONE)
-        turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
+        turn_billboard(p, c->made, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 
 static bool pose_differs(const struct draw_poses *p, int i)
@@ -211,6 +210,7 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
         r->moves = own && !attached;
     }
+    c->blur.held = c->blur.held || r->fixed;
     if (c->frame.method == SMEAR_CAMERA)
         r->moves = false;
     if (r->moves)
