@@ -51,9 +51,6 @@ struct smear_filtering {
     int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
 };
 
-/* Smooth tiles look at the movers of their own row and of its neighbours. */
-enum { ROWS_LISTED = 3 };
-
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
     enum smear_state state;
@@ -90,13 +87,10 @@ struct smear_context {
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
-    struct smear_row_movers row_movers[ROWS_LISTED];    /* with smooth tiles row r at r % 3, else the first */
+    struct smear_row_movers row_movers;     /* of the row being drawn */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
-    uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
-    uint16_t *still_depth;
-
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
 

@@ -129,13 +129,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     if (d->timed) {
         c->assembler.path_limit = d->max_triangles;
-        for (int i = 0; i < (d->sharp ? 1 : ROWS_LISTED); i++) {
-            c->row_movers[i].mover = arena_take(a, d->max_triangles, sizeof *c->row_movers[i].mover);
-            c->row_movers[i].load = arena_take(a, columns, sizeof *c->row_movers[i].load);
-        }
-        size_t still = d->sharp ? 0 : 2 * (size_t)d->width * (size_t)d->tile;
-        c->still_color = arena_take(a, still, 4);
-        c->still_depth = arena_take(a, still, 2);
+        c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
+        c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
         c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
