@@ -429,6 +429,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
+#define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
@@ -490,7 +491,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
  * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
 #define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
+    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) + SMEAR_FILTERING_BYTES \
      + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) \
      + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 2u) \
      + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * ((reach) <= 15 ? 2u : 4u)) \

@@ -15,6 +15,7 @@ struct smear_blur_settings {
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
     bool dense;                 /* plain means: a tap per pixel of the way, not one per two */
+    bool held;                  /* something stays where it is before a moving camera: nothing is mixed with it */
     uint8_t flags;              /* SMEAR_FENCE | ... */
     uint8_t weights;            /* smear_weights */
     /* Orthographic only: distance over range at units 0, in q16: where "5 % nearer" is. */

@@ -60,9 +60,34 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
                       ((red_blue & 0xffffu) * over + 0x8000u) >> 16);
 }
 
+/* The same where things that move with the camera may be in front: a tap that meets one, still and nearer, counts as the
+ * pixel itself. */
+static SMEAR_NOINLINE uint32_t mean_behind(const struct smear_window *w, const uint32_t *row_offset, uint32_t at, int32_t x,
+                                           int32_t y, const struct uniform_taps *taps, int32_t n, uint32_t over,
+                                           bool linear)
+{
+    int32_t dx = -taps->first_x - (n / 2 - 1) * taps->step_x, dy = -taps->first_y - (n / 2 - 1) * taps->step_y;
+    uint32_t sum[3] = { 0, 0, 0 };
+    for (int32_t i = n; i > 0; i--, dx += taps->step_x, dy += taps->step_y) {
+        int32_t column = clamp_i32(((x << 16) + 0x8000 + dx) >> 16, 0, w->width - 1);
+        uint32_t tap = row_offset[((y << 16) + 0x8000 + dy) >> 16] + (uint32_t)column;
+        if (w->depth[tap] > w->depth[at] && window_velocity_word(w, tap) == 0)
+            tap = at;
+        for (int c = 0; c < 3; c++) {
+            uint32_t code = w->color[tap] >> (16 - 8 * c) & 255u;
+            sum[c] += linear ? smear_srgb_decode[code] : code << 8;
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        uint32_t mean = mulh_u32(sum[c] << 8, over);
+        sum[c] = linear ? smear_srgb_encode[mean >> 4] : (mean + 128u) >> 8;
+    }
+    return pixel_make(0, sum[0], sum[1], sum[2]);
+}
+
 SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
                                 const struct smear_row_table *rows, int32_t row, int32_t column,
-                                int32_t n, bool linear, bool edge)
+                                int32_t n, bool linear, bool held, bool edge)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
     int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
@@ -83,6 +108,8 @@ SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
             if (word == 0) {
                 out[x - x0] = w->color[at];
                 copied++;
+            } else if (held) {
+                out[x - x0] = mean_behind(w, rows->offset, at, x, y - rows->first, &taps, n, over, linear);
             } else {
                 out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n,
                                          over, w->width - 1, linear, edge);
@@ -110,7 +137,7 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     int32_t x0 = column << w->tile_shift;
     bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
     if (settings->linear)
-        return mean_tile(out, w, rows, row, column, n, true, true);
-    return edge ? mean_tile(out, w, rows, row, column, n, false, true)
-                : mean_tile(out, w, rows, row, column, n, false, false);
+        return mean_tile(out, w, rows, row, column, n, true, settings->held, true);
+    return edge || settings->held ? mean_tile(out, w, rows, row, column, n, false, settings->held, true)
+                                  : mean_tile(out, w, rows, row, column, n, false, false, false);
 }

@@ -42,6 +42,15 @@ struct smear_row_movers {
     struct smear_tile_load *load;               /* per tile */
 };
 
+/* What filters need beyond the window. */
+struct smear_filtering {
+    struct smear_reprojection reprojection;             /* where raster.velocity_from_depth */
+    struct smear_pass pass[PINGPONG_PASSES_MAX];
+    int passes;
+    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
+    int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
+};
+
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
     enum smear_state state;
@@ -58,6 +67,7 @@ struct smear_context {
     struct smear_kept_pose *kept;
     struct smear_raster_draw *raster_draw;
     uint32_t draw_count;
+    smear_transform made[3];        /* poses of the draw at hand that are not the application's: now, open, close */
 
     /* stages */
     struct smear_geometry geometry;
@@ -67,18 +77,13 @@ struct smear_context {
     const struct smear_window *filtered;    /* which of the two a filter reads */
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
-    struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
+    struct smear_filtering *filtering;          /* with a window */
     struct smear_jobs jobs;
     struct smear_raster_cache cache;        /* of the first raster job */
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     uint32_t *half_scratch;         /* the same at half the size */
-    /* passes */
-    struct smear_pass pass[PINGPONG_PASSES_MAX];
-    int passes;
-    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
-    int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
     /* methods that look at several instants */
     struct smear_shutter shutter;

@@ -80,7 +80,6 @@ struct draw_poses {
     const smear_transform *object[3];   /* now, open, close */
     const smear_camera *camera[3];
     const int16_t *position[3];
-    smear_transform made[3];            /* what `object` points to where it is not the application's */
 };
 
 static uint32_t magnitude_of(int32_t a)
@@ -94,11 +93,11 @@ static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
 }
 
 /* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
-static void scale_object(struct draw_poses *p, uint32_t scale)
+static void scale_object(struct draw_poses *p, smear_transform made_poses[3], uint32_t scale)
 {
     for (int i = 1; i < 3; i++) {
         const smear_transform *other = p->object[i], *now = p->object[0];
-        smear_transform *made = &p->made[i];
+        smear_transform *made = &made_poses[i];
         for (int k = 0; k < 9; k++)
             made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
         for (int k = 0; k < 3; k++)
@@ -110,7 +109,7 @@ static void scale_object(struct draw_poses *p, uint32_t scale)
 }
 
 /* Turns a billboard with the camera of each pose. */
-static void turn_billboard(struct draw_poses *p, bool upright)
+static void turn_billboard(struct draw_poses *p, smear_transform made_poses[3], bool upright)
 {
     for (int pose = 0; pose < 3; pose++) {
         const int32_t *camera = p->camera[pose]->pose.basis;
@@ -139,15 +138,15 @@ static void turn_billboard(struct draw_poses *p, bool upright)
                 made[3 * i + j] = narrow_sat(sum >> 24);
             }
         for (int i = 0; i < 3; i++)
-            p->made[pose].origin[i] = p->object[pose]->origin[i];
+            made_poses[pose].origin[i] = p->object[pose]->origin[i];
         for (int i = 0; i < 9; i++)
-            p->made[pose].basis[i] = made[i];
-        p->object[pose] = &p->made[pose];
+            made_poses[pose].basis[i] = made[i];
+        p->object[pose] = &made_poses[pose];
     }
 }
 
 /* Of the object alone. */
-static void object_poses(const struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
+static void object_poses(struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
 {
     const smear_draw *d = &s->draw;
     if (c->frame.cut || d->cut || d->motion != SMEAR_MOTION_FULL)
@@ -165,11 +164,11 @@ static void object_poses(const struct smear_context *c, const struct smear_submi
             p->object[2] = d->close;
     }
     if (c->frame.object_scale != 256)
-        scale_object(p, c->frame.object_scale);
+        scale_object(p, c->made, c->frame.object_scale);
 }
 
-static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
-                     struct draw_poses *p)
+/* Valid until the next draw's. */
+static void poses_of(struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
     const smear_draw *d = &s->draw;
@@ -186,7 +185,7 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
     }
     object_poses(c, s, p);
     if (d->billboard != SMEAR_BILLBOARD_NONE)
-        turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
+        turn_billboard(p, c->made, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 
 static bool pose_differs(const struct draw_poses *p, int i)
@@ -212,6 +211,7 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
         r->moves = own && !attached;
     }
+    c->blur.held = c->blur.held || r->fixed;
     if (c->frame.method == SMEAR_CAMERA)
         r->moves = false;
     if (r->moves)
@@ -435,7 +435,7 @@ static void raster_job(void *argument, int job, int worker)
         return;
     const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale, c->raster.reach_q3,
                                               c->inspect };
-    smear_camera_velocity(w, &c->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0, t.y1);
+    smear_camera_velocity(w, &c->filtering->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0, t.y1);
 }
 
 /* Blended draws straight over the window's rows: where no filter will read them. */
@@ -570,7 +570,7 @@ static void convert_still(const struct row_job *r, int column)
 /* What a pass reads: what the one before it left, or the picture. */
 static const uint32_t *pass_input(const struct smear_context *c, int pass)
 {
-    return pass == 0 ? c->filtered->color : c->pass_plane[pass - 1];
+    return pass == 0 ? c->filtered->color : c->filtering->pass_plane[pass - 1];
 }
 
 /* The filter, over a tile of the window it reads; rows of `tile` are that window's tile apart. */
@@ -583,7 +583,7 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
     if (kind == TILE_STILL)
         smear_blur_copy(tile, w, row, column);
     else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
-        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->passes - 1), w, &rows, &c->pass[c->passes - 1], row,
+        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows, &c->filtering->pass[c->filtering->passes - 1], row,
                                       column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
     else if (c->frame.filter == SMEAR_FILTER_MEAN
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
@@ -633,8 +633,8 @@ static void pass_tile_job(void *argument, int column, int worker)
     const struct pass_job *r = argument;
     struct smear_context *c = r->c;
     struct smear_row_table rows = row_table(c, r->row);
-    c->worker_samples[worker] += smear_pingpong_pass(c->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
-                                                     &c->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
+    c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
+                                                     &c->filtering->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
 }
 
 /* Offsets of the rows that a blur of tile row `row` may read; those below row `end` stand for row end - 1. */
@@ -651,18 +651,18 @@ static void fill_row_table(struct smear_context *c, int row, int32_t end)
 static int32_t run_passes(struct smear_context *c, int known)
 {
     int32_t end = filtered_bottom(c, known);
-    for (int i = 0; i < c->passes - 1; i++) {
+    for (int i = 0; i < c->filtering->passes - 1; i++) {
         int32_t input_end = end;
         if (known != c->window.rows - 1)
-            end = max_i32(end - c->pass[i].reach, 0);
-        for (int32_t y = c->pass_end[i]; y < end;) {
+            end = max_i32(end - c->filtering->pass[i].reach, 0);
+        for (int32_t y = c->filtering->pass_end[i]; y < end;) {
             int row = y >> c->filtered->tile_shift;
             struct pass_job job = { c, i, row, y, min_i32(end, filtered_bottom(c, row)) };
             fill_row_table(c, row, input_end);
             smear_jobs_run(&c->jobs, pass_tile_job, &job, c->window.columns);
             y = job.y1;
         }
-        c->pass_end[i] = max_i32(c->pass_end[i], end);
+        c->filtering->pass_end[i] = max_i32(c->filtering->pass_end[i], end);
     }
     return end;
 }
@@ -703,7 +703,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
         smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(c, row);
     int32_t end = w->height;
-    if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->passes > 1)
+    if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->filtering->passes > 1)
         end = run_passes(c, known);
     fill_row_table(c, row, end);
     if (c->blends)
@@ -762,7 +762,7 @@ static int render_filter(struct smear_context *c)
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     if (c->raster.velocity_from_depth)
-        smear_reproject_make(&c->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
+        smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
                              c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
         int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, &middle);
@@ -896,9 +896,11 @@ static void prepare(struct smear_context *c)
     }
 
     c->filtered = c->frame.method == SMEAR_HALF ? c->half : w;
-    c->passes = smear_pingpong_plan(c->pass, &c->frame.pingpong, c->filtered->reach);
-    for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
-        c->pass_end[i] = 0;
+    if (c->filtering != NULL) {
+        c->filtering->passes = smear_pingpong_plan(c->filtering->pass, &c->frame.pingpong, c->filtered->reach);
+        for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
+            c->filtering->pass_end[i] = 0;
+    }
 
     c->blends = false;
     c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE && c->desc.dither == SMEAR_DITHER_NONE

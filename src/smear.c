@@ -60,6 +60,7 @@ static uint32_t pool_words(const smear_desc *d)
 }
 
 _Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
+_Static_assert(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
 _Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
 _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
@@ -112,8 +113,12 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->around = arena_take(a, reduced, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
-    for (int i = 0; i + 1 < d->passes; i++)
-        c->pass_plane[i] = arena_take(a, plane, 4);
+    c->filtering = d->sharp ? NULL : arena_take(a, 1, sizeof *c->filtering);
+    for (int i = 0; i + 1 < d->passes; i++) {
+        uint32_t *pass = arena_take(a, plane, 4);
+        if (c->filtering != NULL)
+            c->filtering->pass_plane[i] = pass;
+    }
     c->half = NULL;
     if (d->half) {
         c->half = arena_take(a, 1, sizeof *c->half);

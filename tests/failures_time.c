@@ -470,7 +470,7 @@ const struct fail_row fail_time_rows[] = {
     {21, "low or varying frame rate", rate, {
         {"length of a streak of 1/60 s", "%", 5.0,
          .known = {[NONE] = 37, [PLAIN] = 27, [MENDED] = 7.2}},
-    }, "the application scales shutter_degrees; the library has no frame-rate modes of its own"},
+    }, "the application scales shutter_degrees here; suite motion has the modes of the library"},
     {22, "strobing", strobe, {
         {"gaps at 360, none at 90 and 180 degrees", "%", 0.0, .known = {[NONE] = 88}},
         {"ripple of the sum of frames", "%", 10.0,
