@@ -161,7 +161,9 @@ typedef enum smear_method {
                                  * most `samples`; needs desc.timed */
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
                                  * needs desc.timed */
-    SMEAR_AUTO                  /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_AUTO,                 /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene; needs desc.layers */
+    SMEAR_LAYERED               /* each blurred layer by velocities of its pixels, over the still scene; likewise */
 } smear_method;
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
@@ -247,6 +249,7 @@ typedef struct smear_desc {
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
+    uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
@@ -270,6 +273,7 @@ typedef struct smear_stats {
     uint32_t tiles_still, tiles_uniform, tiles_complex;
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
     uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
+    uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */

@@ -12,10 +12,21 @@
 #include "choose.h"
 #include "geometry.h"
 #include "jobs.h"
+#include "layer.h"
 #include "raster.h"
 #include "shutter.h"
 #include "subframes.h"
 #include "window.h"
+
+static inline bool method_is_timed(uint8_t method)
+{
+    return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
+}
+
+static inline bool method_has_layers(uint8_t method)
+{
+    return method == SMEAR_OBJECT || method == SMEAR_LAYERED;
+}
 
 /* The pose a draw had, kept under its id. */
 struct smear_kept_pose {
@@ -78,6 +89,8 @@ struct smear_context {
     uint32_t moving;                /* list of the row being drawn */
     uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
     uint16_t *still_depth;
+
+    struct smear_layers layers;
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */

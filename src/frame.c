@@ -9,6 +9,7 @@
  *             finish      the row above, which now has neighbours on both sides:
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
+#include "layers.h"
 #include "timed.h"
 
 #include "fixmath.h"
@@ -210,8 +211,10 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     smear_assembler_reset(&c->assembler);
     for (uint32_t i = 0; i < c->draw_count; i++) {
         struct smear_assembly a;
-        make_assembly(c, i, instant, &a);
-        if (!(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
+        bool grouped = c->layers.on && c->layers.group_of[i] != SMEAR_NO_GROUP;
+        make_assembly(c, i, c->layers.on && !grouped ? &sharp_instant : instant, &a);
+        if (grouped ? !smear_layers_assemble(c, &a, drop)
+            : !(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -517,6 +520,41 @@ static int render_timed(struct smear_context *c)
     return SMEAR_OK;
 }
 
+/* Which draws are blurred: those that move. */
+static void find_layers(struct smear_context *c, const struct instant *middle)
+{
+    const struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
+    smear_layers_begin(c);
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        const struct smear_submitted *s = &c->submitted[i];
+        const smear_mesh *mesh = s->draw.mesh;
+        struct draw_poses poses;
+        struct smear_placement key[2], at;
+        poses_of(c, s, &poses);
+        if (!(pose_differs(&poses, 1) || pose_differs(&poses, 2)) || c->raster_draw[i].alpha == SMEAR_BLEND)
+            continue;
+        place(&key[0], c, &poses, mesh, &open);
+        place(&key[1], c, &poses, mesh, &close);
+        place(&at, c, &poses, mesh, middle);
+        smear_layers_add(c, i, mesh, 0, key, &at);
+    }
+    smear_layers_end(c);
+}
+
+static int render_layers(struct smear_context *c)
+{
+    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    find_layers(c, &middle);
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        int top = row;
+        end = assemble_part(c, &top, row, row, &middle);
+        int result = smear_layers_rows(c, row, end);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    return SMEAR_OK;
+}
+
 /* Adds the row's pixels to the sums: linear light, or codes in the same 16 bits. */
 static void add_row(struct smear_context *c, int row)
 {
@@ -602,7 +640,8 @@ static void prepare(struct smear_context *c)
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
-    c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
+    c->assembler.keep_paths = method_is_timed(c->frame.method);
+    c->layers.on = false;
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
                                          false };
     bool textured = false;
@@ -659,7 +698,8 @@ int smear_frame_render(struct smear_context *c)
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
                : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
+               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c)
+               : method_has_layers(c->frame.method) ? render_layers(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

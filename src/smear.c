@@ -27,7 +27,8 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((!d->sharp || d->timed) && d->band_rows != d->tile))
+    if (d->band_rows < 8 || d->band_rows % 8 != 0
+        || ((!d->sharp || d->timed || d->layers) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -99,6 +100,19 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
+    if (d->layers) {
+        struct smear_layer_rows *r = &c->layers.rows;
+        *r = (struct smear_layer_rows){ .margin = d->reach, .width = d->width + 2 * d->reach,
+                                        .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
+        size_t layer = (size_t)r->width * (size_t)r->rows, steps = (size_t)max_i32(r->width, r->rows);
+        r->color = arena_take(a, layer, 4);
+        r->depth = arena_take(a, layer, 2);
+        r->offset = arena_take(a, steps, sizeof *r->offset);
+        r->still_offset = arena_take(a, steps, sizeof *r->still_offset);
+        c->layers.group_of = arena_take(a, d->max_draws, sizeof *c->layers.group_of);
+        c->layers.group = arena_take(a, d->max_draws, sizeof *c->layers.group);
+        c->layers.order = arena_take(a, d->max_draws, sizeof *c->layers.order);
+    }
     c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
 
@@ -119,7 +133,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
-    g->mover_last = d->timed ? arena_take(a, (size_t)w->rows, sizeof *g->mover_last) : NULL;
+    g->mover_rows = d->layers ? 2 : 0;
+    g->mover_last = d->timed || d->layers
+                  ? arena_take(a, (size_t)(w->rows + g->mover_rows), sizeof *g->mover_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
@@ -193,12 +209,14 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method > SMEAR_AUTO || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method > SMEAR_LAYERED || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
         return false;
-    if (f->method >= SMEAR_SUBFRAMES && !c->desc.timed)
+    if (method_is_timed(f->method) && !c->desc.timed)
+        return false;
+    if (method_has_layers(f->method) && !c->desc.layers)
         return false;
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }

@@ -11,7 +11,7 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, SUBFRAMES, TIMEMASK, AUTO };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, OBJECT, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -19,6 +19,7 @@ const struct chart_curve chart_curves[] = {
     [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
                     MARK_TRIANGLE, false },
     [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
+    [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
     [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
     [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
@@ -49,6 +50,8 @@ const struct chart_setting chart_settings[] = {
       .everywhere = true },
     { MENDED, "reconstruct 16 mended", "16", SMEAR_RECONSTRUCT, .samples = 16,
       .reconstruct = MEND },
+
+    { OBJECT, "object", "box", SMEAR_OBJECT, .everywhere = true },
 
     { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
     { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },
@@ -109,7 +112,8 @@ bool chart_take(int index, struct take *out)
     const struct chart_setting *s = &chart_settings[setting];
     *out = (struct take){
         .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
-        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES,
+        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES && s->method <= SMEAR_AUTO,
+        .layers = s->method == SMEAR_OBJECT || s->method == SMEAR_LAYERED,
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .linear = chart_conditions[condition].linear,

@@ -107,6 +107,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.sharp = !t->windowed;
     desc.accumulate = t->accumulate;
     desc.timed = t->timed;
+    desc.layers = t->layers;
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */

@@ -94,6 +94,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.workers = (uint8_t)s->threads;
     desc.sharp = s->sharp;
     desc.timed = s->timed;
+    desc.layers = s->layers;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;

@@ -128,7 +128,7 @@ static const struct {
     { "auto", true, SMEAR_AUTO },               { "none", true, SMEAR_NONE },
     { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
     { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
-    { "object", false, SMEAR_DEFAULT_METHOD },  { "camera", false, SMEAR_DEFAULT_METHOD },
+    { "object", true, SMEAR_OBJECT },  { "camera", false, SMEAR_DEFAULT_METHOD },
     { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
     { "layered", false, SMEAR_DEFAULT_METHOD },
 };

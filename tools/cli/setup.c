@@ -14,7 +14,12 @@ static bool is_sharp_method(const struct render_options *o)
 
 static bool is_timed_method(const struct render_options *o)
 {
-    return o->shutter_degrees > 0 && o->method >= SMEAR_SUBFRAMES;
+    return o->shutter_degrees > 0 && o->method >= SMEAR_SUBFRAMES && o->method <= SMEAR_AUTO;
+}
+
+static bool is_layered_method(const struct render_options *o)
+{
+    return o->shutter_degrees > 0 && (o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED);
 }
 
 static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
@@ -75,7 +80,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
     return (struct device_setup){
         .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
-        .timed = is_timed_method(o),
+        .timed = is_timed_method(o), .layers = is_layered_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
         .threads = o->threads, .arena = o->arena,
     };

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* layer.h - blurred layers: what is blurred on its own and merged over the still scene.
+ *
+ * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the exposure into
+ * rows of its own: those of the tile row and as many above and below as the blur reads, and columns beyond the frame's
+ * sides, so that what enters the frame is there before it does. These rows are drawn anew for each group and tile row. */
+#ifndef SMEAR_LAYER_H
+#define SMEAR_LAYER_H
+
+#include "geometry.h"
+
+/* Of a draw that is in no group: it is drawn with the still scene. */
+#define SMEAR_NO_GROUP 0xffffu
+
+struct smear_group {
+    int32_t vx, vy;             /* displacement during the exposure, q8 px */
+    int32_t depth;              /* units q11 of its middle: farther groups are merged first */
+    uint32_t end;               /* triangles of the store below this number are its own or those of groups before it */
+    uint8_t layer;
+    /* In the tile row being drawn: its part of the movers' list, the columns and depth codes it keeps to. */
+    uint32_t head, tail;
+    int32_t x0, x1;
+    uint16_t nearest, farthest;
+};
+
+/* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down there: the
+ * store has triangles of layers at these places. */
+struct smear_layer_rows {
+    int32_t margin, width, height;      /* of the frame with its margins */
+    int32_t rows;                       /* there is memory for */
+    uint32_t *color;                    /* 0x01000000 where nothing is drawn */
+    uint16_t *depth;
+    int32_t *offset, *still_offset;     /* object.h */
+};
+
+#define SMEAR_UNCOVERED 0x01000000u
+
+struct smear_layers {
+    bool on;                    /* the frame has blurred layers */
+    uint16_t *group_of;         /* per draw */
+    struct smear_group *group;
+    uint16_t *order;            /* groups from the farthest to the nearest */
+    uint32_t group_count;
+    struct smear_layer_rows rows;
+};
+
+#endif
