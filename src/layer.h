@@ -28,12 +28,14 @@ struct smear_group {
 struct smear_layer_rows {
     int32_t margin, width, height;      /* of the frame with its margins */
     int32_t rows;                       /* there is memory for */
-    uint32_t *color;                    /* 0x01000000 where nothing is drawn */
+    uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
-    int32_t *offset, *still_offset;     /* object.h */
+    int16_t *row_first, *row_end;       /* in each row: what is drawn lies within */
+    void *work;                         /* work_bytes per worker: object.h */
+    uint32_t work_bytes;
 };
 
-#define SMEAR_UNCOVERED 0x01000000u
+#define SMEAR_UNCOVERED 0xff000000u
 
 struct smear_layers {
     bool on;                    /* the frame has blurred layers */

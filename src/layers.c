@@ -214,11 +214,27 @@ static void draw_job(void *argument, int job, int worker)
     smear_raster_list(&r->frame, &t, r->group->head);
 }
 
+/* What is drawn in each row. */
+static void find_drawn(const struct smear_layer_rows *rows, const struct smear_raster_target *t)
+{
+    for (int32_t y = 0; y < t->y1 - t->y0; y++) {
+        const uint16_t *depth = rows->depth + y * rows->width;
+        int32_t first = t->x0, end = t->x1;
+        while (first < end && depth[first] == 0)
+            first++;
+        while (end > first && depth[end - 1] == 0)
+            end--;
+        rows->row_first[y] = (int16_t)first;
+        rows->row_end[y] = (int16_t)end;
+    }
+}
+
 static void merge_job(void *argument, int job, int worker)
 {
     const struct layers_row *r = argument;
     struct smear_streak_area area = r->area;
     smear_job_columns(r->row.c, job, &area.left, &area.right);
+    area.work = (uint8_t *)area.work + (uint32_t)worker * r->row.c->layers.rows.work_bytes;
     r->row.c->worker_samples[worker] += smear_streak_merge(&r->streak, &area);
 }
 
@@ -245,14 +261,15 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     const struct smear_layer_rows *rows = &c->layers.rows;
     struct smear_streak *s = &r->streak;
     int32_t top = row_top(c, r->row.row) + c->window.tile, height = r->still.y1 - r->still.y0;
-    smear_streak_make(s, group->vx, group->vy, c->window.reach);
+    smear_streak_make(s, group->vx, group->vy, streak_half_max(c->window.width), c->window.reach);
     r->group = group;
     r->area = (struct smear_streak_area){
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
         .rows = height + 2 * s->reach_y, .top = s->reach_y, .margin = rows->margin,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
         .nearest = group->nearest, .farthest = group->farthest,
-        .offset = rows->offset, .still_offset = rows->still_offset, .linear = c->raster.linear
+        .linear = c->raster.linear,
+        .row_first = rows->row_first, .row_end = rows->row_end, .work = rows->work
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down look beyond the drawn columns. */
@@ -266,12 +283,12 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->frame = c->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
-    smear_streak_tables(s, &r->area, rows->offset, rows->still_offset);
     struct smear_triangle *tail = geometry_triangle(&c->geometry, group->tail);
     uint32_t after = tail->next;
     tail->next = SMEAR_NO_TRIANGLE;
     smear_jobs_run(&c->jobs, draw_job, r, c->jobs.workers);
     tail->next = after;
+    find_drawn(rows, &r->target);
     smear_jobs_run(&c->jobs, merge_job, r, c->jobs.workers);
     mark_tiles(c, r);
 }

@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* object.c - sums that slide along the velocity of a group. */
+/* object.c - means along the velocity of a group, by sums along lines.
+ *
+ * Sums grow along a line, so the mean around each of its pixels is a difference of two, however long it is. A mean along a
+ * long way changes little from step to step: it is taken at nodes, a few steps apart, and mixed between them. Lines lie a
+ * pixel apart, and pixels between two of them: a node of the frame takes of both.
+ *
+ *     gather      what is drawn on a line, as sums
+ *     means       of the line at its nodes, shared out to the rows it passes between
+ *     finish      pixels between nodes, over the still scene by coverage and depth */
 #include "object.h"
 
 #include "fixmath.h"
-#include "layer.h"
 #include "pixel.h"
 
 /* ------------------------------------------------------------------ lines */
@@ -15,9 +22,9 @@ static int32_t slope_of(int32_t a, int32_t b)
     return a < 0 ? -q : q;
 }
 
-void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t reach)
+void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t half_max, int32_t reach)
 {
-    const int32_t longest = (2 * SMEAR_STREAK_HALF + 1) << 8, highest = (2 * reach - 1) << 8;
+    const int32_t longest = (2 * half_max + 1) << 8, highest = max_i32(2 * reach - 3, 1) << 8;
     vx = clamp_i32(vx, -(1 << 22), 1 << 22);
     vy = clamp_i32(vy, -(1 << 22), 1 << 22);
     int32_t x = abs_i32(vx), y = abs_i32(vy), by = 1 << 30;     /* q30 */
@@ -34,247 +41,499 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t r
     s->upright = y > x;
     int32_t major = s->upright ? vy : vx, minor = s->upright ? vx : vy;
     int32_t length = max_i32(abs_i32(major), 256);
-    s->slope = slope_of(major < 0 ? -minor : minor, length);
+    /* What is off by less than half a pixel at its ends goes straight. */
+    s->slope = abs_i32(minor) < 256 ? 0 : slope_of(major < 0 ? -minor : minor, length);
     s->half = (length - 256) >> 9;
-    s->rest = (uint32_t)(length - 256 - (s->half << 9)) >> 1;
-    s->length = 256u + ((uint32_t)s->half << 9) + 2u * s->rest;
-    s->over = ((1u << 30) + s->length - 1u) / s->length;
-    int32_t along = s->half + 1, across = (abs_i32(s->slope) * along + 0xffff) >> 16;
-    s->reach_x = s->upright ? across : along;
-    s->reach_y = s->upright ? along : across;
+    int32_t beyond = (length - 256 - (s->half << 9)) >> 1, shift = 0;       /* q8 px, on either side */
+    while (length << (shift + 1) <= 256 << 8)
+        shift++;
+    s->rest = ((uint32_t)beyond << shift) >> 8;
+    s->inner = (1u << shift) - s->rest;
+    s->length = ((2u * (uint32_t)s->half + 1u) << shift) + 2u * s->rest;
+    s->over = (1u << 22) / s->length + 1u;
+    s->node = length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
+    int32_t along = s->half + 1 + (1 << s->node);
+    int32_t across = s->slope == 0 ? 0 : min_i32(1 + ((abs_i32(s->slope) * along + 0xffff) >> 16), reach);
+    s->reach_x = s->upright ? across : s->half + 1;
+    s->reach_y = s->upright ? s->half + 1 : across;
 }
 
-/* How far a line has strayed to the side after i steps. */
-static inline int32_t stray(const struct smear_streak *s, int32_t i)
+/* The place across at which a line from 0 passes after i steps, q16. */
+static inline int32_t passes(const struct smear_streak *s, int32_t i)
 {
-    return (s->slope * i + 0x8000) >> 16;
+    return s->slope * i;
 }
 
-void smear_streak_tables(const struct smear_streak *s, const struct smear_streak_area *a, int32_t *offset,
-                         int32_t *still_offset)
-{
-    int32_t n = s->upright ? a->rows : a->stride;
-    for (int32_t i = 0; i < n; i++) {
-        int32_t side = stray(s, i);
-        offset[i] = s->upright ? i * a->stride + side : side * a->stride + i;
-        still_offset[i] = s->upright ? i * a->still_stride + side : side * a->still_stride + i;
-    }
-}
-
-/* First step at which the line has strayed to `side` or beyond it in its direction. */
-static int32_t step_to(const struct smear_streak *s, int32_t side)
+/* First step at which a line is at or beyond `side` in its direction, places rounded by `bias`. */
+static int32_t step_to(const struct smear_streak *s, int32_t side, int32_t bias)
 {
     int32_t rest;
     if (s->slope > 0)
-        return divide_floor(side * 65536 - 0x8000 + s->slope - 1, s->slope, &rest);
-    return divide_floor(0x8000 - (side + 1) * 65536, -s->slope, &rest) + 1;
+        return divide_floor(side * 65536 - bias + s->slope - 1, s->slope, &rest);
+    return divide_floor(bias - (side + 1) * 65536, -s->slope, &rest) + 1;
 }
 
-/* ------------------------------------------------------------------ sums */
+/* Narrows steps [*first, *end) to those at which a line from `start` is within [low, high) across. */
+static void steps_within(const struct smear_streak *s, int32_t start, int32_t low, int32_t high, int32_t bias,
+                         int32_t *first, int32_t *end)
+{
+    if (s->slope == 0) {
+        if (start < low || start >= high)
+            *end = *first;
+        return;
+    }
+    *first = max_i32(*first, step_to(s, (s->slope > 0 ? low : high - 1) - start, bias));
+    *end = min_i32(*end, step_to(s, (s->slope > 0 ? high : low - 1) - start, bias));
+}
 
-/* A line and what is wanted of it. */
+/* ------------------------------------------------------------------ lanes */
+
+/* Codes: blue, red, green and coverage (255 is one), 16 bits each. Sums wrap; their differences do not. */
+typedef uint64_t lanes;
+
+static const lanes codes = 0x00ff00ff00ff00ff, halves = 0x0080008000800080;
+
+static inline lanes lanes_of(uint32_t p)
+{
+    return ((lanes)p << 24 | p) & codes;
+}
+
+static inline uint32_t lanes_pixel(lanes l)
+{
+    return (uint32_t)(l | l >> 24) & 0xffffffu;
+}
+
+/* No lane overflows. */
+static inline lanes lanes_times(lanes l, uint32_t factor)
+{
+#if UINTPTR_MAX > 0xffffffffu
+    return l * factor;
+#else
+    return (lanes)((uint32_t)(l >> 32) * factor) << 32 | (uint32_t)l * factor;
+#endif
+}
+
+/* Linear light: 32 bits each, coverage 65535. */
+struct light {
+    uint32_t r, g, b, a;
+};
+
+static inline struct light light_of(uint32_t p)
+{
+    return (struct light){ smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)],
+                           smear_srgb_decode[pixel_blue(p)], 65535u };
+}
+
+/* ------------------------------------------------------------------ what is worked on */
+
+enum {
+    NODES = 1120,               /* of the frame, at a time; half as many of linear light */
+    STEPS_MAX = 512             /* along a line, at a time; likewise */
+};
+
+struct merge {
+    const struct smear_streak *s;
+    const struct smear_streak_area *a;
+    int32_t low, high;          /* places across */
+    int32_t first, end;         /* steps; the first is a node */
+    int32_t nodes;              /* along */
+    int32_t step, side;         /* from a step or place across to the next in the group's planes */
+    union {
+        lanes *codes;           /* `nodes` for each place across */
+        struct light *light;
+    } node;
+    union {
+        lanes *codes;           /* of all before step sums_base + i */
+        struct light *light;
+    } sums;
+    int32_t sums_base;
+};
+
+size_t smear_streak_work(int32_t tile)
+{
+    (void)tile;
+    return (NODES + STEPS_MAX) * sizeof(lanes);
+}
+
+/* A line and what may be drawn on it. */
 struct line {
-    const uint32_t *in;         /* its start: step i lies offset[i] further */
-    const uint16_t *depth;
-    uint32_t *still;            /* likewise, by still_offset */
-    const uint16_t *still_depth;
-    int32_t first, end;         /* steps to be finished */
-    int32_t from, to;           /* steps at which something may have been drawn */
+    int32_t start;
+    int32_t from, to;
 };
 
-struct channels {
-    uint32_t r, g, b;           /* codes, or linear light */
-};
-
-SMEAR_INLINE struct channels channels_of(uint32_t p, bool linear)
+/* The steps at which a line runs along place `row` across; what is drawn there, if any. */
+static bool run_of(const struct merge *m, const struct line *l, int32_t row, int32_t *first, int32_t *end)
 {
-    if (linear)
-        return (struct channels){ smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)],
-                                  smear_srgb_decode[pixel_blue(p)] };
-    return (struct channels){ pixel_red(p), pixel_green(p), pixel_blue(p) };
-}
-
-/* Whole pixels. Encoded: `a` is red and blue, `b` pixels not covered and green. */
-struct sums {
-    uint32_t a, b;
-    struct channels c;
-    uint32_t uncovered;
-};
-
-enum { LANES = 0xff00ff };
-
-SMEAR_INLINE void sums_change(struct sums *s, uint32_t add, uint32_t drop, bool linear)
-{
-    if (!linear) {
-        s->a += (add & LANES) - (drop & LANES);
-        s->b += (add >> 8 & LANES) - (drop >> 8 & LANES);
-        return;
+    *first = l->from;
+    *end = l->to;
+    steps_within(m->s, l->start, row, row + 1, 0x8000, first, end);
+    if (!m->s->upright) {
+        *first = max_i32(*first, m->a->row_first[row]);
+        *end = min_i32(*end, m->a->row_end[row]);
     }
-    if (add == drop)
-        return;
-    struct channels n = channels_of(add, true), o = channels_of(drop, true);
-    s->c.r += n.r - o.r;
-    s->c.g += n.g - o.g;
-    s->c.b += n.b - o.b;
-    s->uncovered += (add >> 24) - (drop >> 24);
+    return *first < *end;
 }
 
-SMEAR_INLINE uint32_t sums_uncovered(const struct sums *s, bool linear)
+/* Places across that a line runs along from step l->from to l->to. */
+static void places_of(const struct merge *m, const struct line *l, int32_t *low, int32_t *high)
 {
-    return linear ? s->uncovered : s->b >> 16;
+    int32_t a = l->start + ((passes(m->s, l->from) + 0x8000) >> 16);
+    int32_t b = l->start + ((passes(m->s, l->to - 1) + 0x8000) >> 16);
+    int32_t most = m->s->upright ? m->a->stride : m->a->rows;
+    *low = clamp_i32(min_i32(a, b), 0, most);
+    *high = clamp_i32(max_i32(a, b) + 1, 0, most);
 }
 
-/* (256 sum + rest ends + uncovered still) / length, to nearest. */
-SMEAR_INLINE uint32_t mean(const struct smear_streak *k, uint32_t sum, uint32_t ends, uint32_t still, uint32_t uncovered,
-                           bool linear)
+/* Sums of steps [base, base + count) of a line. */
+static void gather_codes(const struct merge *m, const struct line *l, int32_t count)
 {
-    if (linear) {       /* 24 bits in q7 */
-        uint32_t q7 = sum * 128u + (ends * k->rest >> 1) + (still * uncovered >> 1);
-        return smear_srgb_encode[min_u32(mulh_u32(q7, k->over) >> 1, 4095u)];
-    }
-    uint32_t q8 = sum * 256u + ends * k->rest + still * uncovered;
-    return min_u32(mulh_u32((q8 << 2) + (k->length << 1), k->over), 255u);
-}
-
-/* Pixels left and right beyond the whole ones count in part. */
-SMEAR_INLINE uint32_t sums_pixel(const struct smear_streak *k, const struct sums *s, uint32_t left, uint32_t right,
-                                 uint32_t uncovered, uint32_t still, bool linear)
-{
-    struct channels c = s->c, ends, rest = channels_of(still, linear);
-    if (linear) {
-        struct channels l = channels_of(left, true), r = channels_of(right, true);
-        ends = (struct channels){ l.r + r.r, l.g + r.g, l.b + r.b };
-    } else {
-        uint32_t red_blue = (left & LANES) + (right & LANES);
-        c = (struct channels){ s->a >> 16, s->b & 0xffffu, s->a & 0xffffu };
-        ends = (struct channels){ red_blue >> 16, pixel_green(left) + pixel_green(right), red_blue & 0xffffu };
-    }
-    return pixel_make(0, mean(k, c.r, ends.r, rest.r, uncovered, linear), mean(k, c.g, ends.g, rest.g, uncovered, linear),
-                      mean(k, c.b, ends.b, rest.b, uncovered, linear));
-}
-
-/* Where a still surface lies within the group's depths: each pixel of the group against it. */
-static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct smear_streak *k, const struct smear_streak_area *a,
-                                              const struct line *l, int32_t i, uint32_t still, uint32_t still_depth)
-{
-    struct sums s = { 0, (2u * (uint32_t)k->half + 1u) << 16, { 0, 0, 0 }, 2u * (uint32_t)k->half + 1u };
-    uint32_t end[2] = { SMEAR_UNCOVERED, SMEAR_UNCOVERED };
-    int32_t from = max_i32(i - k->half - 1, l->from), to = min_i32(i + k->half + 2, l->to);
-    for (int32_t t = from; t < to; t++) {
-        int32_t at = a->offset[t];
-        if (l->depth[at] <= still_depth)
+    lanes sum = 0, *out = m->sums.codes;
+    const int32_t step = m->step, base = m->sums_base;
+    int32_t low, high, at = 0;
+    places_of(m, l, &low, &high);
+    for (int32_t k = 0; k < high - low; k++) {
+        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
+        if (!run_of(m, l, row, &first, &end))
             continue;
-        if (t == i - k->half - 1)
-            end[0] = l->in[at];
-        else if (t == i + k->half + 1)
-            end[1] = l->in[at];
-        else
-            sums_change(&s, l->in[at], SMEAR_UNCOVERED, a->linear);
-    }
-    uint32_t uncovered = (sums_uncovered(&s, a->linear) << 8) + ((end[0] >> 24) + (end[1] >> 24)) * k->rest;
-    return uncovered == k->length ? still : sums_pixel(k, &s, end[0], end[1], uncovered, still, a->linear);
-}
-
-/* Steps [first, end) of a line: `enters`, what comes into the sum may be drawn; `leaves`, what goes. */
-SMEAR_INLINE void slide(const struct smear_streak *k, const struct smear_streak_area *a, const struct line *l,
-                        struct sums *s, uint32_t *last, int32_t first, int32_t end, bool enters, bool leaves, bool linear)
-{
-    const int32_t *offset = a->offset;
-    const uint32_t all = 2u * (uint32_t)k->half + 1u;
-    uint32_t left = *last;
-    for (int32_t i = first; i < end; i++) {
-        uint32_t right = enters ? l->in[offset[i + k->half + 1]] : SMEAR_UNCOVERED;
-        uint32_t uncovered = sums_uncovered(s, linear);
-        if (uncovered != all || ((left & right) >> 24) == 0) {
-            int32_t at = a->still_offset[i];
-            uint32_t still_depth = l->still_depth[at];
-            if (still_depth < a->farthest) {
-                uncovered = (uncovered << 8) + ((left >> 24) + (right >> 24)) * k->rest;
-                l->still[at] = sums_pixel(k, s, left, right, uncovered, l->still[at], linear);
-            } else if (still_depth < a->nearest) {
-                l->still[at] = pixel_by_depth(k, a, l, i, l->still[at], still_depth);
-            }
+        for (; at < first - base; at++)
+            out[at] = sum;
+        const uint32_t *in = m->a->color + row * m->side + first * step;
+        for (; at < end - base; at++, in += step) {
+            out[at] = sum;
+            sum += lanes_of(*in) ^ (lanes)0xff << 48;
         }
-        left = leaves ? l->in[offset[i - k->half]] : SMEAR_UNCOVERED;
-        sums_change(s, right, left, linear);
     }
-    *last = left;
+    for (; at < count; at++)
+        out[at] = sum;
 }
 
-static inline uint32_t pixel_at(const struct smear_streak_area *a, const struct line *l, int32_t i)
+static void gather_light(const struct merge *m, const struct line *l, int32_t count)
 {
-    return i >= l->from && i < l->to ? l->in[a->offset[i]] : SMEAR_UNCOVERED;
+    struct light sum = { 0, 0, 0, 0 }, *out = m->sums.light;
+    int32_t low, high, at = 0;
+    places_of(m, l, &low, &high);
+    for (int32_t k = 0; k < high - low; k++) {
+        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
+        if (!run_of(m, l, row, &first, &end))
+            continue;
+        for (; at < first - m->sums_base; at++)
+            out[at] = sum;
+        const uint32_t *in = m->a->color + row * m->side + first * m->step;
+        for (; at < end - m->sums_base; at++, in += m->step) {
+            out[at] = sum;
+            if (*in >> 24 != 0)
+                continue;
+            struct light p = light_of(*in);
+            sum = (struct light){ sum.r + p.r, sum.g + p.g, sum.b + p.b, sum.a + p.a };
+        }
+    }
+    for (; at < count; at++)
+        out[at] = sum;
 }
 
-SMEAR_INLINE void merge_line(const struct smear_streak *k, const struct smear_streak_area *a, const struct line *l,
-                             bool linear)
+/* ------------------------------------------------------------------ means */
+
+/* To nearest; equal codes keep theirs. */
+static inline uint32_t mean_pair(uint32_t weighed, uint32_t over)
 {
-    struct sums s = { 0, 0, { 0, 0, 0 }, 0 };
-    for (int32_t i = l->first - k->half; i <= l->first + k->half; i++)
-        sums_change(&s, pixel_at(a, l, i), 0, linear);
-    uint32_t last = pixel_at(a, l, l->first - k->half - 1);
-    /* What enters is drawn up to `in`, what leaves from `out` on. */
-    int32_t in = clamp_i32(l->to - k->half - 1, l->first, l->end), out = clamp_i32(l->from + k->half, l->first, l->end);
-    int32_t begin = clamp_i32(l->from - k->half - 1, l->first, l->end);
-    slide(k, a, l, &s, &last, l->first, begin, false, false, linear);
-    slide(k, a, l, &s, &last, begin, min_i32(in, out), true, false, linear);
-    if (in > out)
-        slide(k, a, l, &s, &last, out, in, true, true, linear);
-    else
-        slide(k, a, l, &s, &last, in, out, false, false, linear);
-    int32_t empty = clamp_i32(l->to + k->half, max_i32(in, out), l->end);
-    slide(k, a, l, &s, &last, max_i32(in, out), empty, false, true, linear);
-    slide(k, a, l, &s, &last, empty, l->end, false, false, linear);
+    return ((weighed >> 16) * over >> 6 & 0xff0000u) | (weighed & 0xffffu) * over >> 22;
+}
+
+static inline lanes mean_codes(const struct smear_streak *s, const lanes *left, const lanes *right, lanes half)
+{
+    lanes w = lanes_times(right[0] - left[0], s->inner) + lanes_times(right[1] - left[-1], s->rest) + half;
+    return (lanes)mean_pair((uint32_t)(w >> 32), s->over) << 32 | mean_pair((uint32_t)w, s->over);
+}
+
+/* Nodes of the line at steps first, first + n ..., to the places across above and below it. */
+static void means_codes(const struct merge *m, const struct line *l, int32_t first, int32_t end)
+{
+    const struct smear_streak s = *m->s;
+    const lanes half = (s.length >> 1) * 0x0001000100010001u;
+    const lanes *left = m->sums.codes + (first - s.half - m->sums_base), *right = left + (2 * s.half + 1);
+    const int32_t n = 1 << s.node;
+    int32_t at = (first - m->first) >> s.node, place = (l->start - m->low) * 65536 + passes(&s, first);
+    for (int32_t i = first; i < end; i += n, left += n, right += n, at++, place += s.slope * n) {
+        lanes mean = mean_codes(&s, left, right, half), *out = m->node.codes + (place >> 16) * m->nodes + at;
+        uint32_t part = (uint32_t)place >> 8 & 255u;
+        if (place >= 0)
+            out[0] += lanes_times(mean, 256u - part);
+        if (part != 0 && place >> 16 < m->high - m->low - 1)
+            out[m->nodes] += lanes_times(mean, part);
+    }
+}
+
+static inline uint32_t mean_light(const struct smear_streak *s, uint32_t a, uint32_t b, uint32_t a1, uint32_t b1)
+{
+    return mulh_u32((b - a) * s->inner + (b1 - a1) * s->rest, s->over << 10);
+}
+
+static inline void light_add(struct light *to, const struct light *l, uint32_t part)
+{
+    to->r += l->r * part;
+    to->g += l->g * part;
+    to->b += l->b * part;
+    to->a += l->a * part;
+}
+
+static void means_light(const struct merge *m, const struct line *l, int32_t first, int32_t end)
+{
+    const struct smear_streak *s = m->s;
+    const int32_t n = 1 << s->node;
+    for (int32_t i = first; i < end; i += n) {
+        const struct light *p = m->sums.light + (i - s->half - m->sums_base), *q = p + 2 * s->half + 1;
+        struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r), mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
+                              mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b), mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
+        int32_t place = (l->start - m->low) * 65536 + passes(s, i);
+        struct light *out = m->node.light + (place >> 16) * m->nodes + ((i - m->first) >> s->node);
+        uint32_t part = (uint32_t)place >> 8 & 255u;
+        if (place >= 0)
+            light_add(out, &mean, 256u - part);
+        if (part != 0 && place >> 16 < m->high - m->low - 1)
+            light_add(out + m->nodes, &mean, part);
+    }
+}
+
+/* ------------------------------------------------------------------ lines, all of them */
+
+static void add_line(const struct merge *base, int32_t start)
+{
+    struct merge m = *base;
+    const struct smear_streak *s = m.s;
+    const int32_t n = 1 << s->node;
+    /* Nodes that pass by a place. */
+    int32_t first = m.first, end = m.first + ((m.nodes - 1) << s->node) + 1;
+    steps_within(s, start, m.low - 1, m.high, 0, &first, &end);
+    first = (first + n - 1) & -n;
+    if (first >= end)
+        return;
+    struct line l = { start, max_i32(first - s->half - 1, s->upright ? 0 : m.a->x0),
+                      min_i32(end + s->half + 1, s->upright ? m.a->rows : m.a->x1) };
+    /* What is drawn there. */
+    int32_t low, high, from = INT32_MAX, to = INT32_MIN;
+    if (l.from >= l.to)
+        return;
+    places_of(&m, &l, &low, &high);
+    for (int32_t row = low; row < high; row++) {
+        int32_t a, b;
+        if (run_of(&m, &l, row, &a, &b)) {
+            from = min_i32(from, a);
+            to = max_i32(to, b);
+        }
+    }
+    if (from >= to)
+        return;
+    l.from = from;
+    l.to = to;
+    first = max_i32(first, (from - s->half - 1 + n - 1) & -n);
+    end = min_i32(end, to + s->half + 1);
+    if (first >= end)
+        return;
+    m.sums_base = first - s->half - 1;
+    int32_t count = end - first + 2 * s->half + 3;
+    if (m.a->linear) {
+        gather_light(&m, &l, count);
+        means_light(&m, &l, first, end);
+    } else {
+        gather_codes(&m, &l, count);
+        means_codes(&m, &l, first, end);
+    }
+}
+
+/* ------------------------------------------------------------------ finishing */
+
+/* Over a still pixel, by coverage. */
+static inline uint32_t codes_over(lanes m, uint32_t still)
+{
+    uint32_t rest = 255u - (uint32_t)(m >> 48);
+    rest += rest >> 7;
+    return lanes_pixel(m + ((lanes_times(lanes_of(still), rest) + halves) >> 8 & codes));
+}
+
+/* Channels and coverage q16. */
+static inline uint32_t light_over(const struct light *m, uint32_t still)
+{
+    uint32_t rest = (65536u - m->a) >> 1;
+    uint32_t r = m->r + (smear_srgb_decode[pixel_red(still)] * rest >> 15);
+    uint32_t g = m->g + (smear_srgb_decode[pixel_green(still)] * rest >> 15);
+    uint32_t b = m->b + (smear_srgb_decode[pixel_blue(still)] * rest >> 15);
+    return pixel_make(0, smear_srgb_encode[min_u32(r >> 4, 4095u)], smear_srgb_encode[min_u32(g >> 4, 4095u)],
+                      smear_srgb_encode[min_u32(b >> 4, 4095u)]);
+}
+
+/* Where a still surface lies within the group's depths: each pixel of the group against it. x, y: in the group's planes. */
+static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct merge *m, int32_t x, int32_t y, uint32_t still,
+                                              uint32_t still_depth)
+{
+    const struct smear_streak *s = m->s;
+    struct light light = { 0, 0, 0, 0 };
+    lanes sum = 0;
+    for (int32_t t = -s->half - 1; t <= s->half + 1; t++) {
+        int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
+        if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+            continue;
+        int32_t at = py * m->a->stride + px;
+        if (m->a->depth[at] <= still_depth)
+            continue;
+        uint32_t weight = abs_i32(t) > s->half ? s->rest : s->inner + s->rest;
+        if (m->a->linear) {
+            struct light p = light_of(m->a->color[at]);
+            light_add(&light, &p, weight);
+        } else {
+            sum += lanes_times(lanes_of(m->a->color[at]) | (lanes)0xff << 48, weight);
+        }
+    }
+    if (!m->a->linear) {
+        sum += (s->length >> 1) * 0x0001000100010001u;
+        return codes_over((lanes)mean_pair((uint32_t)(sum >> 32), s->over) << 32 | mean_pair((uint32_t)sum, s->over), still);
+    }
+    light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
+                            mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
+    return light_over(&light, still);
+}
+
+/* A pixel between two nodes of its place; `part` of 4 from the one to the other. */
+SMEAR_INLINE void finish_codes(const struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still, uint32_t still_depth)
+{
+    if (mean >> 48 == 0)
+        return;
+    if (still_depth < m->a->farthest)
+        *still = codes_over(mean, *still);
+    else if (still_depth < m->a->nearest)
+        *still = pixel_by_depth(m, x, y, *still, still_depth);
+}
+
+SMEAR_INLINE lanes codes_between(lanes a, lanes b, uint32_t part, int32_t node)
+{
+    if (node == 0)
+        return a;
+    const uint32_t n = 1u << node;
+    return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node & codes;
+}
+
+static inline lanes node_codes(lanes node)
+{
+    return (node + halves) >> 8 & codes;
+}
+
+static void finish_light(const struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x,
+                         int32_t y, uint32_t *still, uint32_t still_depth)
+{
+    const uint32_t n = 1u << m->s->node, b = (uint32_t)part, a = n - b;
+    const int down = 8 + m->s->node;
+    struct light mean = { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
+                          (p->a * a + q->a * b) >> down };
+    mean.a += mean.a >> 15;
+    if (mean.a == 0)
+        return;
+    if (still_depth < m->a->farthest)
+        *still = light_over(&mean, *still);
+    else if (still_depth < m->a->nearest)
+        *still = pixel_by_depth(m, x, y, *still, still_depth);
+}
+
+/* Rows whose nodes lie along them. */
+static void finish_along(const struct merge *m)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t node = m->s->node, n = 1 << node, first = max_i32(m->first, a->left + a->margin);
+    for (int32_t y = m->low; y < m->high; y++) {
+        int32_t row = (y - a->top) * a->still_stride - a->margin;
+        const lanes *c = m->node.codes + (y - m->low) * m->nodes;
+        const struct light *l = m->node.light + (y - m->low) * m->nodes;
+        if (a->linear) {
+            for (int32_t x = first; x < m->end; x++) {
+                int32_t k = (x - m->first) >> node;
+                finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & (n - 1), x, y, a->still + (row + x),
+                             a->still_depth[row + x]);
+            }
+            continue;
+        }
+        lanes here = node_codes(c[0]);
+        for (int32_t begin = m->first; begin < m->end; begin += n) {
+            lanes next = node == 0 && begin + n >= m->end ? 0 : node_codes(*++c);
+            if (((here | next) >> 48) != 0) {
+                uint32_t *still = a->still + row;
+                const uint16_t *depth = a->still_depth + row;
+                int32_t end = min_i32(begin + n, m->end);
+                for (int32_t x = max_i32(begin, first); x < end; x++)
+                    finish_codes(m, codes_between(here, next, (uint32_t)(x - begin), node), x, y, still + x, depth[x]);
+            }
+            here = next;
+        }
+    }
+}
+
+/* Rows across the lines. */
+static void finish_across(const struct merge *m)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t node = m->s->node;
+    for (int32_t y = a->top; y < a->top + a->height; y++) {
+        int32_t row = (y - a->top) * a->still_stride - a->margin, k = (y - m->first) >> node;
+        int32_t next = min_i32(k + 1, m->nodes - 1) - k, part = (y - m->first) & ((1 << node) - 1);
+        for (int32_t x = m->low; x < m->high; x++) {
+            int32_t at = (x - m->low) * m->nodes + k;
+            if (a->linear)
+                finish_light(m, &m->node.light[at], &m->node.light[at + next], part, x, y, a->still + (row + x),
+                             a->still_depth[row + x]);
+            else
+                finish_codes(m, codes_between(node_codes(m->node.codes[at]), node_codes(m->node.codes[at + next]),
+                                              (uint32_t)part, node), x, y, a->still + (row + x), a->still_depth[row + x]);
+        }
+    }
 }
 
 /* ------------------------------------------------------------------ the area */
 
+/* Steps [first, end) and places [low, high) across. */
+static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low, int32_t high)
+{
+    const struct smear_streak *s = m->s;
+    m->first = first & -(1 << s->node);
+    m->end = end;
+    m->low = low;
+    m->high = high;
+    m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
+    for (int32_t i = 0; i < m->nodes * (high - low); i++) {
+        if (m->a->linear)
+            m->node.light[i] = (struct light){ 0, 0, 0, 0 };
+        else
+            m->node.codes[i] = 0;
+    }
+    int32_t last = m->first + ((m->nodes - 1) << s->node);
+    int32_t place0 = passes(s, m->first) >> 16, place1 = passes(s, last) >> 16;
+    for (int32_t start = low - 1 - max_i32(place0, place1); start < high - min_i32(place0, place1); start++)
+        add_line(m, start);
+    if (s->upright)
+        finish_across(m);
+    else
+        finish_along(m);
+}
+
 uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *a)
 {
-    /* Steps and places across that are finished; and drawn. */
-    int32_t first = a->left + a->margin, end = a->right + a->margin, low = a->top, high = a->top + a->height;
-    struct line l = { .from = a->x0, .to = a->x1 };
-    if (s->upright) {
-        int32_t swap = first;
-        first = low;
-        low = swap;
-        swap = end;
-        end = high;
-        high = swap;
-        l.from = 0;
-        l.to = a->rows;
-        low = max_i32(low, a->x0 - s->reach_x);
-        high = min_i32(high, a->x1 + s->reach_x);
-    } else {
-        first = max_i32(first, a->x0 - s->reach_x);
-        end = min_i32(end, a->x1 + s->reach_x);
+    int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
+    int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
+    struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride };
+    const int32_t room = a->linear ? NODES / 2 : NODES;
+    m.node.codes = a->work;
+    m.sums.codes = m.node.codes + NODES;
+    if (a->linear) {
+        m.node.light = a->work;
+        m.sums.light = m.node.light + NODES / 2;
     }
-    if (first >= end || low >= high)
+    if (left >= right)
         return 0;
-    int32_t stray0 = stray(s, first), stray1 = stray(s, end - 1);
-    for (int32_t start = low - max_i32(stray0, stray1); start < high - min_i32(stray0, stray1); start++) {
-        l.first = first;
-        l.end = end;
-        if (s->slope > 0) {
-            l.first = max_i32(first, step_to(s, low - start));
-            l.end = min_i32(end, step_to(s, high - start));
-        } else if (s->slope < 0) {
-            l.first = max_i32(first, step_to(s, high - 1 - start));
-            l.end = min_i32(end, step_to(s, low - 1 - start));
-        }
-        if (l.first >= l.end)
-            continue;
-        int32_t in = s->upright ? start : start * a->stride;
-        int32_t out = s->upright ? start - a->margin - a->top * a->still_stride
-                                 : (start - a->top) * a->still_stride - a->margin;
-        l.in = a->color + in;
-        l.depth = a->depth + in;
-        l.still = a->still + out;
-        l.still_depth = a->still_depth + out;
-        if (a->linear)
-            merge_line(s, a, &l, true);
-        else
-            merge_line(s, a, &l, false);
+    if (s->upright) {
+        int32_t nodes = ((bottom - top) >> s->node) + 2, part = room / nodes;
+        for (int32_t x = left; x < right; x += part)
+            merge_part(&m, top, bottom, x, min_i32(x + part, right));
+    } else {
+        int32_t steps = (a->linear ? STEPS_MAX / 2 : STEPS_MAX) - 2 * s->half - 8;
+        int32_t part = min_i32(((room / (bottom - top)) - 2) << s->node, steps) & -16;
+        for (int32_t x = left & -16; x < right; x += part)
+            merge_part(&m, max_i32(x, left), min_i32(x + part, right), top, bottom);
     }
-    return (uint32_t)((end - first) * (high - low));
+    return (uint32_t)((right - left) * (bottom - top));
 }

@@ -4,46 +4,50 @@
 #ifndef SMEAR_OBJECT_H
 #define SMEAR_OBJECT_H
 
-#include "fixed.h"
+#include "layer.h"
 
-/* A velocity as lines of pixels along it, one pixel per step of its longer axis: a sum that slides along a line gives
+/* A velocity as lines of pixels along it, one pixel per step of its longer axis. A difference of two sums along a line is
  * the mean around each of its pixels, whatever the length. */
 struct smear_streak {
     bool upright;               /* steps go down, not right */
     int32_t slope;              /* of the other axis, q16, within -1 .. 1 */
-    int32_t half;               /* whole pixels on both sides of the middle one, at most SMEAR_STREAK_HALF */
-    uint32_t rest;              /* share of the ones beyond, q8 */
-    uint32_t length;            /* q8 px */
-    uint32_t over;              /* 2^30 / length, rounded up */
+    int32_t half;               /* whole pixels on both sides of the middle one */
+    uint32_t inner, rest;       /* weights: of a whole pixel, 2^n, less that of the ones beyond; and of those */
+    uint32_t length;            /* sum of the weights, 128 .. 256 */
+    uint32_t over;              /* 2^22 / length, rounded up */
+    int32_t node;               /* log2 of steps from one mean that is taken to the next; between them they are mixed */
     int32_t reach_x, reach_y;   /* px from a pixel to the farthest that its mean takes */
 };
 
-/* Sums of codes fit 16 bits. */
-enum { SMEAR_STREAK_HALF = 127 };
+/* Longest streak: half of it, px. */
+static inline int32_t streak_half_max(int32_t width)
+{
+    return clamp_i32(width >> 2, 16, 120);
+}
 
-/* Of a displacement in q8 px; what is too long, or reaches more than `reach` rows up and down, is shortened. */
-void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t reach);
+/* Of a displacement in q8 px; what is longer than `half_max` on both sides, or reaches more than `reach` rows up and down, is
+ * shortened. */
+void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t half_max, int32_t reach);
 
 /* Where a streak is merged. */
 struct smear_streak_area {
-    const uint32_t *color;      /* rows of the group (layer.h): columns [x0, x1) are drawn, nothing lies beyond */
+    const uint32_t *color;      /* rows of the group (layer.h): columns [x0, x1) are drawn */
     const uint16_t *depth;
     int32_t stride, x0, x1, rows;
+    const int16_t *row_first, *row_end;     /* in each row: what is drawn lies within */
     int32_t top;                /* which of them is the first to be finished */
     int32_t margin;             /* and which column is the frame's first */
     uint32_t *still;            /* first pixel of the frame's row to be finished */
-    const uint16_t *still_depth;
+    uint16_t *still_depth;
     int32_t still_stride;
-    int32_t left, right, height;        /* columns and rows of the frame to be finished */
+    int32_t left, right, height;            /* columns and rows of the frame to be finished */
     uint16_t nearest, farthest; /* depth codes the group keeps to */
-    const int32_t *offset, *still_offset;
+    void *work;                 /* smear_streak_work() */
     bool linear;
 };
 
-/* Fills the tables of an area: `offset` of every step along a line, from its start, and `still_offset` in the still
- * rows; as many as there are columns, or rows. */
-void smear_streak_tables(const struct smear_streak *s, const struct smear_streak_area *a, int32_t *offset,
-                         int32_t *still_offset);
+/* Bytes of work memory per worker for tiles of this edge. */
+size_t smear_streak_work(int32_t tile);
 
 /* Merges. Returns the pixels it went over. */
 uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *a);

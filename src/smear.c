@@ -4,6 +4,7 @@
 
 #include "arena.h"
 #include "convert.h"
+#include "object.h"
 
 /* ------------------------------------------------------------------ desc */
 
@@ -104,11 +105,13 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         struct smear_layer_rows *r = &c->layers.rows;
         *r = (struct smear_layer_rows){ .margin = d->reach, .width = d->width + 2 * d->reach,
                                         .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
-        size_t layer = (size_t)r->width * (size_t)r->rows, steps = (size_t)max_i32(r->width, r->rows);
+        size_t layer = (size_t)r->width * (size_t)r->rows;
         r->color = arena_take(a, layer, 4);
         r->depth = arena_take(a, layer, 2);
-        r->offset = arena_take(a, steps, sizeof *r->offset);
-        r->still_offset = arena_take(a, steps, sizeof *r->still_offset);
+        r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
+        r->row_end = arena_take(a, (size_t)r->rows, sizeof *r->row_end);
+        r->work_bytes = (uint32_t)smear_streak_work(d->tile);
+        r->work = arena_take(a, d->workers, r->work_bytes);
         c->layers.group_of = arena_take(a, d->max_draws, sizeof *c->layers.group_of);
         c->layers.group = arena_take(a, d->max_draws, sizeof *c->layers.group);
         c->layers.order = arena_take(a, d->max_draws, sizeof *c->layers.order);
