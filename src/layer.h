@@ -31,6 +31,7 @@ struct smear_layer_rows {
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
     int16_t *row_first, *row_end;       /* in each row: what is drawn lies within */
+    int16_t *edge;                      /* object.h */
     void *work;                         /* work_bytes per worker: object.h */
     uint32_t work_bytes;
 };

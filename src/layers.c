@@ -220,6 +220,11 @@ static void find_drawn(const struct smear_layer_rows *rows, const struct smear_r
     for (int32_t y = 0; y < t->y1 - t->y0; y++) {
         const uint16_t *depth = rows->depth + y * rows->width;
         int32_t first = t->x0, end = t->x1;
+        uint64_t four = 0;
+        while (end - first >= 4 && (__builtin_memcpy(&four, depth + first, 8), four == 0))
+            first += 4;
+        while (end - first >= 4 && (__builtin_memcpy(&four, depth + end - 4, 8), four == 0))
+            end -= 4;
         while (first < end && depth[first] == 0)
             first++;
         while (end > first && depth[end - 1] == 0)
@@ -269,7 +274,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
         .nearest = group->nearest, .farthest = group->farthest,
         .linear = c->raster.linear,
-        .row_first = rows->row_first, .row_end = rows->row_end, .work = rows->work
+        .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down look beyond the drawn columns. */
@@ -283,6 +288,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->frame = c->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
+    smear_streak_edges(s, rows->edge, s->upright ? r->area.rows : rows->width);
     struct smear_triangle *tail = geometry_triangle(&c->geometry, group->tail);
     uint32_t after = tail->next;
     tail->next = SMEAR_NO_TRIANGLE;

@@ -58,6 +58,18 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->reach_y = s->upright ? s->half + 1 : across;
 }
 
+void smear_streak_edges(const struct smear_streak *s, int16_t *edge, int32_t steps)
+{
+    int32_t n = 0, last = 0;
+    edge[n++] = 0;
+    for (int32_t i = 0, at = 0x8000; i < steps; i++, at += s->slope)
+        if (at >> 16 != last) {
+            last = at >> 16;
+            edge[n++] = (int16_t)i;
+        }
+    edge[n] = (int16_t)steps;
+}
+
 /* The place across at which a line from 0 passes after i steps, q16. */
 static inline int32_t passes(const struct smear_streak *s, int32_t i)
 {
@@ -161,12 +173,12 @@ struct line {
     int32_t from, to;
 };
 
-/* The steps at which a line runs along place `row` across; what is drawn there, if any. */
-static bool run_of(const struct merge *m, const struct line *l, int32_t row, int32_t *first, int32_t *end)
+/* The steps at which a line runs along place `row` across, of those it runs along; what is drawn there, if any. */
+static inline bool run_of(const struct merge *m, const struct line *l, int32_t row, int32_t *first, int32_t *end)
 {
-    *first = l->from;
-    *end = l->to;
-    steps_within(m->s, l->start, row, row + 1, 0x8000, first, end);
+    int32_t k = m->s->slope < 0 ? l->start - row : row - l->start;
+    *first = max_i32(m->a->edge[k], l->from);
+    *end = min_i32(m->a->edge[k + 1], l->to);
     if (!m->s->upright) {
         *first = max_i32(*first, m->a->row_first[row]);
         *end = min_i32(*end, m->a->row_end[row]);
@@ -184,27 +196,34 @@ static void places_of(const struct merge *m, const struct line *l, int32_t *low,
     *high = clamp_i32(max_i32(a, b) + 1, 0, most);
 }
 
+static inline lanes *fill(lanes *out, const lanes *end, lanes value)
+{
+    for (; out + 4 <= end; out += 4)
+        out[0] = out[1] = out[2] = out[3] = value;
+    while (out < end)
+        *out++ = value;
+    return out;
+}
+
 /* Sums of steps [base, base + count) of a line. */
 static void gather_codes(const struct merge *m, const struct line *l, int32_t count)
 {
-    lanes sum = 0, *out = m->sums.codes;
-    const int32_t step = m->step, base = m->sums_base;
-    int32_t low, high, at = 0;
+    lanes sum = 0, *out = m->sums.codes, *const zero = out - m->sums_base;
+    const int32_t step = m->step;
+    int32_t low, high;
     places_of(m, l, &low, &high);
     for (int32_t k = 0; k < high - low; k++) {
         int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
         if (!run_of(m, l, row, &first, &end))
             continue;
-        for (; at < first - base; at++)
-            out[at] = sum;
+        out = fill(out, zero + first, sum);
         const uint32_t *in = m->a->color + row * m->side + first * step;
-        for (; at < end - base; at++, in += step) {
-            out[at] = sum;
+        for (lanes *const stop = zero + end; out < stop; in += step) {
+            *out++ = sum;
             sum += lanes_of(*in) ^ (lanes)0xff << 48;
         }
     }
-    for (; at < count; at++)
-        out[at] = sum;
+    fill(out, m->sums.codes + count, sum);
 }
 
 static void gather_light(const struct merge *m, const struct line *l, int32_t count)
@@ -392,8 +411,9 @@ static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct merge *m, int32_t x, 
     return light_over(&light, still);
 }
 
-/* A pixel between two nodes of its place; `part` of 4 from the one to the other. */
-SMEAR_INLINE void finish_codes(const struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still, uint32_t still_depth)
+/* A pixel of the frame, and its place in the group's planes. */
+static inline void finish_codes(const struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still,
+                                uint32_t still_depth)
 {
     if (mean >> 48 == 0)
         return;
@@ -403,10 +423,8 @@ SMEAR_INLINE void finish_codes(const struct merge *m, lanes mean, int32_t x, int
         *still = pixel_by_depth(m, x, y, *still, still_depth);
 }
 
-SMEAR_INLINE lanes codes_between(lanes a, lanes b, uint32_t part, int32_t node)
+static inline lanes codes_between(lanes a, lanes b, uint32_t part, int32_t node)
 {
-    if (node == 0)
-        return a;
     const uint32_t n = 1u << node;
     return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node & codes;
 }
@@ -432,35 +450,65 @@ static void finish_light(const struct merge *m, const struct light *p, const str
         *still = pixel_by_depth(m, x, y, *still, still_depth);
 }
 
+static void along_light(const struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth)
+{
+    const int32_t node = m->s->node, first = max_i32(m->first, m->a->left + m->a->margin);
+    const struct light *l = m->node.light + (y - m->low) * m->nodes;
+    for (int32_t x = first; x < m->end; x++) {
+        int32_t k = (x - m->first) >> node;
+        finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, still + x,
+                     depth[x]);
+    }
+}
+
+/* The pixels from one node to the next. */
+SMEAR_INLINE void between_codes(const struct merge *m, lanes here, lanes next, int32_t x, int32_t end, int32_t y,
+                                uint32_t *still, const uint16_t *depth, int32_t node)
+{
+    const uint32_t farthest = m->a->farthest;
+    lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
+    for (; x < end; x++, sum += next - here) {
+        lanes mean = sum >> node & codes;
+        uint32_t d = depth[x];
+        if (d < farthest)
+            still[x] = codes_over(mean, still[x]);
+        else
+            finish_codes(m, mean, x, y, still + x, d);
+    }
+}
+
+SMEAR_INLINE void along_codes(const struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth, int32_t node)
+{
+    const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
+    const lanes *c = m->node.codes + (y - m->low) * m->nodes;
+    lanes here = node_codes(*c);
+    for (int32_t x = m->first; x < end; x += n) {
+        lanes next = node == 0 && x + n >= end ? 0 : node_codes(*++c);
+        if (((here | next) >> 48) != 0) {
+            if (x >= left && x + n <= end)
+                between_codes(m, here, next, x, x + n, y, still, depth, node);
+            else    /* the nodes before the frame's first pixel and after its last */
+                for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
+                    finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, still + i, depth[i]);
+        }
+        here = next;
+    }
+}
+
 /* Rows whose nodes lie along them. */
 static void finish_along(const struct merge *m)
 {
     const struct smear_streak_area *a = m->a;
-    const int32_t node = m->s->node, n = 1 << node, first = max_i32(m->first, a->left + a->margin);
     for (int32_t y = m->low; y < m->high; y++) {
         int32_t row = (y - a->top) * a->still_stride - a->margin;
-        const lanes *c = m->node.codes + (y - m->low) * m->nodes;
-        const struct light *l = m->node.light + (y - m->low) * m->nodes;
-        if (a->linear) {
-            for (int32_t x = first; x < m->end; x++) {
-                int32_t k = (x - m->first) >> node;
-                finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & (n - 1), x, y, a->still + (row + x),
-                             a->still_depth[row + x]);
-            }
-            continue;
-        }
-        lanes here = node_codes(c[0]);
-        for (int32_t begin = m->first; begin < m->end; begin += n) {
-            lanes next = node == 0 && begin + n >= m->end ? 0 : node_codes(*++c);
-            if (((here | next) >> 48) != 0) {
-                uint32_t *still = a->still + row;
-                const uint16_t *depth = a->still_depth + row;
-                int32_t end = min_i32(begin + n, m->end);
-                for (int32_t x = max_i32(begin, first); x < end; x++)
-                    finish_codes(m, codes_between(here, next, (uint32_t)(x - begin), node), x, y, still + x, depth[x]);
-            }
-            here = next;
-        }
+        if (a->linear)
+            along_light(m, y, a->still + row, a->still_depth + row);
+        else if (m->s->node == 2)
+            along_codes(m, y, a->still + row, a->still_depth + row, 2);
+        else if (m->s->node == 1)
+            along_codes(m, y, a->still + row, a->still_depth + row, 1);
+        else
+            along_codes(m, y, a->still + row, a->still_depth + row, 0);
     }
 }
 

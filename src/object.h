@@ -42,12 +42,16 @@ struct smear_streak_area {
     int32_t still_stride;
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     uint16_t nearest, farthest; /* depth codes the group keeps to */
+    const int16_t *edge;        /* smear_streak_edges() */
     void *work;                 /* smear_streak_work() */
     bool linear;
 };
 
 /* Bytes of work memory per worker for tiles of this edge. */
 size_t smear_streak_work(int32_t tile);
+
+/* The first steps at which a line from 0 runs along another place across, one after the other; up to `steps` and one more. */
+void smear_streak_edges(const struct smear_streak *s, int16_t *edge, int32_t steps);
 
 /* Merges. Returns the pixels it went over. */
 uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *a);

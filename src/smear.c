@@ -110,6 +110,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         r->depth = arena_take(a, layer, 2);
         r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
         r->row_end = arena_take(a, (size_t)r->rows, sizeof *r->row_end);
+        r->edge = arena_take(a, (size_t)max_i32(r->width, r->rows) + 2u, sizeof *r->edge);
         r->work_bytes = (uint32_t)smear_streak_work(d->tile);
         r->work = arena_take(a, d->workers, r->work_bytes);
         c->layers.group_of = arena_take(a, d->max_draws, sizeof *c->layers.group_of);
