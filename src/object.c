@@ -149,9 +149,12 @@ struct merge {
     int32_t low, high;          /* places across */
     int32_t first, end;         /* steps; the first is a node */
     int32_t nodes;              /* along */
+    int32_t along, across;      /* from a node to the next along, and to the next place across */
+    uint16_t nearest, farthest; /* depth codes that are drawn */
+    bool has_range;             /* those; else what the group keeps to */
     int32_t step, side;         /* from a step or place across to the next in the group's planes */
     union {
-        lanes *codes;           /* `nodes` for each place across */
+        lanes *codes;
         struct light *light;
     } node;
     union {
@@ -252,16 +255,13 @@ static void gather_light(const struct merge *m, const struct line *l, int32_t co
 
 /* ------------------------------------------------------------------ means */
 
-/* To nearest; equal codes keep theirs. */
-static inline uint32_t mean_pair(uint32_t weighed, uint32_t over)
+/* A weighed sum over all weights, to nearest when half of them was added; equal codes keep theirs. Two lanes at a time:
+ * their products have 31 bits. */
+static inline lanes mean_codes(lanes weighed, uint32_t over)
 {
-    return ((weighed >> 16) * over >> 6 & 0xff0000u) | (weighed & 0xffffu) * over >> 22;
-}
-
-static inline lanes mean_codes(const struct smear_streak *s, const lanes *left, const lanes *right, lanes half)
-{
-    lanes w = lanes_times(right[0] - left[0], s->inner) + lanes_times(right[1] - left[-1], s->rest) + half;
-    return (lanes)mean_pair((uint32_t)(w >> 32), s->over) << 32 | mean_pair((uint32_t)w, s->over);
+    const lanes every_other = 0x0000ffff0000ffff, code = 0x000000ff000000ff;
+    return (lanes_times(weighed & every_other, over) >> 22 & code)
+         | (lanes_times(weighed >> 16 & every_other, over) >> 22 & code) << 16;
 }
 
 /* Nodes of the line at steps first, first + n ..., to the places across above and below it. */
@@ -271,14 +271,18 @@ static void means_codes(const struct merge *m, const struct line *l, int32_t fir
     const lanes half = (s.length >> 1) * 0x0001000100010001u;
     const lanes *left = m->sums.codes + (first - s.half - m->sums_base), *right = left + (2 * s.half + 1);
     const int32_t n = 1 << s.node;
-    int32_t at = (first - m->first) >> s.node, place = (l->start - m->low) * 65536 + passes(&s, first);
-    for (int32_t i = first; i < end; i += n, left += n, right += n, at++, place += s.slope * n) {
-        lanes mean = mean_codes(&s, left, right, half), *out = m->node.codes + (place >> 16) * m->nodes + at;
+    const int32_t across = m->across, last = (m->high - m->low - 1) * 65536;
+    int32_t at = ((first - m->first) >> s.node) * m->along, place = (l->start - m->low) * 65536 + passes(&s, first);
+    for (int32_t i = first; i < end; i += n, left += n, right += n, at += m->along, place += s.slope * n) {
+        lanes w = lanes_times(right[0] - left[0], s.inner) + lanes_times(right[1] - left[-1], s.rest) + half;
+        lanes mean = mean_codes(w, s.over), *out = m->node.codes + (place >> 16) * across + at;
         uint32_t part = (uint32_t)place >> 8 & 255u;
+        if (mean >> 48 == 0)
+            continue;
         if (place >= 0)
             out[0] += lanes_times(mean, 256u - part);
-        if (part != 0 && place >> 16 < m->high - m->low - 1)
-            out[m->nodes] += lanes_times(mean, part);
+        if (part != 0 && place < last)
+            out[across] += lanes_times(mean, part);
     }
 }
 
@@ -304,12 +308,12 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
         struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r), mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
                               mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b), mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
         int32_t place = (l->start - m->low) * 65536 + passes(s, i);
-        struct light *out = m->node.light + (place >> 16) * m->nodes + ((i - m->first) >> s->node);
+        struct light *out = m->node.light + (place >> 16) * m->across + ((i - m->first) >> s->node) * m->along;
         uint32_t part = (uint32_t)place >> 8 & 255u;
         if (place >= 0)
             light_add(out, &mean, 256u - part);
         if (part != 0 && place >> 16 < m->high - m->low - 1)
-            light_add(out + m->nodes, &mean, part);
+            light_add(out + m->across, &mean, part);
     }
 }
 
@@ -328,20 +332,19 @@ static void add_line(const struct merge *base, int32_t start)
         return;
     struct line l = { start, max_i32(first - s->half - 1, s->upright ? 0 : m.a->x0),
                       min_i32(end + s->half + 1, s->upright ? m.a->rows : m.a->x1) };
-    /* What is drawn there. */
-    int32_t low, high, from = INT32_MAX, to = INT32_MIN;
+    /* What is drawn there: from the first of its runs to the last. */
+    int32_t low, high, from, to, none;
     if (l.from >= l.to)
         return;
     places_of(&m, &l, &low, &high);
-    for (int32_t row = low; row < high; row++) {
-        int32_t a, b;
-        if (run_of(&m, &l, row, &a, &b)) {
-            from = min_i32(from, a);
-            to = max_i32(to, b);
-        }
-    }
-    if (from >= to)
+    const int32_t turn = s->slope < 0 ? high - 1 : low, by = s->slope < 0 ? -1 : 1;
+    int32_t k = 0, last = high - low - 1;
+    while (k <= last && !run_of(&m, &l, turn + by * k, &from, &none))
+        k++;
+    if (k > last)
         return;
+    while (!run_of(&m, &l, turn + by * last, &none, &to))
+        last--;
     l.from = from;
     l.to = to;
     first = max_i32(first, (from - s->half - 1 + n - 1) & -n);
@@ -404,22 +407,41 @@ static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct merge *m, int32_t x, 
     }
     if (!m->a->linear) {
         sum += (s->length >> 1) * 0x0001000100010001u;
-        return codes_over((lanes)mean_pair((uint32_t)(sum >> 32), s->over) << 32 | mean_pair((uint32_t)sum, s->over), still);
+        return codes_over(mean_codes(sum, s->over), still);
     }
     light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
                             mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
     return light_over(&light, still);
 }
 
+/* What is drawn is nearer and thinner than all that the group has in the row. */
+static SMEAR_NOINLINE void find_range(struct merge *m)
+{
+    const struct smear_streak_area *a = m->a;
+    uint32_t low = UINT16_MAX, high = 0;
+    for (int32_t y = 0; y < a->rows; y++) {
+        const uint16_t *depth = a->depth + y * a->stride;
+        for (int32_t x = a->row_first[y]; x < a->row_end[y]; x++) {
+            uint32_t d = depth[x];
+            high = max_u32(high, d);
+            low = min_u32(low, d - 1u);         /* 0 is nothing */
+        }
+    }
+    m->has_range = true;
+    m->nearest = (uint16_t)min_u32(m->nearest, high);
+    m->farthest = (uint16_t)max_u32(m->farthest, low + 1u);
+}
+
 /* A pixel of the frame, and its place in the group's planes. */
-static inline void finish_codes(const struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still,
-                                uint32_t still_depth)
+static inline void finish_codes(struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still, uint32_t still_depth)
 {
     if (mean >> 48 == 0)
         return;
-    if (still_depth < m->a->farthest)
+    if (still_depth >= m->farthest && !m->has_range)
+        find_range(m);
+    if (still_depth < m->farthest)
         *still = codes_over(mean, *still);
-    else if (still_depth < m->a->nearest)
+    else if (still_depth < m->nearest)
         *still = pixel_by_depth(m, x, y, *still, still_depth);
 }
 
@@ -434,7 +456,7 @@ static inline lanes node_codes(lanes node)
     return (node + halves) >> 8 & codes;
 }
 
-static void finish_light(const struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x,
+static void finish_light(struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x,
                          int32_t y, uint32_t *still, uint32_t still_depth)
 {
     const uint32_t n = 1u << m->s->node, b = (uint32_t)part, a = n - b;
@@ -444,13 +466,15 @@ static void finish_light(const struct merge *m, const struct light *p, const str
     mean.a += mean.a >> 15;
     if (mean.a == 0)
         return;
-    if (still_depth < m->a->farthest)
+    if (still_depth >= m->farthest && !m->has_range)
+        find_range(m);
+    if (still_depth < m->farthest)
         *still = light_over(&mean, *still);
-    else if (still_depth < m->a->nearest)
+    else if (still_depth < m->nearest)
         *still = pixel_by_depth(m, x, y, *still, still_depth);
 }
 
-static void along_light(const struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth)
+static void along_light(struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth)
 {
     const int32_t node = m->s->node, first = max_i32(m->first, m->a->left + m->a->margin);
     const struct light *l = m->node.light + (y - m->low) * m->nodes;
@@ -462,10 +486,10 @@ static void along_light(const struct merge *m, int32_t y, uint32_t *still, const
 }
 
 /* The pixels from one node to the next. */
-SMEAR_INLINE void between_codes(const struct merge *m, lanes here, lanes next, int32_t x, int32_t end, int32_t y,
+SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t x, int32_t end, int32_t y,
                                 uint32_t *still, const uint16_t *depth, int32_t node)
 {
-    const uint32_t farthest = m->a->farthest;
+    const uint32_t farthest = m->farthest;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
     for (; x < end; x++, sum += next - here) {
         lanes mean = sum >> node & codes;
@@ -477,7 +501,7 @@ SMEAR_INLINE void between_codes(const struct merge *m, lanes here, lanes next, i
     }
 }
 
-SMEAR_INLINE void along_codes(const struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth, int32_t node)
+SMEAR_INLINE void along_codes(struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth, int32_t node)
 {
     const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
     const lanes *c = m->node.codes + (y - m->low) * m->nodes;
@@ -496,7 +520,7 @@ SMEAR_INLINE void along_codes(const struct merge *m, int32_t y, uint32_t *still,
 }
 
 /* Rows whose nodes lie along them. */
-static void finish_along(const struct merge *m)
+static void finish_along(struct merge *m)
 {
     const struct smear_streak_area *a = m->a;
     for (int32_t y = m->low; y < m->high; y++) {
@@ -513,20 +537,19 @@ static void finish_along(const struct merge *m)
 }
 
 /* Rows across the lines. */
-static void finish_across(const struct merge *m)
+static void finish_across(struct merge *m)
 {
     const struct smear_streak_area *a = m->a;
     const int32_t node = m->s->node;
     for (int32_t y = a->top; y < a->top + a->height; y++) {
         int32_t row = (y - a->top) * a->still_stride - a->margin, k = (y - m->first) >> node;
-        int32_t next = min_i32(k + 1, m->nodes - 1) - k, part = (y - m->first) & ((1 << node) - 1);
-        for (int32_t x = m->low; x < m->high; x++) {
-            int32_t at = (x - m->low) * m->nodes + k;
+        int32_t part = (y - m->first) & ((1 << node) - 1), here = k * m->along, next = min_i32(k + 1, m->nodes - 1) * m->along;
+        for (int32_t x = m->low; x < m->high; x++, here++, next++) {
             if (a->linear)
-                finish_light(m, &m->node.light[at], &m->node.light[at + next], part, x, y, a->still + (row + x),
+                finish_light(m, &m->node.light[here], &m->node.light[next], part, x, y, a->still + (row + x),
                              a->still_depth[row + x]);
-            else
-                finish_codes(m, codes_between(node_codes(m->node.codes[at]), node_codes(m->node.codes[at + next]),
+            else if (((m->node.codes[here] | m->node.codes[next]) >> 48) != 0)
+                finish_codes(m, codes_between(node_codes(m->node.codes[here]), node_codes(m->node.codes[next]),
                                               (uint32_t)part, node), x, y, a->still + (row + x), a->still_depth[row + x]);
         }
     }
@@ -543,12 +566,9 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     m->low = low;
     m->high = high;
     m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
-    for (int32_t i = 0; i < m->nodes * (high - low); i++) {
-        if (m->a->linear)
-            m->node.light[i] = (struct light){ 0, 0, 0, 0 };
-        else
-            m->node.codes[i] = 0;
-    }
+    m->along = s->upright ? high - low : 1;
+    m->across = s->upright ? 1 : m->nodes;
+    fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);
     int32_t last = m->first + ((m->nodes - 1) << s->node);
     int32_t place0 = passes(s, m->first) >> 16, place1 = passes(s, last) >> 16;
     for (int32_t start = low - 1 - max_i32(place0, place1); start < high - min_i32(place0, place1); start++)
@@ -563,7 +583,8 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
 {
     int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
     int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
-    struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride };
+    struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride,
+                       .nearest = a->nearest, .farthest = a->farthest };
     const int32_t room = a->linear ? NODES / 2 : NODES;
     m.node.codes = a->work;
     m.sums.codes = m.node.codes + NODES;
