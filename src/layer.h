@@ -21,6 +21,8 @@ struct smear_group {
     uint32_t head, tail;
     int32_t x0, x1;
     uint16_t nearest, farthest;
+    int32_t mixed0, mixed1;     /* columns in which it passes through other groups */
+    bool marks;                 /* of which one is merged later */
 };
 
 /* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down there: the
@@ -30,6 +32,8 @@ struct smear_layer_rows {
     int32_t rows;                       /* there is memory for */
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
+    uint32_t *over;                     /* of the tile row, where groups pass through each other (object.h) */
+    uint16_t *over_depth;
     int16_t *row_first, *row_end;       /* in each row: what is drawn lies within */
     int16_t *edge;                      /* object.h */
     void *work;                         /* work_bytes per worker: object.h */

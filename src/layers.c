@@ -171,6 +171,7 @@ static void list_groups(struct smear_context *c)
 struct layers_row {
     struct row_job row;
     struct smear_raster_target still;
+    bool mixes;                 /* groups pass through each other */
     /* the group that is being merged */
     struct smear_group *group;
     struct smear_streak streak;
@@ -193,6 +194,8 @@ static void still_job(void *argument, int job, int worker)
         __builtin_memset(t.depth + at, 0, (size_t)(t.x1 - t.x0) * 2);
     }
     smear_raster_list(&r->row.c->raster, &t, r->row.c->opaque);
+    for (int32_t y = t.y0; r->mixes && y < t.y1; y++)
+        pixels_fill(r->row.c->layers.rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
 }
 
 /* Columns [x0, x1) of the group's rows, in as many cuts as there are workers. */
@@ -261,6 +264,37 @@ static void mark_tiles(struct smear_context *c, const struct layers_row *r)
         w->moving[i] = 1;
 }
 
+static int32_t reach_of(const struct smear_group *group)
+{
+    return (abs_i32(group->vx) >> 9) + 2;
+}
+
+/* Where groups lie in part behind others that are merged before them. */
+static bool find_mixed(const struct smear_context *c)
+{
+    const struct smear_layers *l = &c->layers;
+    bool any = false;
+    for (uint32_t i = 0; i < l->group_count; i++) {
+        struct smear_group *g = &l->group[l->order[i]];
+        g->mixed0 = INT32_MAX;
+        g->mixed1 = INT32_MIN;
+        g->marks = false;
+        for (uint32_t k = 0; k < i && g->head != SMEAR_NO_TRIANGLE; k++) {
+            struct smear_group *before = &l->group[l->order[k]];
+            int32_t x0 = max_i32(g->x0 - reach_of(g), before->x0 - reach_of(before));
+            int32_t x1 = min_i32(g->x1 + reach_of(g), before->x1 + reach_of(before));
+            if (before->head == SMEAR_NO_TRIANGLE || g->farthest >= before->nearest || x0 >= x1)
+                continue;
+            g->mixed0 = min_i32(g->mixed0, x0);
+            g->mixed1 = max_i32(g->mixed1, x1);
+            before->mixed0 = min_i32(before->mixed0, x0);
+            before->mixed1 = max_i32(before->mixed1, x1);
+            before->marks = any = true;
+        }
+    }
+    return any;
+}
+
 static void merge_group(struct smear_context *c, struct layers_row *r, struct smear_group *group)
 {
     const struct smear_layer_rows *rows = &c->layers.rows;
@@ -274,7 +308,9 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
         .nearest = group->nearest, .farthest = group->farthest,
         .linear = c->raster.linear,
-        .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work
+        .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work,
+        .over = rows->over, .over_depth = rows->over_depth,
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down look beyond the drawn columns. */
@@ -328,12 +364,13 @@ static int finish_row(struct smear_context *c, int row, bool first)
     r.still.color_rows = r.still.window_rows = (struct smear_plane_rows){ c->window.width, 0, c->window.tile, 0 };
     c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     advance_movers(c, row, first);
+    list_groups(c);
+    r.mixes = find_mixed(c);
     smear_jobs_run(&c->jobs, still_job, &r, c->jobs.workers);
     stage_end(c, &c->stats.time_raster, start);
     start = stage_start(c);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
-    list_groups(c);
     for (uint32_t i = 0; i < c->layers.group_count; i++) {
         struct smear_group *group = &c->layers.group[c->layers.order[i]];
         if (group->head != SMEAR_NO_TRIANGLE && group->x0 < group->x1)

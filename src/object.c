@@ -103,11 +103,11 @@ static void steps_within(const struct smear_streak *s, int32_t start, int32_t lo
 /* Codes: blue, red, green and coverage (255 is one), 16 bits each. Sums wrap; their differences do not. */
 typedef uint64_t lanes;
 
-static const lanes codes = 0x00ff00ff00ff00ff, halves = 0x0080008000800080;
+static const lanes all_codes = 0x00ff00ff00ff00ff, halves = 0x0080008000800080;
 
 static inline lanes lanes_of(uint32_t p)
 {
-    return ((lanes)p << 24 | p) & codes;
+    return ((lanes)p << 24 | p) & all_codes;
 }
 
 static inline uint32_t lanes_pixel(lanes l)
@@ -369,7 +369,7 @@ static inline uint32_t codes_over(lanes m, uint32_t still)
 {
     uint32_t rest = 255u - (uint32_t)(m >> 48);
     rest += rest >> 7;
-    return lanes_pixel(m + ((lanes_times(lanes_of(still), rest) + halves) >> 8 & codes));
+    return lanes_pixel(m + ((lanes_times(lanes_of(still), rest) + halves) >> 8 & all_codes));
 }
 
 /* Channels and coverage q16. */
@@ -383,13 +383,24 @@ static inline uint32_t light_over(const struct light *m, uint32_t still)
                       smear_srgb_encode[min_u32(b >> 4, 4095u)]);
 }
 
-/* Where a still surface lies within the group's depths: each pixel of the group against it. x, y: in the group's planes. */
-static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct merge *m, int32_t x, int32_t y, uint32_t still,
-                                              uint32_t still_depth)
+/* A mean of codes or of light. */
+struct mean {
+    lanes codes;
+    struct light light;
+};
+
+static inline bool mean_is_none(const struct mean *mean, bool linear)
+{
+    return linear ? mean->light.a == 0 : mean->codes >> 48 == 0;
+}
+
+/* Where a still surface lies within the group's depths: of the pixels of the group that are before it. x, y: in the
+ * group's planes. */
+static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, int32_t x, int32_t y, uint32_t still_depth)
 {
     const struct smear_streak *s = m->s;
     struct light light = { 0, 0, 0, 0 };
-    lanes sum = 0;
+    lanes sum = (s->length >> 1) * 0x0001000100010001u;
     for (int32_t t = -s->half - 1; t <= s->half + 1; t++) {
         int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
         if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
@@ -405,13 +416,90 @@ static SMEAR_NOINLINE uint32_t pixel_by_depth(const struct merge *m, int32_t x, 
             sum += lanes_times(lanes_of(m->a->color[at]) | (lanes)0xff << 48, weight);
         }
     }
-    if (!m->a->linear) {
-        sum += (s->length >> 1) * 0x0001000100010001u;
-        return codes_over(mean_codes(sum, s->over), still);
+    out->codes = mean_codes(sum, s->over);
+    out->light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
+                                 mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
+}
+
+/* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of a few. */
+static SMEAR_NOINLINE uint32_t depth_beside(const struct merge *m, int32_t x, int32_t y)
+{
+    const struct smear_streak *s = m->s;
+    const int32_t n = (s->half >> 2) + 1;
+    for (int32_t k = n; k <= s->half + n; k += n)
+        for (int32_t sign = -1; sign <= 1; sign += 2) {
+            int32_t t = sign * k, side = (s->slope * t + 0x8000) >> 16;
+            int32_t px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
+            if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+                continue;
+            uint32_t depth = m->a->depth[py * m->a->stride + px];
+            if (depth != 0)
+                return depth;
+        }
+    return (m->nearest + (uint32_t)m->farthest) >> 1;
+}
+
+static inline uint32_t depth_near(const struct merge *m, int32_t x, int32_t y)
+{
+    uint32_t depth = x >= m->a->x0 && x < m->a->x1 ? m->a->depth[y * m->a->stride + x] : 0;
+    return depth != 0 ? depth : depth_beside(m, x, y);
+}
+
+/* Both have their coverage on top. */
+static inline lanes over_each_other(lanes front, lanes back)
+{
+    uint32_t rest = 255u - (uint32_t)(front >> 48);
+    return front + ((lanes_times(back, rest + (rest >> 7)) + halves) >> 8 & all_codes);
+}
+
+/* (1 - b) still + (1 - a) back + b front: `back`, of coverage b, between the still surface and `front`, of coverage a,
+ * which have been merged. Codes. */
+static inline uint32_t codes_between_two(lanes front, lanes back, uint32_t merged)
+{
+    uint32_t a = (uint32_t)(front >> 48), b = (uint32_t)(back >> 48);
+    lanes sum = lanes_times(lanes_of(merged), 255u - b) + lanes_times(back, 255u - a) + lanes_times(front, b);
+    return lanes_pixel(mean_codes(sum + halves, (1u << 22) / 255u + 1u));
+}
+
+static uint32_t light_between_two(lanes front, const struct light *back, uint32_t merged)
+{
+    uint32_t front_pixel = lanes_pixel(front), out[3];
+    const uint32_t value[3] = { back->r, back->g, back->b };
+    uint32_t a = (uint32_t)(front >> 48) * 257u >> 1, b = back->a >> 1;       /* q15 */
+    for (int i = 0; i < 3; i++) {
+        int shift = 16 - 8 * i;
+        uint32_t sum = (smear_srgb_decode[merged >> shift & 255u] * (32768u - b) >> 15) + (value[i] * (32768u - a) >> 15)
+                     + (smear_srgb_decode[front_pixel >> shift & 255u] * b >> 15);
+        out[i] = smear_srgb_encode[min_u32(sum >> 4, 4095u)];
     }
-    light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
-                            mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
-    return light_over(&light, still);
+    return pixel_make(0, out[0], out[1], out[2]);
+}
+
+/* Over or behind what was merged before. */
+static SMEAR_NOINLINE void merge_mixed(const struct merge *m, const struct mean *mean, int32_t x, int32_t y, int32_t at)
+{
+    const struct smear_streak_area *a = m->a;
+    lanes codes = mean->codes, before = lanes_of(a->over[at]);
+    uint32_t depth = 0;
+    bool behind = false;
+    if (a->linear)
+        codes = lanes_of(pixel_make(mean->light.a >> 8, smear_srgb_encode[mean->light.r >> 4],
+                                    smear_srgb_encode[mean->light.g >> 4], smear_srgb_encode[mean->light.b >> 4]));
+    if (a->marks || before >> 48 != 0) {
+        depth = depth_near(m, x, y);
+        behind = before >> 48 != 0 && depth < a->over_depth[at];
+    }
+    if (!behind)
+        a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(codes, a->still[at]);
+    else
+        a->still[at] = a->linear ? light_between_two(before, &mean->light, a->still[at])
+                                 : codes_between_two(before, codes, a->still[at]);
+    if (!a->marks)
+        return;
+    if (before >> 48 != 0)
+        codes = behind ? over_each_other(before, codes) : over_each_other(codes, before);
+    a->over[at] = (uint32_t)(codes | codes >> 24);
+    a->over_depth[at] = (uint16_t)max_u32(depth, before >> 48 != 0 ? a->over_depth[at] : 0u);
 }
 
 /* What is drawn is nearer and thinner than all that the group has in the row. */
@@ -432,76 +520,93 @@ static SMEAR_NOINLINE void find_range(struct merge *m)
     m->farthest = (uint16_t)max_u32(m->farthest, low + 1u);
 }
 
-/* A pixel of the frame, and its place in the group's planes. */
-static inline void finish_codes(struct merge *m, lanes mean, int32_t x, int32_t y, uint32_t *still, uint32_t still_depth)
+/* A pixel: x, y in the group's planes, `at` in the frame's. */
+static void finish_pixel(struct merge *m, struct mean *mean, int32_t x, int32_t y, int32_t at)
 {
-    if (mean >> 48 == 0)
-        return;
-    if (still_depth >= m->farthest && !m->has_range)
+    const struct smear_streak_area *a = m->a;
+    uint32_t depth = a->still_depth[at];
+    if (depth >= m->farthest && !m->has_range)
         find_range(m);
-    if (still_depth < m->farthest)
-        *still = codes_over(mean, *still);
-    else if (still_depth < m->nearest)
-        *still = pixel_by_depth(m, x, y, *still, still_depth);
+    if (depth >= m->nearest)
+        return;
+    if (depth >= m->farthest) {
+        mean_before(mean, m, x, y, depth);
+        if (mean_is_none(mean, a->linear))
+            return;
+    }
+    if (x >= a->mixed0 && x < a->mixed1)
+        merge_mixed(m, mean, x, y, at);
+    else
+        a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(mean->codes, a->still[at]);
+}
+
+static inline void finish_codes(struct merge *m, lanes codes, int32_t x, int32_t y, int32_t at)
+{
+    struct mean mean = { .codes = codes };
+    if (codes >> 48 != 0)
+        finish_pixel(m, &mean, x, y, at);
 }
 
 static inline lanes codes_between(lanes a, lanes b, uint32_t part, int32_t node)
 {
     const uint32_t n = 1u << node;
-    return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node & codes;
+    return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node & all_codes;
 }
 
 static inline lanes node_codes(lanes node)
 {
-    return (node + halves) >> 8 & codes;
+    return (node + halves) >> 8 & all_codes;
 }
 
-static void finish_light(struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x,
-                         int32_t y, uint32_t *still, uint32_t still_depth)
+static void finish_light(struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x, int32_t y,
+                         int32_t at)
 {
     const uint32_t n = 1u << m->s->node, b = (uint32_t)part, a = n - b;
     const int down = 8 + m->s->node;
-    struct light mean = { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
-                          (p->a * a + q->a * b) >> down };
-    mean.a += mean.a >> 15;
-    if (mean.a == 0)
-        return;
-    if (still_depth >= m->farthest && !m->has_range)
-        find_range(m);
-    if (still_depth < m->farthest)
-        *still = light_over(&mean, *still);
-    else if (still_depth < m->nearest)
-        *still = pixel_by_depth(m, x, y, *still, still_depth);
+    struct mean mean = { 0, { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
+                              (p->a * a + q->a * b) >> down } };
+    if (mean.light.a != 0)
+        finish_pixel(m, &mean, x, y, at);
 }
 
-static void along_light(struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth)
+static void along_light(struct merge *m, int32_t y, int32_t row)
 {
     const int32_t node = m->s->node, first = max_i32(m->first, m->a->left + m->a->margin);
     const struct light *l = m->node.light + (y - m->low) * m->nodes;
     for (int32_t x = first; x < m->end; x++) {
         int32_t k = (x - m->first) >> node;
-        finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, still + x,
-                     depth[x]);
+        finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
     }
 }
 
-/* The pixels from one node to the next. */
-SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t x, int32_t end, int32_t y,
-                                uint32_t *still, const uint16_t *depth, int32_t node)
+/* The pixels from one node to the next, straight over the still ones. */
+SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
 {
     const uint32_t farthest = m->farthest;
+    uint32_t *still = m->a->still + row;
+    const uint16_t *depth = m->a->still_depth + row;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
-    for (; x < end; x++, sum += next - here) {
-        lanes mean = sum >> node & codes;
-        uint32_t d = depth[x];
-        if (d < farthest)
-            still[x] = codes_over(mean, still[x]);
+    for (int32_t end = x + (1 << node); x < end; x++, sum += next - here) {
+        lanes codes = sum >> node & all_codes;
+        if (depth[x] < farthest)
+            still[x] = codes_over(codes, still[x]);
         else
-            finish_codes(m, mean, x, y, still + x, d);
+            finish_codes(m, codes, x, y, row + x);
     }
 }
 
-SMEAR_INLINE void along_codes(struct merge *m, int32_t y, uint32_t *still, const uint16_t *depth, int32_t node)
+/* Whether pixels [x, x + n) have to do with other groups. */
+static inline bool is_mixed(const struct smear_streak_area *a, int32_t x, int32_t row, int32_t n)
+{
+    if (x >= a->mixed1 || x + n <= a->mixed0)
+        return false;
+    uint32_t any = a->marks;
+    for (int32_t i = 0; i < n; i++)
+        any |= a->over[row + x + i];
+    return any != 0;
+}
+
+SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t node)
 {
     const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
     const lanes *c = m->node.codes + (y - m->low) * m->nodes;
@@ -509,11 +614,11 @@ SMEAR_INLINE void along_codes(struct merge *m, int32_t y, uint32_t *still, const
     for (int32_t x = m->first; x < end; x += n) {
         lanes next = node == 0 && x + n >= end ? 0 : node_codes(*++c);
         if (((here | next) >> 48) != 0) {
-            if (x >= left && x + n <= end)
-                between_codes(m, here, next, x, x + n, y, still, depth, node);
-            else    /* the nodes before the frame's first pixel and after its last */
+            if (x >= left && x + n <= end && !is_mixed(m->a, x, row, n))
+                between_codes(m, here, next, x, y, row, node);
+            else    /* the nodes before the frame's first pixel and after its last, too */
                 for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
-                    finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, still + i, depth[i]);
+                    finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, row + i);
         }
         here = next;
     }
@@ -526,13 +631,13 @@ static void finish_along(struct merge *m)
     for (int32_t y = m->low; y < m->high; y++) {
         int32_t row = (y - a->top) * a->still_stride - a->margin;
         if (a->linear)
-            along_light(m, y, a->still + row, a->still_depth + row);
+            along_light(m, y, row);
         else if (m->s->node == 2)
-            along_codes(m, y, a->still + row, a->still_depth + row, 2);
+            along_codes(m, y, row, 2);
         else if (m->s->node == 1)
-            along_codes(m, y, a->still + row, a->still_depth + row, 1);
+            along_codes(m, y, row, 1);
         else
-            along_codes(m, y, a->still + row, a->still_depth + row, 0);
+            along_codes(m, y, row, 0);
     }
 }
 
@@ -546,11 +651,10 @@ static void finish_across(struct merge *m)
         int32_t part = (y - m->first) & ((1 << node) - 1), here = k * m->along, next = min_i32(k + 1, m->nodes - 1) * m->along;
         for (int32_t x = m->low; x < m->high; x++, here++, next++) {
             if (a->linear)
-                finish_light(m, &m->node.light[here], &m->node.light[next], part, x, y, a->still + (row + x),
-                             a->still_depth[row + x]);
+                finish_light(m, &m->node.light[here], &m->node.light[next], part, x, y, row + x);
             else if (((m->node.codes[here] | m->node.codes[next]) >> 48) != 0)
                 finish_codes(m, codes_between(node_codes(m->node.codes[here]), node_codes(m->node.codes[next]),
-                                              (uint32_t)part, node), x, y, a->still + (row + x), a->still_depth[row + x]);
+                                              (uint32_t)part, node), x, y, row + x);
         }
     }
 }

@@ -40,6 +40,12 @@ struct smear_streak_area {
     uint32_t *still;            /* first pixel of the frame's row to be finished */
     uint16_t *still_depth;
     int32_t still_stride;
+    /* Where groups pass through each other, in columns [mixed0, mixed1) of the group's planes: what was merged before,
+     * its colours times coverage, which is on top, and about its depth codes. Rows as the still ones. */
+    uint32_t *over;
+    uint16_t *over_depth;
+    int32_t mixed0, mixed1;
+    bool marks;                 /* this group is merged before another: it writes them */
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     uint16_t nearest, farthest; /* depth codes the group keeps to */
     const int16_t *edge;        /* smear_streak_edges() */

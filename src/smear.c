@@ -108,6 +108,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         size_t layer = (size_t)r->width * (size_t)r->rows;
         r->color = arena_take(a, layer, 4);
         r->depth = arena_take(a, layer, 2);
+        r->over = arena_take(a, (size_t)d->width * (size_t)d->tile, 4);
+        r->over_depth = arena_take(a, (size_t)d->width * (size_t)d->tile, 2);
         r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
         r->row_end = arena_take(a, (size_t)r->rows, sizeof *r->row_end);
         r->edge = arena_take(a, (size_t)max_i32(r->width, r->rows) + 2u, sizeof *r->edge);
