@@ -421,28 +421,21 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, 
                                  mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
 }
 
-/* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of a few. */
-static SMEAR_NOINLINE uint32_t depth_beside(const struct merge *m, int32_t x, int32_t y)
+/* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of five. */
+static SMEAR_NOINLINE uint32_t depth_near(const struct merge *m, int32_t x, int32_t y)
 {
     const struct smear_streak *s = m->s;
-    const int32_t n = (s->half >> 2) + 1;
-    for (int32_t k = n; k <= s->half + n; k += n)
-        for (int32_t sign = -1; sign <= 1; sign += 2) {
-            int32_t t = sign * k, side = (s->slope * t + 0x8000) >> 16;
-            int32_t px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
-            if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
-                continue;
-            uint32_t depth = m->a->depth[py * m->a->stride + px];
-            if (depth != 0)
-                return depth;
-        }
+    const int32_t n = (s->half + 1) >> 1;
+    for (int32_t k = 0; k < 5; k++) {
+        int32_t t = k & 1 ? n * ((k + 1) >> 1) : -n * (k >> 1), side = (s->slope * t + 0x8000) >> 16;
+        int32_t px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
+        if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+            continue;
+        uint32_t depth = m->a->depth[py * m->a->stride + px];
+        if (depth != 0)
+            return depth;
+    }
     return (m->nearest + (uint32_t)m->farthest) >> 1;
-}
-
-static inline uint32_t depth_near(const struct merge *m, int32_t x, int32_t y)
-{
-    uint32_t depth = x >= m->a->x0 && x < m->a->x1 ? m->a->depth[y * m->a->stride + x] : 0;
-    return depth != 0 ? depth : depth_beside(m, x, y);
 }
 
 /* Both have their coverage on top. */
@@ -476,19 +469,11 @@ static uint32_t light_between_two(lanes front, const struct light *back, uint32_
 }
 
 /* Over or behind what was merged before. */
-static SMEAR_NOINLINE void merge_mixed(const struct merge *m, const struct mean *mean, int32_t x, int32_t y, int32_t at)
+static SMEAR_NOINLINE void merge_between(const struct merge *m, const struct mean *mean, lanes codes, uint32_t depth, int32_t at)
 {
     const struct smear_streak_area *a = m->a;
-    lanes codes = mean->codes, before = lanes_of(a->over[at]);
-    uint32_t depth = 0;
-    bool behind = false;
-    if (a->linear)
-        codes = lanes_of(pixel_make(mean->light.a >> 8, smear_srgb_encode[mean->light.r >> 4],
-                                    smear_srgb_encode[mean->light.g >> 4], smear_srgb_encode[mean->light.b >> 4]));
-    if (a->marks || before >> 48 != 0) {
-        depth = depth_near(m, x, y);
-        behind = before >> 48 != 0 && depth < a->over_depth[at];
-    }
+    lanes before = lanes_of(a->over[at]);
+    bool behind = depth < a->over_depth[at];
     if (!behind)
         a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(codes, a->still[at]);
     else
@@ -496,10 +481,27 @@ static SMEAR_NOINLINE void merge_mixed(const struct merge *m, const struct mean 
                                  : codes_between_two(before, codes, a->still[at]);
     if (!a->marks)
         return;
-    if (before >> 48 != 0)
-        codes = behind ? over_each_other(before, codes) : over_each_other(codes, before);
+    codes = behind ? over_each_other(before, codes) : over_each_other(codes, before);
     a->over[at] = (uint32_t)(codes | codes >> 24);
-    a->over_depth[at] = (uint16_t)max_u32(depth, before >> 48 != 0 ? a->over_depth[at] : 0u);
+    a->over_depth[at] = (uint16_t)max_u32(depth, a->over_depth[at]);
+}
+
+static inline void merge_mixed(const struct merge *m, const struct mean *mean, uint32_t depth, int32_t at)
+{
+    const struct smear_streak_area *a = m->a;
+    lanes codes = mean->codes;
+    if (a->linear)
+        codes = lanes_of(pixel_make(mean->light.a >> 8, smear_srgb_encode[mean->light.r >> 4],
+                                    smear_srgb_encode[mean->light.g >> 4], smear_srgb_encode[mean->light.b >> 4]));
+    if (a->over[at] != 0) {
+        merge_between(m, mean, codes, depth, at);
+        return;
+    }
+    a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(codes, a->still[at]);
+    if (a->marks) {
+        a->over[at] = (uint32_t)(codes | codes >> 24);
+        a->over_depth[at] = (uint16_t)depth;
+    }
 }
 
 /* What is drawn is nearer and thinner than all that the group has in the row. */
@@ -535,7 +537,7 @@ static void finish_pixel(struct merge *m, struct mean *mean, int32_t x, int32_t 
             return;
     }
     if (x >= a->mixed0 && x < a->mixed1)
-        merge_mixed(m, mean, x, y, at);
+        merge_mixed(m, mean, depth_near(m, x, y), at);
     else
         a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(mean->codes, a->still[at]);
 }
@@ -606,6 +608,20 @@ static inline bool is_mixed(const struct smear_streak_area *a, int32_t x, int32_
     return any != 0;
 }
 
+/* The pixels from one node to the next. */
+SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
+{
+    const uint32_t near = depth_near(m, x + (1 << node >> 1), y);
+    lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
+    for (int32_t end = x + (1 << node); x < end; x++, sum += next - here) {
+        struct mean mean = { .codes = sum >> node & all_codes };
+        if (m->a->still_depth[row + x] >= m->farthest)
+            finish_codes(m, mean.codes, x, y, row + x);
+        else if (mean.codes >> 48 != 0)
+            merge_mixed(m, &mean, near, row + x);
+    }
+}
+
 SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t node)
 {
     const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
@@ -616,6 +632,8 @@ SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t n
         if (((here | next) >> 48) != 0) {
             if (x >= left && x + n <= end && !is_mixed(m->a, x, row, n))
                 between_codes(m, here, next, x, y, row, node);
+            else if (x >= left && x + n <= end)
+                between_mixed(m, here, next, x, y, row, node);
             else    /* the nodes before the frame's first pixel and after its last, too */
                 for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
                     finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, row + i);
