@@ -27,7 +27,7 @@ void smear_layers_begin(struct smear_context *c)
 }
 
 /* Vertices that stand for a draw. */
-enum { SAMPLES = 12 };
+enum { SAMPLES = 24 };
 
 /* What vertices of a draw say of its motion. */
 struct motion {

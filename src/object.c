@@ -588,7 +588,12 @@ SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t
     uint32_t *still = m->a->still + row;
     const uint16_t *depth = m->a->still_depth + row;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
-    for (int32_t end = x + (1 << node); x < end; x++, sum += next - here) {
+    int32_t end = x + (1 << node);
+    if ((here & next) >> 48 == 255) {
+        for (; x < end && depth[x] < farthest; x++, sum += next - here)
+            still[x] = lanes_pixel(sum >> node & all_codes);
+    }
+    for (; x < end; x++, sum += next - here) {
         lanes codes = sum >> node & all_codes;
         if (depth[x] < farthest)
             still[x] = codes_over(codes, still[x]);
@@ -597,28 +602,41 @@ SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t
     }
 }
 
-/* Whether pixels [x, x + n) have to do with other groups. */
-static inline bool is_mixed(const struct smear_streak_area *a, int32_t x, int32_t row, int32_t n)
-{
-    if (x >= a->mixed1 || x + n <= a->mixed0)
-        return false;
-    uint32_t any = a->marks;
-    for (int32_t i = 0; i < n; i++)
-        any |= a->over[row + x + i];
-    return any != 0;
-}
-
-/* The pixels from one node to the next. */
+/* The same where groups pass through each other. */
 SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
 {
-    const uint32_t near = depth_near(m, x + (1 << node >> 1), y);
+    const struct smear_streak_area *a = m->a;
+    uint32_t *over = a->over + row, any = 0, nearest = 0;
+    uint16_t *over_depth = a->over_depth + row;
+    const int32_t end = x + (1 << node), middle = x + (1 << node >> 1);
+    for (int32_t i = x; i < end; i++)
+        if (over[i] != 0) {
+            any = 1;
+            nearest = max_u32(nearest, over_depth[i]);
+        }
+    if (any == 0 && !a->marks) {
+        between_codes(m, here, next, x, y, row, node);
+        return;
+    }
+    uint32_t near = middle >= a->x0 && middle < a->x1 ? a->depth[y * a->stride + middle] : 0;
+    if (near == 0)
+        near = depth_near(m, middle, y);
+    if (near >= nearest && !a->marks) {
+        between_codes(m, here, next, x, y, row, node);
+        return;
+    }
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
-    for (int32_t end = x + (1 << node); x < end; x++, sum += next - here) {
+    for (; x < end; x++, sum += next - here) {
         struct mean mean = { .codes = sum >> node & all_codes };
-        if (m->a->still_depth[row + x] >= m->farthest)
+        if (a->still_depth[row + x] >= m->farthest) {
             finish_codes(m, mean.codes, x, y, row + x);
-        else if (mean.codes >> 48 != 0)
+        } else if (any != 0 && mean.codes >> 48 != 0) {
             merge_mixed(m, &mean, near, row + x);
+        } else {
+            a->still[row + x] = codes_over(mean.codes, a->still[row + x]);
+            over[x] = (uint32_t)(mean.codes | mean.codes >> 24);
+            over_depth[x] = (uint16_t)near;
+        }
     }
 }
 
@@ -630,9 +648,10 @@ SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t n
     for (int32_t x = m->first; x < end; x += n) {
         lanes next = node == 0 && x + n >= end ? 0 : node_codes(*++c);
         if (((here | next) >> 48) != 0) {
-            if (x >= left && x + n <= end && !is_mixed(m->a, x, row, n))
+            bool whole = x >= left && x + n <= end;
+            if (whole && (x >= m->a->mixed1 || x + n <= m->a->mixed0))
                 between_codes(m, here, next, x, y, row, node);
-            else if (x >= left && x + n <= end)
+            else if (whole)
                 between_mixed(m, here, next, x, y, row, node);
             else    /* the nodes before the frame's first pixel and after its last, too */
                 for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
