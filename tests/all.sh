@@ -108,7 +108,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test
     fi
-    suite objects-cortex-m0plus env CODE_LIMIT=43500 sh tests/target_objects.sh build/objects
+    suite objects-cortex-m0plus env CODE_LIMIT=90000 sh tests/target_objects.sh build/objects
 fi
 if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
     suite target-rv32imc $make -s TARGET=rv32imc target-test
