@@ -150,6 +150,7 @@ typedef struct smear_draw {
     const int16_t *close_position;      /* offset; null: mesh->position. Nothing is kept of positions. */
     uint8_t motion;             /* smear_motion */
     uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
+    uint8_t layers;             /* bits: the layers it is in, see smear_layer; 0 means 1, the first */
 } smear_draw;
 
 typedef enum smear_method {
@@ -185,6 +186,21 @@ enum {
                              * own velocity; motion below a pixel stays as it is */
 };
 
+/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT and SMEAR_LAYERED. A draw is
+ * in the first of the frame's layers whose mask shares a bit with smear_draw.layers; in none, it is as SMEAR_NONE draws it,
+ * bit for bit where no streak passes over it. So is what does not move. */
+typedef struct smear_layer {
+    uint8_t mask;               /* bits of smear_draw.layers; required */
+    uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
+    uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the depths are */
+    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: one velocity for all of the layer, `samples` taps */
+    uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
+    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the frame's */
+    const smear_camera *open, *close;   /* as in smear_frame; null: `camera` does not move */
+} smear_layer;
+
+enum { SMEAR_LAYERS_MAX = 8 };
+
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
     const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame
@@ -202,6 +218,8 @@ typedef struct smear_frame {
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
+    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that moves */
+    uint8_t layer_count;
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */

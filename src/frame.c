@@ -81,6 +81,15 @@ struct draw_poses {
     const int16_t *position[3];
 };
 
+/* The layer of a draw, if it has a camera of its own. */
+static const struct smear_layer_setting *layer_with_camera(const struct smear_context *c, const struct smear_submitted *s)
+{
+    if (!c->layers.on)
+        return NULL;
+    uint32_t layer = c->layers.layer_of[s - c->submitted];
+    return layer != SMEAR_NO_LAYER && c->layers.setting[layer].has_camera ? &c->layers.setting[layer] : NULL;
+}
+
 static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
                      struct draw_poses *p)
 {
@@ -92,9 +101,16 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
     }
+    const struct smear_layer_setting *own = layer_with_camera(c, s);
+    for (int i = 0; i < 3 && own != NULL; i++)
+        p->camera[i] = &own->camera[0];
     if (c->frame.cut || d->motion == SMEAR_MOTION_NONE)
         return;
-    if (c->camera_moves) {
+    if (own != NULL) {
+        p->camera[1] = &own->camera[1];
+        if (c->frame.shutter_poses)
+            p->camera[2] = &own->camera[2];
+    } else if (c->camera_moves) {
         p->camera[1] = &c->camera_open;
         if (c->frame.shutter_poses)
             p->camera[2] = &c->camera_close;
@@ -146,7 +162,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
         weight[count++] = instant->weight[k];
     }
     if (count > 1)
-        smear_projection_weigh(sum, weight, count, &c->camera);
+        smear_projection_weigh(sum, weight, count, p->camera[0]);
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
@@ -209,11 +225,15 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
 {
     smear_geometry_reset(&c->geometry, first, end);
     smear_assembler_reset(&c->assembler);
-    for (uint32_t i = 0; i < c->draw_count; i++) {
+    for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
-        bool grouped = c->layers.on && c->layers.group_of[i] != SMEAR_NO_GROUP;
-        make_assembly(c, i, c->layers.on && !grouped ? &sharp_instant : instant, &a);
-        if (grouped ? !smear_layers_assemble(c, &a, drop)
+        uint32_t i = c->layers.on ? c->layers.sequence[k] : k;
+        const struct smear_group *group = c->layers.on && c->layers.group_of[i] != SMEAR_NO_GROUP
+                                        ? &c->layers.group[c->layers.group_of[i]] : NULL;
+        if (c->layers.on)
+            c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
+        make_assembly(c, i, c->layers.on && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
+        if (group != NULL ? !smear_layers_assemble(c, &a, drop)
             : !(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
@@ -520,7 +540,7 @@ static int render_timed(struct smear_context *c)
     return SMEAR_OK;
 }
 
-/* Which draws are blurred: those that move. */
+/* Which draws are blurred, and how they move. */
 static void find_layers(struct smear_context *c, const struct instant *middle)
 {
     const struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
@@ -530,13 +550,17 @@ static void find_layers(struct smear_context *c, const struct instant *middle)
         const smear_mesh *mesh = s->draw.mesh;
         struct draw_poses poses;
         struct smear_placement key[2], at;
-        poses_of(c, s, &poses);
-        if (!(pose_differs(&poses, 1) || pose_differs(&poses, 2)) || c->raster_draw[i].alpha == SMEAR_BLEND)
+        if (c->layers.layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
             continue;
-        place(&key[0], c, &poses, mesh, &open);
-        place(&key[1], c, &poses, mesh, &close);
-        place(&at, c, &poses, mesh, middle);
-        smear_layers_add(c, i, mesh, 0, key, &at);
+        const struct smear_layer_setting *setting = &c->layers.setting[c->layers.layer_of[i]];
+        poses_of(c, s, &poses);
+        bool moves = setting->layer.method != SMEAR_NONE && (pose_differs(&poses, 1) || pose_differs(&poses, 2));
+        if (!moves && !setting->has_camera && !setting->layer.over)
+            continue;
+        place(&key[0], c, &poses, mesh, moves ? &open : &sharp_instant);
+        place(&key[1], c, &poses, mesh, moves ? &close : &sharp_instant);
+        place(&at, c, &poses, mesh, moves ? middle : &sharp_instant);
+        smear_layers_add(c, i, key, &at, moves);
     }
     smear_layers_end(c);
 }

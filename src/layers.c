@@ -12,18 +12,31 @@
 #include "layers.h"
 
 #include "assemble.h"
+#include "layered.h"
 #include "object.h"
 #include "pixel.h"
 #include "raster.h"
 
 /* ------------------------------------------------------------------ groups */
 
+/* A draw's layer: the first that shares a bit with it. */
+static uint8_t find_layer(const struct smear_context *c, const smear_draw *draw)
+{
+    uint32_t bits = draw->layers != 0 ? draw->layers : 1u;
+    for (int i = 0; i < c->layers.setting_count; i++)
+        if ((c->layers.setting[i].layer.mask & bits) != 0)
+            return (uint8_t)i;
+    return SMEAR_NO_LAYER;
+}
+
 void smear_layers_begin(struct smear_context *c)
 {
     c->layers.on = true;
     c->layers.group_count = 0;
-    for (uint32_t i = 0; i < c->draw_count; i++)
+    for (uint32_t i = 0; i < c->draw_count; i++) {
         c->layers.group_of[i] = SMEAR_NO_GROUP;
+        c->layers.layer_of[i] = find_layer(c, &c->submitted[i].draw);
+    }
 }
 
 /* Vertices that stand for a draw. */
@@ -56,21 +69,48 @@ static void measure(struct motion *m, const struct smear_context *c, const smear
     }
 }
 
-void smear_layers_add(struct smear_context *c, uint32_t draw, const smear_mesh *mesh, uint8_t layer,
-                      const struct smear_placement key[2], const struct smear_placement *middle)
+static bool belongs(const struct smear_group *g, const struct smear_group *to, bool plain)
 {
+    if (g->layer != to->layer || g->method != to->method)
+        return false;
+    return plain || g->method != SMEAR_OBJECT || (abs_i32(g->vx - to->vx) <= 64 && abs_i32(g->vy - to->vy) <= 64);
+}
+
+void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear_placement key[2],
+                      const struct smear_placement *middle, bool moves)
+{
+    enum { LOOKED_AT = 16 };    /* groups, from the newest: enough for parts of one thing, and no more than linear time */
     struct smear_layers *l = &c->layers;
+    const struct smear_layer_setting *setting = &l->setting[l->layer_of[draw]];
+    bool over = setting->has_camera || setting->layer.over;
     struct motion m;
-    measure(&m, c, mesh, key, middle);
-    if (m.longest < 8)          /* 1/32 px */
+    measure(&m, c, c->submitted[draw].draw.mesh, key, middle);
+    moves = moves && m.longest >= 8;        /* 1/32 px */
+    if (!moves && !over)
         return;
-    int32_t vx = m.x / m.count, vy = m.y / m.count, depth = m.depth / m.count * SAMPLES;
-    struct smear_group *last = l->group_count != 0 ? &l->group[l->group_count - 1] : NULL;
-    if (last == NULL || last->layer != layer || abs_i32(last->vx - vx) > 64 || abs_i32(last->vy - vy) > 64) {
-        last = &l->group[l->group_count++];
-        *last = (struct smear_group){ .vx = vx, .vy = vy, .depth = depth, .layer = layer };
+    struct smear_group g = {
+        .layer = l->layer_of[draw], .rank = over ? (uint8_t)(l->layer_of[draw] + 1) : 0,
+        .method = moves ? setting->layer.method : SMEAR_NONE
+    };
+    if (m.count != 0) {
+        g.vx = (int32_t)((int64_t)(m.x / m.count) * setting->shutter >> 16);
+        g.vy = (int32_t)((int64_t)(m.y / m.count) * setting->shutter >> 16);
+        g.depth = m.depth / m.count * SAMPLES;
     }
-    l->group_of[draw] = (uint16_t)(l->group_count - 1);
+    if (!moves)
+        g.vx = g.vy = 0;
+    uint32_t at = l->group_count;
+    for (uint32_t i = 0; i < min_u32(l->group_count, LOOKED_AT) && at == l->group_count; i++)
+        if (belongs(&l->group[l->group_count - 1 - i], &g, setting->layer.plain))
+            at = l->group_count - 1 - i;
+    if (at == l->group_count)
+        l->group[l->group_count++] = g;
+    l->group_of[draw] = (uint16_t)at;
+}
+
+static bool is_before(const struct smear_group *a, const struct smear_group *b)
+{
+    return a->rank != b->rank ? a->rank < b->rank : a->depth < b->depth;
 }
 
 void smear_layers_end(struct smear_context *c)
@@ -78,10 +118,27 @@ void smear_layers_end(struct smear_context *c)
     struct smear_layers *l = &c->layers;
     for (uint32_t i = 0; i < l->group_count; i++) {
         uint32_t at = i;
-        for (; at > 0 && l->group[l->order[at - 1]].depth > l->group[i].depth; at--)
+        for (; at > 0 && is_before(&l->group[i], &l->group[l->order[at - 1]]); at--)
             l->order[at] = l->order[at - 1];
         l->order[at] = (uint16_t)i;
+        l->group[i].end = 0;
     }
+    /* Draws by groups, those of none first: `end` counts, then tells where the next draw of a group goes. */
+    uint32_t still = 0;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        if (l->group_of[i] == SMEAR_NO_GROUP)
+            l->sequence[still++] = (uint16_t)i;
+        else
+            l->group[l->group_of[i]].end++;
+    }
+    for (uint32_t i = 0; i < l->group_count; i++) {
+        uint32_t count = l->group[i].end;
+        l->group[i].end = still;
+        still += count;
+    }
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (l->group_of[i] != SMEAR_NO_GROUP)
+            l->sequence[l->group[l->group_of[i]].end++] = (uint16_t)i;
 }
 
 /* The store takes triangles of layers at the places that layer.h tells, into lists of their own. */
@@ -176,9 +233,16 @@ struct layers_row {
     struct smear_group *group;
     struct smear_streak streak;
     struct smear_streak_area area;
+    struct smear_gather_area gather;
     struct smear_raster_target target;
     struct smear_raster_frame frame;
 };
+
+/* Few taps along one velocity. */
+static inline bool is_plain(const struct layers_row *r)
+{
+    return r->group->method == SMEAR_OBJECT && r->row.c->layers.setting[r->group->layer].layer.plain;
+}
 
 static void still_job(void *argument, int job, int worker)
 {
@@ -213,6 +277,10 @@ static void draw_job(void *argument, int job, int worker)
         int32_t at = target_row(&t.window_rows, &t, y) + t.x0;
         pixels_fill(t.color + at, SMEAR_UNCOVERED, t.x1 - t.x0);
         __builtin_memset(t.depth + at, 0, (size_t)(t.x1 - t.x0) * 2);
+        if (t.velocity8 != NULL)
+            __builtin_memset(t.velocity8 + 2 * at, 0, (size_t)(t.x1 - t.x0) * 2);
+        if (t.velocity16 != NULL)
+            __builtin_memset(t.velocity16 + 2 * at, 0, (size_t)(t.x1 - t.x0) * 4);
     }
     smear_raster_list(&r->frame, &t, r->group->head);
 }
@@ -240,10 +308,42 @@ static void find_drawn(const struct smear_layer_rows *rows, const struct smear_r
 static void merge_job(void *argument, int job, int worker)
 {
     const struct layers_row *r = argument;
-    struct smear_streak_area area = r->area;
-    smear_job_columns(r->row.c, job, &area.left, &area.right);
-    area.work = (uint8_t *)area.work + (uint32_t)worker * r->row.c->layers.rows.work_bytes;
-    r->row.c->worker_samples[worker] += smear_streak_merge(&r->streak, &area);
+    struct smear_context *c = r->row.c;
+    uint32_t samples;
+    if (r->group->method == SMEAR_LAYERED || is_plain(r)) {
+        struct smear_gather_area area = r->gather;
+        smear_job_columns(c, job, &area.left, &area.right);
+        samples = is_plain(r) ? smear_plain_merge(&area, r->group->vx, r->group->vy) : smear_gather_merge(&area);
+    } else {
+        struct smear_streak_area area = r->area;
+        smear_job_columns(c, job, &area.left, &area.right);
+        area.work = (uint8_t *)area.work + (uint32_t)worker * c->layers.rows.work_bytes;
+        samples = smear_streak_merge(&r->streak, &area);
+    }
+    c->worker_samples[worker] += samples;
+}
+
+/* Blended draws lie behind what is in the middle of the exposure. */
+static void keep_depths(const struct layers_row *r)
+{
+    const struct smear_layer_rows *rows = &r->row.c->layers.rows;
+    for (int32_t y = 0; y < r->area.height; y++) {
+        const uint16_t *depth = rows->depth + (y + r->area.top) * rows->width + rows->margin;
+        uint16_t *still = r->area.still_depth + y * r->area.still_stride;
+        for (int32_t x = max_i32(r->target.x0 - rows->margin, 0);
+             x < min_i32(r->target.x1 - rows->margin, r->row.c->window.width); x++)
+            still[x] = (uint16_t)max_u32(still[x], depth[x]);
+    }
+}
+
+static void blend_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = argument;
+    struct smear_raster_target t = r->still;
+    (void)worker;
+    smear_job_columns(r->row.c, job, &t.x0, &t.x1);
+    if (t.x0 < t.x1)
+        smear_raster_list(&r->row.c->raster, &t, r->row.c->blend);
 }
 
 static void convert_job(void *argument, int job, int worker)
@@ -255,13 +355,15 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_rows(&r->row, &r->still, x0, x1);
 }
 
+enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
+
 /* Tile columns that the group's streaks reach. */
 static void mark_tiles(struct smear_context *c, const struct layers_row *r)
 {
     const struct smear_window *w = &c->window;
     int32_t x0 = r->group->x0 - r->streak.reach_x - r->area.margin, x1 = r->group->x1 + r->streak.reach_x - r->area.margin;
     for (int32_t i = max_i32(x0, 0) >> w->tile_shift; i <= (min_i32(x1, w->width) - 1) >> w->tile_shift; i++)
-        w->moving[i] = 1;
+        w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
 }
 
 static int32_t reach_of(const struct smear_group *group)
@@ -283,7 +385,7 @@ static bool find_mixed(const struct smear_context *c)
             struct smear_group *before = &l->group[l->order[k]];
             int32_t x0 = max_i32(g->x0 - reach_of(g), before->x0 - reach_of(before));
             int32_t x1 = min_i32(g->x1 + reach_of(g), before->x1 + reach_of(before));
-            if (before->head == SMEAR_NO_TRIANGLE || g->farthest >= before->nearest || x0 >= x1)
+            if (before->head == SMEAR_NO_TRIANGLE || g->rank != before->rank || g->farthest >= before->nearest || x0 >= x1)
                 continue;
             g->mixed0 = min_i32(g->mixed0, x0);
             g->mixed1 = max_i32(g->mixed1, x1);
@@ -300,13 +402,19 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     const struct smear_layer_rows *rows = &c->layers.rows;
     struct smear_streak *s = &r->streak;
     int32_t top = row_top(c, r->row.row) + c->window.tile, height = r->still.y1 - r->still.y0;
+    const struct smear_layer_setting *setting = &c->layers.setting[group->layer];
     smear_streak_make(s, group->vx, group->vy, streak_half_max(c->window.width), c->window.reach);
     r->group = group;
+    bool gathers = group->method == SMEAR_LAYERED || is_plain(r);
+    if (gathers) {
+        s->upright = false;
+        s->reach_x = s->reach_y = c->window.reach;
+    }
     r->area = (struct smear_streak_area){
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
         .rows = height + 2 * s->reach_y, .top = s->reach_y, .margin = rows->margin,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
-        .nearest = group->nearest, .farthest = group->farthest,
+        .nearest = group->rank != 0 ? 65536u : group->nearest, .farthest = group->rank != 0 ? 65536u : group->farthest,
         .linear = c->raster.linear,
         .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work,
         .over = rows->over, .over_depth = rows->over_depth,
@@ -324,6 +432,18 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->frame = c->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
+    if (group->method == SMEAR_LAYERED) {
+        r->target.velocity8 = rows->velocity8;
+        r->target.velocity16 = rows->velocity16;
+        r->target.moving = rows->moving;
+        r->frame.velocity_scale = (int32_t)((int64_t)r->frame.velocity_scale * setting->shutter >> 16);
+    }
+    r->gather = (struct smear_gather_area){
+        .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
+        .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
+        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, 256), .linear = c->raster.linear,
+        .over = group->rank != 0
+    };
     smear_streak_edges(s, rows->edge, s->upright ? r->area.rows : rows->width);
     struct smear_triangle *tail = geometry_triangle(&c->geometry, group->tail);
     uint32_t after = tail->next;
@@ -331,7 +451,11 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     smear_jobs_run(&c->jobs, draw_job, r, c->jobs.workers);
     tail->next = after;
     find_drawn(rows, &r->target);
+    if (group->method == SMEAR_LAYERED)
+        smear_gather_cells(&r->gather);
     smear_jobs_run(&c->jobs, merge_job, r, c->jobs.workers);
+    if (c->blends)
+        keep_depths(r);
     mark_tiles(c, r);
 }
 
@@ -339,11 +463,13 @@ static void count_tiles(struct smear_context *c)
 {
     smear_stats *s = &c->stats;
     for (int32_t i = 0; i < c->window.columns; i++) {
-        bool reached = c->window.moving[i];
-        s->tiles_still += !reached;
-        s->tiles_none += !reached;
-        s->tiles_uniform += reached;
-        s->tiles_object += reached;
+        uint32_t reached = c->window.moving[i];
+        s->tiles_still += reached == 0;
+        s->tiles_none += reached == 0;
+        s->tiles_uniform += (reached & TILE_LAYERED) == 0 && reached != 0;
+        s->tiles_complex += (reached & TILE_LAYERED) != 0;
+        s->tiles_object += (reached & TILE_LAYERED) == 0 && reached != 0;
+        s->tiles_layered += (reached & TILE_LAYERED) != 0;
     }
 }
 
@@ -377,6 +503,10 @@ static int finish_row(struct smear_context *c, int row, bool first)
             merge_group(c, &r, group);
     }
     count_tiles(c);
+    if (c->blends) {
+        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
+        smear_jobs_run(&c->jobs, blend_job, &r, c->jobs.workers);
+    }
     stage_end(c, &c->stats.time_blur, start);
     start = stage_start(c);
     r.row.band = smear_band_begin(c);

@@ -8,10 +8,10 @@
 /* Before the draws of a frame are looked at. */
 void smear_layers_begin(struct smear_context *c);
 
-/* A draw of a blurred layer that may move: finds its displacement from its places at shutter open and close. One that
- * does not move on the screen stays with the still scene. Draws come in the order in which they are assembled. */
-void smear_layers_add(struct smear_context *c, uint32_t draw, const smear_mesh *mesh, uint8_t layer,
-                      const struct smear_placement key[2], const struct smear_placement *middle);
+/* A draw of a blurred layer: finds its displacement from its places at shutter open and close. One that does not move on
+ * the screen stays with the still scene, but for those of layers that lie over it. */
+void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear_placement key[2],
+                      const struct smear_placement *middle, bool moves);
 
 /* After the last draw. */
 void smear_layers_end(struct smear_context *c);

@@ -150,7 +150,7 @@ struct merge {
     int32_t first, end;         /* steps; the first is a node */
     int32_t nodes;              /* along */
     int32_t along, across;      /* from a node to the next along, and to the next place across */
-    uint16_t nearest, farthest; /* depth codes that are drawn */
+    uint32_t nearest, farthest; /* depth codes that are drawn */
     bool has_range;             /* those; else what the group keeps to */
     int32_t step, side;         /* from a step or place across to the next in the group's planes */
     union {
@@ -435,7 +435,7 @@ static SMEAR_NOINLINE uint32_t depth_near(const struct merge *m, int32_t x, int3
         if (depth != 0)
             return depth;
     }
-    return (m->nearest + (uint32_t)m->farthest) >> 1;
+    return (m->nearest + m->farthest) >> 1;
 }
 
 /* Both have their coverage on top. */
@@ -518,8 +518,8 @@ static SMEAR_NOINLINE void find_range(struct merge *m)
         }
     }
     m->has_range = true;
-    m->nearest = (uint16_t)min_u32(m->nearest, high);
-    m->farthest = (uint16_t)max_u32(m->farthest, low + 1u);
+    m->nearest = min_u32(m->nearest, high);
+    m->farthest = max_u32(m->farthest, low + 1u);
 }
 
 /* A pixel: x, y in the group's planes, `at` in the frame's. */

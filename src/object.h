@@ -47,7 +47,7 @@ struct smear_streak_area {
     int32_t mixed0, mixed1;
     bool marks;                 /* this group is merged before another: it writes them */
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
-    uint16_t nearest, farthest; /* depth codes the group keeps to */
+    uint32_t nearest, farthest; /* depth codes the group keeps to; beyond all codes: it is over all */
     const int16_t *edge;        /* smear_streak_edges() */
     void *work;                 /* smear_streak_work() */
     bool linear;

@@ -4,6 +4,7 @@
 
 #include "arena.h"
 #include "convert.h"
+#include "layered.h"
 #include "object.h"
 
 /* ------------------------------------------------------------------ desc */
@@ -108,6 +109,13 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         size_t layer = (size_t)r->width * (size_t)r->rows;
         r->color = arena_take(a, layer, 4);
         r->depth = arena_take(a, layer, 2);
+        if (d->reach <= 15)
+            r->velocity8 = arena_take(a, layer, 2);
+        else
+            r->velocity16 = arena_take(a, layer, 4);
+        size_t cells = (size_t)(r->width >> w->tile_shift) + 1u;
+        r->moving = arena_take(a, cells, 1);
+        r->cell = arena_take(a, 2 * cells, sizeof *r->cell);
         r->over = arena_take(a, (size_t)d->width * (size_t)d->tile, 4);
         r->over_depth = arena_take(a, (size_t)d->width * (size_t)d->tile, 2);
         r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
@@ -118,6 +126,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->layers.group_of = arena_take(a, d->max_draws, sizeof *c->layers.group_of);
         c->layers.group = arena_take(a, d->max_draws, sizeof *c->layers.group);
         c->layers.order = arena_take(a, d->max_draws, sizeof *c->layers.order);
+        c->layers.sequence = arena_take(a, d->max_draws, sizeof *c->layers.sequence);
+        c->layers.layer_of = arena_take(a, d->max_draws, sizeof *c->layers.layer_of);
+        c->layers.setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *c->layers.setting);
     }
     c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
@@ -227,6 +238,46 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }
 
+static bool is_layer(const smear_layer *l)
+{
+    return l->mask != 0 && (l->method == 0 || l->method == SMEAR_NONE || method_has_layers(l->method))
+        && l->shutter_degrees <= 3600
+        && (l->camera == NULL ? l->open == NULL && l->close == NULL
+            : is_camera(l->camera) && (l->open == NULL || is_camera(l->open)) && (l->close == NULL || is_camera(l->close)));
+}
+
+static bool are_layers(const smear_frame *f)
+{
+    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MAX)
+        return false;
+    for (int i = 0; i < f->layer_count; i++)
+        if (!is_layer(&f->layer[i]))
+            return false;
+    return true;
+}
+
+/* Copies the frame's layers, or makes the one it has without. */
+static void keep_layers(struct smear_context *c, const smear_frame *f)
+{
+    static const smear_layer all = { .mask = 255 };
+    c->layers.setting_count = f->layer_count != 0 ? f->layer_count : 1;
+    for (int i = 0; i < c->layers.setting_count; i++) {
+        struct smear_layer_setting *s = &c->layers.setting[i];
+        s->layer = f->layer_count != 0 ? f->layer[i] : all;
+        if (s->layer.method == 0)
+            s->layer.method = f->method;
+        s->has_camera = s->layer.camera != NULL;
+        if (s->has_camera) {
+            s->camera[0] = *s->layer.camera;
+            s->camera[1] = s->layer.open != NULL ? *s->layer.open : s->camera[0];
+            s->camera[2] = s->layer.close != NULL ? *s->layer.close : s->camera[0];
+        }
+        s->layer.camera = s->layer.open = s->layer.close = NULL;
+        s->shutter = s->layer.shutter_degrees != 0
+                   ? (int32_t)(((uint32_t)s->layer.shutter_degrees << 16) / f->shutter_degrees) : 1 << 16;
+    }
+}
+
 static bool same_kind(const smear_camera *a, const smear_camera *b)
 {
     return (a->half_height > 0) == (b->half_height > 0);
@@ -239,8 +290,11 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !smear_shutter_make(&c->shutter, f.shutter))
+    if (!resolve_frame(c, &f) || !are_layers(&f) || !smear_shutter_make(&c->shutter, f.shutter))
         return SMEAR_ERR_ARG;
+    if (method_has_layers(f.method))
+        keep_layers(c, &f);
+    f.layer = NULL;
     c->camera = *frame->camera;
     c->camera_moves = true;
     c->camera_close = frame->close != NULL ? *frame->close : *frame->camera;

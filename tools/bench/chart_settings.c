@@ -11,7 +11,7 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, OBJECT, SUBFRAMES, TIMEMASK, AUTO };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, OBJECT, LAYERED, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -20,6 +20,7 @@ const struct chart_curve chart_curves[] = {
                     MARK_TRIANGLE, false },
     [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
     [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
+    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE, false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
     [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
     [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
@@ -52,6 +53,9 @@ const struct chart_setting chart_settings[] = {
       .reconstruct = MEND },
 
     { OBJECT, "object", "box", SMEAR_OBJECT, .everywhere = true },
+    { LAYERED, "layered 4", "4", SMEAR_LAYERED, .samples = 4 },
+    { LAYERED, "layered 8", "8", SMEAR_LAYERED, .samples = 8, .everywhere = true },
+    { LAYERED, "layered 16", "16", SMEAR_LAYERED, .samples = 16 },
 
     { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
     { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },

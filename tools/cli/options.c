@@ -130,7 +130,7 @@ static const struct {
     { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
     { "object", true, SMEAR_OBJECT },  { "camera", false, SMEAR_DEFAULT_METHOD },
     { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
-    { "layered", false, SMEAR_DEFAULT_METHOD },
+    { "layered", true, SMEAR_LAYERED },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
