@@ -101,127 +101,164 @@ struct taps {
     struct vector d;
     int32_t length;             /* q6 px */
     int32_t count;
-    struct vector last;         /* the newest velocity */
+    int32_t first_x, first_y, step_x, step_y;       /* q16 px */
+    int32_t first, step;        /* distances, q6 px */
+    uint32_t word;              /* the newest velocity */
     int32_t carries;            /* how far it carries a surface along the direction, q6 px; 0: elsewhere */
     uint32_t weight;            /* of a tap with it */
 };
 
-static void taps_start(struct taps *t, struct vector d, int32_t count)
+static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t word)
 {
+    const int32_t n = t->count;
     t->d = d;
-    t->count = count;
     t->length = (int32_t)sqrt_q3((uint32_t)square_of(d));
-    t->last = d;
+    t->step_x = d.x * 16384 / n;
+    t->step_y = d.y * 16384 / n;
+    t->first_x = 0x8000 - d.x * 8192 + (t->step_x >> 1);
+    t->first_y = 0x8000 - d.y * 8192 + (t->step_y >> 1);
+    t->step = 2 * t->length / n;
+    t->first = t->length - (t->step >> 1);
+    t->word = word;
     t->carries = t->length + 32;
-    t->weight = (uint32_t)((WHOLE + count - 1) / count);
+    t->weight = (uint32_t)((WHOLE + n - 1) / n);
 }
 
-static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v)
+static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v, uint32_t word)
 {
     int32_t dot = v.x * t->d.x + v.y * t->d.y, cross = abs_i32(v.x * t->d.y - v.y * t->d.x);
     int32_t speed = (int32_t)sqrt_q3((uint32_t)square_of(v));
-    t->last = v;
-    t->carries = 0;
+    t->word = word;
+    t->carries = -1;
     if (dot <= 0 || 2 * cross > dot)        /* more than 27 degrees off */
         return;
     t->carries = speed + 32;
     t->weight = min_u32((uint32_t)((WHOLE + t->count - 1) / t->count * t->length) / (uint32_t)max_i32(speed, 32), WHOLE);
 }
 
-struct pixel_job {
+/* What stays the same for the area. */
+struct gathering {
     const struct smear_gather_area *a;
-    int32_t x, y;               /* in the layer's rows */
-    uint32_t still, still_depth;
+    const uint32_t *color;
+    const uint16_t *depth;
+    int32_t width;
+    bool linear;
+    struct taps taps;
 };
 
-static inline bool is_drawn(const struct pixel_job *p, int32_t x, int32_t y, int32_t *at)
-{
-    if (x < p->a->x0 || x >= p->a->x1 || y < 0 || y >= p->a->rows)
-        return false;
-    *at = y * p->a->layer->width + x;
-    return p->a->layer->depth[*at] > p->still_depth;
-}
-
 /* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of the nearest tap
- * along the longest one around that comes this far. */
-static bool find_direction(const struct pixel_job *p, struct vector top, struct vector *out)
+ * along the longest one around that comes this far. Returns its place, or -1. */
+static int32_t find_direction(const struct gathering *g, int32_t x, int32_t y, uint32_t still_depth, struct vector top)
 {
-    int32_t length = (int32_t)sqrt_q3((uint32_t)square_of(top));
-    for (int32_t k = 1; k <= 8; k++)
+    const int32_t length = (int32_t)sqrt_q3((uint32_t)square_of(top));
+    int32_t dx = top.x, dy = top.y;         /* 1/8 px: of eighths, 1/64 px */
+    for (int32_t k = 1; k <= 4; k++)
         for (int32_t sign = -1; sign <= 1; sign += 2) {
-            int32_t at, x = p->x + ((top.x * k * sign + 32) >> 6), y = p->y + ((top.y * k * sign + 32) >> 6);
-            if (!is_drawn(p, x, y, &at))
+            int32_t at = (y + ((dy * k * sign * 2 + 32) >> 6)) * g->width + x + ((dx * k * sign * 2 + 32) >> 6);
+            if (g->depth[at] <= still_depth)
                 continue;
-            struct vector v = velocity_at(p->a->layer, at);
-            if ((int32_t)sqrt_q3((uint32_t)square_of(v)) + 64 >= length * k >> 3) {
-                *out = v;
-                return square_of(v) >= 16;
-            }
+            struct vector v = velocity_at(g->a->layer, at);
+            if (square_of(v) >= 16 && (int32_t)sqrt_q3((uint32_t)square_of(v)) + 64 >= length * k >> 2)
+                return at;
         }
-    return false;
+    return -1;
 }
 
-static uint32_t gather(const struct pixel_job *p, struct taps *t, struct sum *sum)
+/* As velocity_at, in one word that is only good for comparing. */
+SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
 {
-    const struct smear_layer_rows *l = p->a->layer;
-    const int32_t n = t->count;
-    /* From one end to the other: q16 px. */
-    int32_t step_x = t->d.x * 16384 / n, step_y = t->d.y * 16384 / n;
-    int32_t x = (p->x << 16) + 0x8000 - t->d.x * 8192 + (step_x >> 1), y = (p->y << 16) + 0x8000 - t->d.y * 8192 + (step_y >> 1);
-    for (int32_t k = 0; k < n; k++, x += step_x, y += step_y) {
-        int32_t at;
-        if (!is_drawn(p, x >> 16, y >> 16, &at))
+    if (l->velocity8 != NULL) {
+        uint16_t word;
+        __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity8 + 2 * at, 2), sizeof word);
+        return word;
+    }
+    uint32_t word;
+    __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity16 + 2 * at, 4), sizeof word);
+    return word;
+}
+
+SMEAR_INLINE void gather(struct gathering *g, struct sum *sum, int32_t px, int32_t py, uint32_t still_depth, bool linear)
+{
+    struct taps *t = &g->taps;
+    const struct smear_layer_rows *l = g->a->layer;
+    int32_t x = (px << 16) + t->first_x, y = (py << 16) + t->first_y, distance = t->first;
+    for (int32_t k = t->count; k > 0; k--, x += t->step_x, y += t->step_y, distance -= t->step) {
+        int32_t at = (y >> 16) * g->width + (x >> 16);
+        if (g->depth[at] <= still_depth)
             continue;
-        struct vector v = velocity_at(l, at);
-        if (v.x != t->last.x || v.y != t->last.y)
-            taps_meet(t, v);
-        int32_t distance = t->length * abs_i32(2 * k + 1 - n) / n;
-        if (distance <= t->carries)
-            sum_add(sum, l->color[at], t->weight, p->a->linear);
+        uint32_t word = word_at(l, at);
+        if (word != t->word)
+            taps_meet(t, velocity_at(l, at), word);
+        if (abs_i32(distance) <= t->carries)
+            sum_add(sum, g->color[at], t->weight, linear);
     }
-    return (uint32_t)n;
 }
 
-static uint32_t merge_pixel(const struct pixel_job *p, struct vector top, uint32_t *out)
+/* A pixel of the frame at (x, y) of the layer's rows. */
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t x, int32_t y, uint32_t still_depth, struct vector top, uint32_t *out,
+                              uint32_t *taken, bool linear)
 {
-    const struct smear_layer_rows *l = p->a->layer;
-    struct taps taps;
     struct sum sum = { 0, 0, 0, 0 };
+    int32_t here = y * g->width + x, of = -1;
+    const bool drawn = g->depth[here] > still_depth;
     struct vector d = { 0, 0 };
-    int32_t at;
-    uint32_t taken = 0;
-    bool here = is_drawn(p, p->x, p->y, &at);
-    if (here)
-        d = velocity_at(l, at);
-    bool moves = square_of(d) >= 16;            /* half a pixel */
-    if (!moves && square_of(top) >= 16)
-        moves = find_direction(p, top, &d);
-    if (moves) {
-        taps_start(&taps, d, p->a->samples);
-        taken = gather(p, &taps, &sum);
+    if (drawn) {
+        d = velocity_at(g->a->layer, here);
+        if (square_of(d) >= 16)             /* half a pixel */
+            of = here;
     }
-    /* A surface that stays. */
-    if (here && sum.weight < WHOLE && square_of(velocity_at(l, at)) < 16)
-        sum_add(&sum, l->color[at], WHOLE - sum.weight, p->a->linear);
+    const bool stays = drawn && of < 0;
+    if (of < 0)
+        of = find_direction(g, x, y, still_depth, top);
+    if (of >= 0) {
+        uint32_t word = word_at(g->a->layer, of);
+        d = velocity_at(g->a->layer, of);
+        if (d.x != g->taps.d.x || d.y != g->taps.d.y)
+            taps_start(&g->taps, d, word);
+        gather(g, &sum, x, y, still_depth, linear);
+        *taken += (uint32_t)g->taps.count;
+    }
+    if (stays && sum.weight < WHOLE)
+        sum_add(&sum, g->color[here], WHOLE - sum.weight, linear);
     if (sum.weight != 0)
-        *out = sum_pixel(&sum, p->still, p->a->linear);
-    return taken;
+        *out = sum_pixel(&sum, *out, linear);
+}
+
+/* Columns that what is drawn in the rows around y may reach. */
+static void reached(const struct smear_gather_area *a, int32_t y, int32_t *left, int32_t *right)
+{
+    const struct smear_layer_rows *l = a->layer;
+    int32_t first = l->width, end = 0;
+    for (int32_t row = max_i32(y - a->top, 0); row < min_i32(y + a->top + 1, a->rows); row++) {
+        if (l->row_first[row] >= l->row_end[row])
+            continue;
+        first = min_i32(first, l->row_first[row]);
+        end = max_i32(end, l->row_end[row]);
+    }
+    *left = max_i32(a->left, first - l->margin - a->top);
+    *right = min_i32(a->right, end - l->margin + a->top);
 }
 
 uint32_t smear_gather_merge(const struct smear_gather_area *a)
 {
     const struct smear_layer_rows *l = a->layer;
     const struct smear_layer_cell *around = l->cell + (l->width >> a->tile_shift) + 1;
+    struct gathering g = { .a = a, .color = l->color, .depth = l->depth, .width = l->width, .linear = a->linear,
+                           .taps = { .count = a->samples } };
     uint32_t taken = 0;
     for (int32_t y = 0; y < a->height; y++) {
         uint32_t *still = a->still + y * a->still_stride;
         const uint16_t *depth = a->still_depth + y * a->still_stride;
-        for (int32_t x = a->left; x < a->right; x++) {
+        int32_t left, right;
+        reached(a, y + a->top, &left, &right);
+        for (int32_t x = left; x < right; x++) {
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
-            if (!cell->any)
-                continue;
-            struct pixel_job p = { a, x + l->margin, y + a->top, still[x], a->over ? 0 : depth[x] };
-            taken += merge_pixel(&p, (struct vector){ cell->x, cell->y }, &still[x]);
+            const struct vector top = { cell->x, cell->y };
+            uint32_t still_depth = a->over ? 0 : depth[x];
+            if (a->linear)
+                merge_pixel(&g, x + l->margin, y + a->top, still_depth, top, &still[x], &taken, true);
+            else
+                merge_pixel(&g, x + l->margin, y + a->top, still_depth, top, &still[x], &taken, false);
         }
     }
     return taken;
@@ -232,22 +269,25 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
 uint32_t smear_plain_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy)
 {
     const struct smear_layer_rows *l = a->layer;
-    const int32_t n = a->samples, reach_x = (abs_i32(vx) >> 9) + 1;
-    const int32_t left = max_i32(a->left, a->x0 - l->margin - reach_x), right = min_i32(a->right, a->x1 - l->margin + reach_x);
+    const int32_t n = a->samples;
+    const uint32_t weight = (uint32_t)((WHOLE + n - 1) / n);
     for (int32_t y = 0; y < a->height; y++) {
-        uint32_t *still = a->still + y * a->still_stride;
+        int32_t left, right;
+        reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
-            struct pixel_job p = { a, x + l->margin, y + a->top, still[x], a->over ? 0 : a->still_depth[y * a->still_stride + x] };
+            uint32_t *still = a->still + y * a->still_stride + x;
+            uint32_t still_depth = a->over ? 0 : a->still_depth[y * a->still_stride + x];
             struct sum sum = { 0, 0, 0, 0 };
-            uint32_t weight = (uint32_t)((WHOLE + n - 1) / n);
             for (int32_t k = 0; k < n; k++) {
-                int32_t part = (2 * k + 1 - n) * 128 / n, at;       /* q8, -1/2 .. 1/2 */
-                if (is_drawn(&p, p.x + ((vx * part + 0x8000) >> 16), p.y + ((vy * part + 0x8000) >> 16), &at))
+                int32_t part = (2 * k + 1 - n) * 128 / n;           /* q8, -1/2 .. 1/2 */
+                int32_t at = (y + a->top + ((vy * part + 0x8000) >> 16)) * l->width + x + l->margin
+                           + ((vx * part + 0x8000) >> 16);
+                if (l->depth[at] > still_depth)
                     sum_add(&sum, l->color[at], weight, a->linear);
             }
             if (sum.weight != 0)
-                still[x] = sum_pixel(&sum, p.still, a->linear);
+                *still = sum_pixel(&sum, *still, a->linear);
         }
     }
-    return left < right ? (uint32_t)((right - left) * a->height * n) : 0;
+    return (uint32_t)(a->height * (a->right - a->left) * n);
 }

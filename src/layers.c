@@ -234,6 +234,7 @@ struct layers_row {
     struct smear_streak streak;
     struct smear_streak_area area;
     struct smear_gather_area gather;
+    int32_t vx, vy;             /* of taps: no farther than there are pixels */
     struct smear_raster_target target;
     struct smear_raster_frame frame;
 };
@@ -313,7 +314,7 @@ static void merge_job(void *argument, int job, int worker)
     if (r->group->method == SMEAR_LAYERED || is_plain(r)) {
         struct smear_gather_area area = r->gather;
         smear_job_columns(c, job, &area.left, &area.right);
-        samples = is_plain(r) ? smear_plain_merge(&area, r->group->vx, r->group->vy) : smear_gather_merge(&area);
+        samples = is_plain(r) ? smear_plain_merge(&area, r->vx, r->vy) : smear_gather_merge(&area);
     } else {
         struct smear_streak_area area = r->area;
         smear_job_columns(c, job, &area.left, &area.right);
@@ -407,6 +408,9 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->group = group;
     bool gathers = group->method == SMEAR_LAYERED || is_plain(r);
     if (gathers) {
+        const int32_t most = 2 * c->window.reach << 8;
+        r->vx = clamp_i32(group->vx, -most, most);
+        r->vy = clamp_i32(group->vy, -most, most);
         s->upright = false;
         s->reach_x = s->reach_y = c->window.reach;
     }
@@ -421,8 +425,8 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
-    /* Lines that go down look beyond the drawn columns. */
-    int32_t beside = s->upright ? (2 * s->reach_x + 15) & ~15 : 0;
+    /* Lines that go down, and taps, look beyond the drawn columns. */
+    int32_t beside = s->upright || gathers ? (2 * s->reach_x + 15) & ~15 : 0;
     r->target = (struct smear_raster_target){
         .x0 = max_i32(group->x0 - beside, 0), .x1 = min_i32(group->x1 + beside, rows->width),
         .y0 = top - s->reach_y, .y1 = top + height + s->reach_y,
@@ -441,7 +445,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->gather = (struct smear_gather_area){
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
-        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, 256), .linear = c->raster.linear,
+        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, 64), .linear = c->raster.linear,
         .over = group->rank != 0
     };
     smear_streak_edges(s, rows->edge, s->upright ? r->area.rows : rows->width);
