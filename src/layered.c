@@ -100,25 +100,29 @@ static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
 struct taps {
     struct vector d;
     int32_t length;             /* q6 px */
-    int32_t count;
-    int32_t first_x, first_y, step_x, step_y;       /* q16 px */
-    int32_t first, step;        /* distances, q6 px */
+    int32_t count, over;        /* over: 16384 / count */
+    struct {
+        int32_t offset;         /* in the layer's rows */
+        int32_t distance;       /* q6 px */
+    } tap[SMEAR_GATHER_TAPS];
     uint32_t word;              /* the newest velocity */
     int32_t carries;            /* how far it carries a surface along the direction, q6 px; 0: elsewhere */
     uint32_t weight;            /* of a tap with it */
 };
 
-static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t word)
+static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t word, int32_t width)
 {
     const int32_t n = t->count;
     t->d = d;
     t->length = (int32_t)sqrt_q3((uint32_t)square_of(d));
-    t->step_x = d.x * 16384 / n;
-    t->step_y = d.y * 16384 / n;
-    t->first_x = 0x8000 - d.x * 8192 + (t->step_x >> 1);
-    t->first_y = 0x8000 - d.y * 8192 + (t->step_y >> 1);
-    t->step = 2 * t->length / n;
-    t->first = t->length - (t->step >> 1);
+    /* From one end to the other, q16 px. */
+    int32_t step_x = d.x * t->over, step_y = d.y * t->over, step = t->length * t->over >> 13;
+    int32_t x = 0x8000 - d.x * 8192 + (step_x >> 1), y = 0x8000 - d.y * 8192 + (step_y >> 1);
+    int32_t distance = t->length - (step >> 1);
+    for (int32_t k = 0; k < n; k++, x += step_x, y += step_y, distance -= step) {
+        t->tap[k].offset = (y >> 16) * width + (x >> 16);
+        t->tap[k].distance = abs_i32(distance);
+    }
     t->word = word;
     t->carries = t->length + 32;
     t->weight = (uint32_t)((WHOLE + n - 1) / n);
@@ -136,31 +140,43 @@ static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v, uint32_t w
     t->weight = min_u32((uint32_t)((WHOLE + t->count - 1) / t->count * t->length) / (uint32_t)max_i32(speed, 32), WHOLE);
 }
 
+enum { PROBES = 8 };
+
 /* What stays the same for the area. */
 struct gathering {
     const struct smear_gather_area *a;
     const uint32_t *color;
     const uint16_t *depth;
     int32_t width;
-    bool linear;
     struct taps taps;
+    /* Where a surface may come from: places along the longest velocity around, in both senses, and how fast it must be. */
+    struct vector top;
+    struct {
+        int32_t offset;
+        int32_t least;          /* square of 1/8 px */
+    } probe[PROBES];
 };
 
-/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of the nearest tap
- * along the longest one around that comes this far. Returns its place, or -1. */
-static int32_t find_direction(const struct gathering *g, int32_t x, int32_t y, uint32_t still_depth, struct vector top)
+static SMEAR_NOINLINE void probes_start(struct gathering *g, struct vector top)
 {
-    const int32_t length = (int32_t)sqrt_q3((uint32_t)square_of(top));
-    int32_t dx = top.x, dy = top.y;         /* 1/8 px: of eighths, 1/64 px */
-    for (int32_t k = 1; k <= 4; k++)
-        for (int32_t sign = -1; sign <= 1; sign += 2) {
-            int32_t at = (y + ((dy * k * sign * 2 + 32) >> 6)) * g->width + x + ((dx * k * sign * 2 + 32) >> 6);
-            if (g->depth[at] <= still_depth)
-                continue;
-            struct vector v = velocity_at(g->a->layer, at);
-            if (square_of(v) >= 16 && (int32_t)sqrt_q3((uint32_t)square_of(v)) + 64 >= length * k >> 2)
-                return at;
-        }
+    g->top = top;
+    for (int32_t i = 0; i < PROBES; i++) {
+        int32_t k = (i & 1 ? -1 : 1) * ((i >> 1) + 1);      /* quarters of the way */
+        g->probe[i].offset = ((top.y * k + 16) >> 5) * g->width + ((top.x * k + 16) >> 5);
+        int32_t x = max_i32(abs_i32(top.x * k >> 2) - 6, 0), y = max_i32(abs_i32(top.y * k >> 2) - 6, 0);
+        g->probe[i].least = max_i32(x * x + y * y, 16);
+    }
+}
+
+/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of the nearest
+ * place that comes this far. Returns that, or -1. */
+static inline int32_t find_direction(const struct gathering *g, int32_t here, uint32_t still_depth)
+{
+    for (int32_t i = 0; i < PROBES; i++) {
+        int32_t at = here + g->probe[i].offset;
+        if (g->depth[at] > still_depth && square_of(velocity_at(g->a->layer, at)) >= g->probe[i].least)
+            return at;
+    }
     return -1;
 }
 
@@ -177,29 +193,28 @@ SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
     return word;
 }
 
-SMEAR_INLINE void gather(struct gathering *g, struct sum *sum, int32_t px, int32_t py, uint32_t still_depth, bool linear)
+SMEAR_INLINE void gather(struct gathering *g, struct sum *sum, int32_t here, uint32_t still_depth, bool linear)
 {
     struct taps *t = &g->taps;
     const struct smear_layer_rows *l = g->a->layer;
-    int32_t x = (px << 16) + t->first_x, y = (py << 16) + t->first_y, distance = t->first;
-    for (int32_t k = t->count; k > 0; k--, x += t->step_x, y += t->step_y, distance -= t->step) {
-        int32_t at = (y >> 16) * g->width + (x >> 16);
+    for (int32_t k = 0; k < t->count; k++) {
+        int32_t at = here + t->tap[k].offset;
         if (g->depth[at] <= still_depth)
             continue;
         uint32_t word = word_at(l, at);
         if (word != t->word)
             taps_meet(t, velocity_at(l, at), word);
-        if (abs_i32(distance) <= t->carries)
+        if (t->tap[k].distance <= t->carries)
             sum_add(sum, g->color[at], t->weight, linear);
     }
 }
 
-/* A pixel of the frame at (x, y) of the layer's rows. */
-SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t x, int32_t y, uint32_t still_depth, struct vector top, uint32_t *out,
-                              uint32_t *taken, bool linear)
+/* A pixel of the frame, `here` in the layer's rows. */
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out, uint32_t *taken,
+                              bool linear)
 {
     struct sum sum = { 0, 0, 0, 0 };
-    int32_t here = y * g->width + x, of = -1;
+    int32_t of = -1;
     const bool drawn = g->depth[here] > still_depth;
     struct vector d = { 0, 0 };
     if (drawn) {
@@ -209,13 +224,13 @@ SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t x, int32_t y, uint32_
     }
     const bool stays = drawn && of < 0;
     if (of < 0)
-        of = find_direction(g, x, y, still_depth, top);
+        of = find_direction(g, here, still_depth);
     if (of >= 0) {
         uint32_t word = word_at(g->a->layer, of);
         d = velocity_at(g->a->layer, of);
         if (d.x != g->taps.d.x || d.y != g->taps.d.y)
-            taps_start(&g->taps, d, word);
-        gather(g, &sum, x, y, still_depth, linear);
+            taps_start(&g->taps, d, word, g->width);
+        gather(g, &sum, here, still_depth, linear);
         *taken += (uint32_t)g->taps.count;
     }
     if (stays && sum.weight < WHOLE)
@@ -243,8 +258,9 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
 {
     const struct smear_layer_rows *l = a->layer;
     const struct smear_layer_cell *around = l->cell + (l->width >> a->tile_shift) + 1;
-    struct gathering g = { .a = a, .color = l->color, .depth = l->depth, .width = l->width, .linear = a->linear,
-                           .taps = { .count = a->samples } };
+    struct gathering g = { .a = a, .color = l->color, .depth = l->depth, .width = l->width };
+    g.taps.count = a->samples;
+    g.taps.over = 16384 / a->samples;
     uint32_t taken = 0;
     for (int32_t y = 0; y < a->height; y++) {
         uint32_t *still = a->still + y * a->still_stride;
@@ -255,10 +271,13 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
             const struct vector top = { cell->x, cell->y };
             uint32_t still_depth = a->over ? 0 : depth[x];
+            if (top.x != g.top.x || top.y != g.top.y)
+                probes_start(&g, top);
+            int32_t here = (y + a->top) * l->width + x + l->margin;
             if (a->linear)
-                merge_pixel(&g, x + l->margin, y + a->top, still_depth, top, &still[x], &taken, true);
+                merge_pixel(&g, here, still_depth, &still[x], &taken, true);
             else
-                merge_pixel(&g, x + l->margin, y + a->top, still_depth, top, &still[x], &taken, false);
+                merge_pixel(&g, here, still_depth, &still[x], &taken, false);
         }
     }
     return taken;

@@ -12,6 +12,8 @@ struct smear_layer_cell {
     uint8_t any;
 };
 
+enum { SMEAR_GATHER_TAPS = 64 };
+
 /* Where a layer is merged. */
 struct smear_gather_area {
     const struct smear_layer_rows *layer;

@@ -445,7 +445,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->gather = (struct smear_gather_area){
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
-        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, 64), .linear = c->raster.linear,
+        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
         .over = group->rank != 0
     };
     smear_streak_edges(s, rows->edge, s->upright ? r->area.rows : rows->width);
