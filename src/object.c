@@ -435,7 +435,7 @@ static SMEAR_NOINLINE uint32_t depth_near(const struct merge *m, int32_t x, int3
         if (depth != 0)
             return depth;
     }
-    return (m->nearest + m->farthest) >> 1;
+    return (m->a->nearest + m->a->farthest) >> 1;      /* not what find_range leaves: that may come later */
 }
 
 /* Both have their coverage on top. */
@@ -735,6 +735,8 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
     }
     if (left >= right)
         return 0;
+    if (a->mixed0 < a->mixed1)          /* at once: what is mixed must not depend on the pixels before */
+        find_range(&m);
     if (s->upright) {
         int32_t nodes = ((bottom - top) >> s->node) + 2, part = room / nodes;
         for (int32_t x = left; x < right; x += part)

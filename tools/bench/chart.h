@@ -58,6 +58,7 @@ struct chart_setting {
     smear_method method;
     int samples, reconstruct, target;
     bool everywhere;            /* under all conditions; else under the main one only */
+    bool plain;                 /* SMEAR_OBJECT as two cameras do it */
 };
 
 enum { CHART_MAX_SETTINGS = 64 };

@@ -11,7 +11,7 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, OBJECT, LAYERED, SUBFRAMES, TIMEMASK, AUTO };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, TWO_CAMERAS, OBJECT, LAYERED, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -19,6 +19,7 @@ const struct chart_curve chart_curves[] = {
     [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
                     MARK_TRIANGLE, false },
     [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
+    [TWO_CAMERAS] = { "two cameras: one velocity, N taps, over all", "plain", "#a0a0a0", MARK_SQUARE, false },
     [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
     [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE, false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
@@ -52,7 +53,9 @@ const struct chart_setting chart_settings[] = {
     { MENDED, "reconstruct 16 mended", "16", SMEAR_RECONSTRUCT, .samples = 16,
       .reconstruct = MEND },
 
-    { OBJECT, "object", "box", SMEAR_OBJECT, .everywhere = true },
+    { OBJECT, "object", NULL, SMEAR_OBJECT, .everywhere = true },
+    { TWO_CAMERAS, "object plain 4", "4", SMEAR_OBJECT, .samples = 4, .plain = true },
+    { TWO_CAMERAS, "object plain 16", "16", SMEAR_OBJECT, .samples = 16, .plain = true },
     { LAYERED, "layered 4", "4", SMEAR_LAYERED, .samples = 4 },
     { LAYERED, "layered 8", "8", SMEAR_LAYERED, .samples = 8, .everywhere = true },
     { LAYERED, "layered 16", "16", SMEAR_LAYERED, .samples = 16 },
@@ -118,6 +121,7 @@ bool chart_take(int index, struct take *out)
         .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
         .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES && s->method <= SMEAR_AUTO,
         .layers = s->method == SMEAR_OBJECT || s->method == SMEAR_LAYERED,
+        .plain = s->plain,
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .linear = chart_conditions[condition].linear,

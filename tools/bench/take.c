@@ -126,13 +126,14 @@ static bool start_library(struct rig *rig, struct failure *f)
 
 bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
 {
+    static const smear_layer plain = { .mask = 255, .plain = 1, .over = 1 };
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
         .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
-        .clear = rig->scene.clear
+        .clear = rig->scene.clear, .layer = t->plain ? &plain : NULL, .layer_count = t->plain
     };
     rig->frame = presenter_frame(rig->presenter, seconds, &options, f);
     return rig->frame != NULL;

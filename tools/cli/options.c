@@ -153,7 +153,7 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate, reconstruct, subframes or timemask";
+    return "needs auto, none, accumulate, reconstruct, subframes, timemask, object or layered";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -250,9 +250,8 @@ static const char *read_tile(void *to, const char *value)
 
 static const char *read_mask(void *to, const char *value)
 {
-    (void)to;
-    (void)value;
-    return "not built yet";
+    ((struct render_options *)to)->mask = value;
+    return value[0] != '\0' ? NULL : "needs nodes, with commas";
 }
 
 static const char *read_motion(void *to, const char *value)
@@ -443,6 +442,7 @@ static int check_builtin(const struct render_options *o)
         { "--clip", o->view.clip != NULL }, { "--loop", o->view.loop },
         { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
         { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
+        { "--mask", o->mask != NULL },
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)
@@ -457,6 +457,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--exact", "goes with --method accumulate");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
+    if (o->mask != NULL && o->method != SMEAR_OBJECT && o->method != SMEAR_LAYERED)
+        return say_bad_usage("--mask", "goes with --method object and layered");
     if (!o->exact && o->samples > MAX_SAMPLES)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
     if (o->reconstruct != 0 && o->method != SMEAR_RECONSTRUCT)

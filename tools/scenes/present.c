@@ -437,7 +437,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .reconstruct = (uint8_t)o->reconstruct,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
                             .shutter_degrees = (uint16_t)degrees,
-                            .clear = o->clear, .shutter = o->shutter };
+                            .clear = o->clear, .shutter = o->shutter, .layer = o->layer,
+                            .layer_count = (uint8_t)o->layer_count };
     return true;
 }
 
@@ -580,6 +581,8 @@ static bool add_draws(struct presenter *p, const bool seen[POSES], const double 
             if (!add_part(p, c, &c->part[j], plan, pose, reference, motion, f))
                 return false;
             smear_draw *draw = &p->draw[p->out.draw_count - 1];
+            if (o->layers != NULL && i < o->layers_count)
+                draw->layers = o->layers[i];
             if (o->keep_ids && !plan->deformed) {
                 draw->id = id;
                 draw->open = NULL;
