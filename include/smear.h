@@ -163,7 +163,8 @@ typedef enum smear_method {
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
                                  * needs desc.timed */
     SMEAR_AUTO,                 /* per tile the cheapest method that keeps to `target`; needs desc.timed */
-    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene; needs desc.layers */
+    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums whose cost does not
+                                 * grow with its length; those without one velocity as in SMEAR_LAYERED; needs desc.layers */
     SMEAR_LAYERED               /* each blurred layer by velocities of its pixels, over the still scene; likewise */
 } smear_method;
 
@@ -193,7 +194,8 @@ typedef struct smear_layer {
     uint8_t mask;               /* bits of smear_draw.layers; required */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
     uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the depths are */
-    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: one velocity for all of the layer, `samples` taps */
+    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one velocity, that of the layer's
+                                 * first draw, in `samples` taps (up to 64), over all that is still */
     uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
     const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the frame's */
     const smear_camera *open, *close;   /* as in smear_frame; null: `camera` does not move */

@@ -45,6 +45,8 @@ enum { SAMPLES = 24 };
 /* What vertices of a draw say of its motion. */
 struct motion {
     int32_t x, y, depth, longest, count;
+    int32_t x0, x1, y0, y1;     /* least and largest displacements */
+    bool cut;                   /* some lie before the near plane */
 };
 
 static void measure(struct motion *m, const struct smear_context *c, const smear_mesh *mesh,
@@ -53,20 +55,35 @@ static void measure(struct motion *m, const struct smear_context *c, const smear
     const struct smear_viewport *viewport = &c->assembler.viewport;
     const int32_t far_out = 1 << 20;
     uint32_t step = max_u32(mesh->vertex_count / SAMPLES, 1);
-    *m = (struct motion){ 0, 0, 0, 0, 0 };
+    *m = (struct motion){ .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN };
     for (uint32_t i = step >> 1; i < mesh->vertex_count && m->count < SAMPLES; i += step) {
         struct smear_homogeneous h;
         struct smear_screen open, close, now;
         if (((placement_project(&open, &h, &key[0], i, viewport) | placement_project(&close, &h, &key[1], i, viewport)
-              | placement_project(&now, &h, middle, i, viewport)) & OUT_NEAR) != 0)
+              | placement_project(&now, &h, middle, i, viewport)) & OUT_NEAR) != 0) {
+            m->cut = true;
             continue;
+        }
         int32_t x = clamp_i32(close.x - open.x, -far_out, far_out), y = clamp_i32(close.y - open.y, -far_out, far_out);
         m->x += x;
         m->y += y;
         m->depth += now.depth / SAMPLES;
+        m->x0 = min_i32(m->x0, x);
+        m->x1 = max_i32(m->x1, x);
+        m->y0 = min_i32(m->y0, y);
+        m->y1 = max_i32(m->y1, y);
         m->longest = max_i32(m->longest, max_i32(abs_i32(x), abs_i32(y)));
         m->count++;
     }
+}
+
+/* Whether one velocity tells how all of the draw moves: within a third of it and a pixel. */
+static bool is_constant(const struct motion *m)
+{
+    if (m->cut || m->count == 0)
+        return false;
+    int32_t spread = max_i32(m->x1 - m->x0, m->y1 - m->y0) >> 1;
+    return spread <= max_i32(abs_i32(m->x), abs_i32(m->y)) / m->count / 3 + 256;
 }
 
 static bool belongs(const struct smear_group *g, const struct smear_group *to, bool plain)
@@ -85,13 +102,15 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
     bool over = setting->has_camera || setting->layer.over;
     struct motion m;
     measure(&m, c, c->submitted[draw].draw.mesh, key, middle);
-    moves = moves && m.longest >= 8;        /* 1/32 px */
+    moves = moves && (m.longest >= 8 || m.cut);             /* 1/32 px */
     if (!moves && !over)
         return;
     struct smear_group g = {
-        .layer = l->layer_of[draw], .rank = over ? (uint8_t)(l->layer_of[draw] + 1) : 0,
+        .layer = l->layer_of[draw], .rank = over || setting->layer.plain ? (uint8_t)(l->layer_of[draw] + 1) : 0,
         .method = moves ? setting->layer.method : SMEAR_NONE
     };
+    if (g.method == SMEAR_OBJECT && !setting->layer.plain && !is_constant(&m))
+        g.method = SMEAR_LAYERED;
     if (m.count != 0) {
         g.vx = (int32_t)((int64_t)(m.x / m.count) * setting->shutter >> 16);
         g.vy = (int32_t)((int64_t)(m.y / m.count) * setting->shutter >> 16);

@@ -126,7 +126,7 @@ static bool start_library(struct rig *rig, struct failure *f)
 
 bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
 {
-    static const smear_layer plain = { .mask = 255, .plain = 1, .over = 1 };
+    static const smear_layer plain = { .mask = 255, .plain = 1 };
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
