@@ -400,6 +400,33 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, 1u))
 
+/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what groups leave
+ * for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One worker. */
+#define SMEAR_LAYER_DRAW_BYTES 96u
+#define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
+    (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 4u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 2u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach)) / (tile) + 1u) * 13u + 16u) \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach)) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + SMEAR_LAYERS_MAX * 272u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
+
+/* Of a desc with `layers` and with `sharp`. Give reach and tile, not 0. */
+#define SMEAR_MEMORY_SIZE_LAYERS(width, height, reach, triangles, draws, tile) \
+    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) - 1u) / (tile)) + 8u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
+     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
+     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
+     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
+                    * SMEAR_SEGMENT_BYTES) \
+     + SMEAR_LAYERS_BYTES(width, height, reach, draws, tile))
+
 /* Of a desc with `timed` and a window: as SMEAR_MEMORY_SIZE, and two tile rows of the still scene. */
 #define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \
     (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \

@@ -435,7 +435,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     }
     r->area = (struct smear_streak_area){
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
-        .rows = height + 2 * s->reach_y, .top = s->reach_y, .margin = rows->margin,
+        .rows = height + 2 * s->reach_y, .tile = c->window.tile, .top = s->reach_y, .margin = rows->margin,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
         .nearest = group->rank != 0 ? 65536u : group->nearest, .farthest = group->rank != 0 ? 65536u : group->farthest,
         .linear = c->raster.linear,

@@ -139,8 +139,8 @@ static inline struct light light_of(uint32_t p)
 /* ------------------------------------------------------------------ what is worked on */
 
 enum {
-    NODES = 1120,               /* of the frame, at a time; half as many of linear light */
-    STEPS_MAX = 512             /* along a line, at a time; likewise */
+    NODES = 70,                 /* of each row of a tile, at a time; half as many of linear light */
+    STEPS_MAX = 640             /* along a line, at a time; likewise */
 };
 
 struct merge {
@@ -166,8 +166,7 @@ struct merge {
 
 size_t smear_streak_work(int32_t tile)
 {
-    (void)tile;
-    return (NODES + STEPS_MAX) * sizeof(lanes);
+    return (size_t)(NODES * tile + STEPS_MAX) * sizeof(lanes);
 }
 
 /* A line and what may be drawn on it. */
@@ -726,12 +725,12 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
     int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
     struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride,
                        .nearest = a->nearest, .farthest = a->farthest };
-    const int32_t room = a->linear ? NODES / 2 : NODES;
+    const int32_t all = NODES * a->tile, room = a->linear ? all / 2 : all;
     m.node.codes = a->work;
-    m.sums.codes = m.node.codes + NODES;
+    m.sums.codes = m.node.codes + all;
     if (a->linear) {
         m.node.light = a->work;
-        m.sums.light = m.node.light + NODES / 2;
+        m.sums.light = m.node.light + all / 2;
     }
     if (left >= right)
         return 0;
@@ -743,8 +742,9 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
             merge_part(&m, top, bottom, x, min_i32(x + part, right));
     } else {
         int32_t steps = (a->linear ? STEPS_MAX / 2 : STEPS_MAX) - 2 * s->half - 8;
-        int32_t part = min_i32(((room / (bottom - top)) - 2) << s->node, steps) & -16;
-        for (int32_t x = left & -16; x < right; x += part)
+        int32_t part = min_i32(((room / (bottom - top)) - 2) << s->node, steps) & -(1 << s->node);
+        SMEAR_ASSERT(part > 0);
+        for (int32_t x = left & -(1 << s->node); x < right; x += part)
             merge_part(&m, max_i32(x, left), min_i32(x + part, right), top, bottom);
     }
     return (uint32_t)((right - left) * (bottom - top));

@@ -33,7 +33,7 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
 struct smear_streak_area {
     const uint32_t *color;      /* rows of the group (layer.h): columns [x0, x1) are drawn */
     const uint16_t *depth;
-    int32_t stride, x0, x1, rows;
+    int32_t stride, x0, x1, rows, tile;
     const int16_t *row_first, *row_end;     /* in each row: what is drawn lies within */
     int32_t top;                /* which of them is the first to be finished */
     int32_t margin;             /* and which column is the frame's first */

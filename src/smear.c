@@ -57,6 +57,9 @@ static uint32_t pool_words(const smear_desc *d)
 _Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
 _Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
+_Static_assert(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
+_Static_assert(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
+_Static_assert(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
 _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 _Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 _Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
