@@ -33,7 +33,8 @@ struct smear_group {
     int32_t x0, x1;
     uint16_t nearest, farthest;
     int32_t mixed0, mixed1;     /* columns in which it passes through other groups */
-    bool marks;                 /* of which one is merged later */
+    bool marks;                 /* of which one is merged later, none of them with depth codes below this: */
+    uint32_t marked_from;
 };
 
 /* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down there: the

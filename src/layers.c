@@ -49,14 +49,16 @@ struct motion {
     bool cut;                   /* some lie before the near plane */
 };
 
+/* Vertices that are nearer than the mean count: the others are more likely hidden. */
 static void measure(struct motion *m, const struct smear_context *c, const smear_mesh *mesh,
                     const struct smear_placement key[2], const struct smear_placement *middle)
 {
     const struct smear_viewport *viewport = &c->assembler.viewport;
     const int32_t far_out = 1 << 20;
+    int32_t x[SAMPLES], y[SAMPLES], depth[SAMPLES], n = 0, mean = 0;
     uint32_t step = max_u32(mesh->vertex_count / SAMPLES, 1);
     *m = (struct motion){ .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN };
-    for (uint32_t i = step >> 1; i < mesh->vertex_count && m->count < SAMPLES; i += step) {
+    for (uint32_t i = step >> 1; i < mesh->vertex_count && n < SAMPLES; i += step) {
         struct smear_homogeneous h;
         struct smear_screen open, close, now;
         if (((placement_project(&open, &h, &key[0], i, viewport) | placement_project(&close, &h, &key[1], i, viewport)
@@ -64,17 +66,26 @@ static void measure(struct motion *m, const struct smear_context *c, const smear
             m->cut = true;
             continue;
         }
-        int32_t x = clamp_i32(close.x - open.x, -far_out, far_out), y = clamp_i32(close.y - open.y, -far_out, far_out);
-        m->x += x;
-        m->y += y;
-        m->depth += now.depth / SAMPLES;
-        m->x0 = min_i32(m->x0, x);
-        m->x1 = max_i32(m->x1, x);
-        m->y0 = min_i32(m->y0, y);
-        m->y1 = max_i32(m->y1, y);
-        m->longest = max_i32(m->longest, max_i32(abs_i32(x), abs_i32(y)));
+        x[n] = clamp_i32(close.x - open.x, -far_out, far_out);
+        y[n] = clamp_i32(close.y - open.y, -far_out, far_out);
+        depth[n] = now.depth / SAMPLES;
+        mean += depth[n++];
+    }
+    m->depth = mean;
+    for (int32_t i = 0; i < n; i++) {
+        m->x0 = min_i32(m->x0, x[i]);
+        m->x1 = max_i32(m->x1, x[i]);
+        m->y0 = min_i32(m->y0, y[i]);
+        m->y1 = max_i32(m->y1, y[i]);
+        m->longest = max_i32(m->longest, max_i32(abs_i32(x[i]), abs_i32(y[i])));
+        if (depth[i] < mean / n)
+            continue;
+        m->x += x[i];
+        m->y += y[i];
         m->count++;
     }
+    if (n != 0)
+        m->depth /= n;
 }
 
 /* Whether one velocity tells how all of the draw moves: within a third of it and a pixel. */
@@ -114,7 +125,7 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
     if (m.count != 0) {
         g.vx = (int32_t)((int64_t)(m.x / m.count) * setting->shutter >> 16);
         g.vy = (int32_t)((int64_t)(m.y / m.count) * setting->shutter >> 16);
-        g.depth = m.depth / m.count * SAMPLES;
+        g.depth = m.depth * SAMPLES;
     }
     if (!moves)
         g.vx = g.vy = 0;
@@ -401,6 +412,7 @@ static bool find_mixed(const struct smear_context *c)
         g->mixed0 = INT32_MAX;
         g->mixed1 = INT32_MIN;
         g->marks = false;
+        g->marked_from = UINT32_MAX;
         for (uint32_t k = 0; k < i && g->head != SMEAR_NO_TRIANGLE; k++) {
             struct smear_group *before = &l->group[l->order[k]];
             int32_t x0 = max_i32(g->x0 - reach_of(g), before->x0 - reach_of(before));
@@ -412,6 +424,7 @@ static bool find_mixed(const struct smear_context *c)
             before->mixed0 = min_i32(before->mixed0, x0);
             before->mixed1 = max_i32(before->mixed1, x1);
             before->marks = any = true;
+            before->marked_from = min_u32(before->marked_from, g->farthest);
         }
     }
     return any;
@@ -441,7 +454,7 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .linear = c->raster.linear,
         .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work,
         .over = rows->over, .over_depth = rows->over_depth,
-        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks, .marked_from = group->marked_from
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down, and taps, look beyond the drawn columns. */

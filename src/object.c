@@ -719,23 +719,25 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
         finish_along(m);
 }
 
-uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *a)
+uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *all)
 {
+    struct smear_streak_area area = *all, *a = &area;
     int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
     int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
     struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride,
                        .nearest = a->nearest, .farthest = a->farthest };
-    const int32_t all = NODES * a->tile, room = a->linear ? all / 2 : all;
+    const int32_t nodes_max = NODES * a->tile, room = a->linear ? nodes_max / 2 : nodes_max;
     m.node.codes = a->work;
-    m.sums.codes = m.node.codes + all;
+    m.sums.codes = m.node.codes + nodes_max;
     if (a->linear) {
         m.node.light = a->work;
-        m.sums.light = m.node.light + all / 2;
+        m.sums.light = m.node.light + nodes_max / 2;
     }
     if (left >= right)
         return 0;
     if (a->mixed0 < a->mixed1)          /* at once: what is mixed must not depend on the pixels before */
         find_range(&m);
+    a->marks = a->marks && m.nearest > a->marked_from;
     if (s->upright) {
         int32_t nodes = ((bottom - top) >> s->node) + 2, part = room / nodes;
         for (int32_t x = left; x < right; x += part)

@@ -45,7 +45,8 @@ struct smear_streak_area {
     uint32_t *over;
     uint16_t *over_depth;
     int32_t mixed0, mixed1;
-    bool marks;                 /* this group is merged before another: it writes them */
+    bool marks;                 /* this group is merged before others: it writes them */
+    uint32_t marked_from;       /* those have no depth codes below this */
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     uint32_t nearest, farthest; /* depth codes the group keeps to; beyond all codes: it is over all */
     const int16_t *edge;        /* smear_streak_edges() */
