@@ -410,7 +410,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
      + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach)) / (tile) + 1u) * 13u + 16u) \
      + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach)) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + SMEAR_LAYERS_MAX * 272u \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u + SMEAR_LAYERS_MAX * 272u \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
 
 /* Of a desc with `layers` and with `sharp`. Give reach and tile, not 0. */

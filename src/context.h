@@ -90,7 +90,7 @@ struct smear_context {
     uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
     uint16_t *still_depth;
 
-    struct smear_layers layers;
+    struct smear_layers *layers;        /* null without desc.layers */
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
@@ -105,6 +105,12 @@ struct smear_context {
     uint32_t worker_samples[SMEAR_WORKERS_MAX];
     smear_stats stats;
 };
+
+/* The frame has blurred layers. */
+static inline bool has_layers(const struct smear_context *c)
+{
+    return c->layers != NULL && c->layers->on;
+}
 
 /* frame.c: draws what was submitted. */
 int smear_frame_render(struct smear_context *c);

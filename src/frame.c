@@ -84,10 +84,10 @@ struct draw_poses {
 /* The layer of a draw, if it has a camera of its own. */
 static const struct smear_layer_setting *layer_with_camera(const struct smear_context *c, const struct smear_submitted *s)
 {
-    if (!c->layers.on)
+    if (!has_layers(c))
         return NULL;
-    uint32_t layer = c->layers.layer_of[s - c->submitted];
-    return layer != SMEAR_NO_LAYER && c->layers.setting[layer].has_camera ? &c->layers.setting[layer] : NULL;
+    uint32_t layer = c->layers->layer_of[s - c->submitted];
+    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? &c->layers->setting[layer] : NULL;
 }
 
 static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
@@ -227,12 +227,12 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     smear_assembler_reset(&c->assembler);
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
-        uint32_t i = c->layers.on ? c->layers.sequence[k] : k;
-        const struct smear_group *group = c->layers.on && c->layers.group_of[i] != SMEAR_NO_GROUP
-                                        ? &c->layers.group[c->layers.group_of[i]] : NULL;
-        if (c->layers.on)
+        uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
+        const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
+                                        ? &c->layers->group[c->layers->group_of[i]] : NULL;
+        if (has_layers(c))
             c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
-        make_assembly(c, i, c->layers.on && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
+        make_assembly(c, i, has_layers(c) && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
             : !(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
@@ -550,9 +550,9 @@ static void find_layers(struct smear_context *c, const struct instant *middle)
         const smear_mesh *mesh = s->draw.mesh;
         struct draw_poses poses;
         struct smear_placement key[2], at;
-        if (c->layers.layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
+        if (c->layers->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
             continue;
-        const struct smear_layer_setting *setting = &c->layers.setting[c->layers.layer_of[i]];
+        const struct smear_layer_setting *setting = &c->layers->setting[c->layers->layer_of[i]];
         poses_of(c, s, &poses);
         bool moves = setting->layer.method != SMEAR_NONE && (pose_differs(&poses, 1) || pose_differs(&poses, 2));
         if (!moves && !setting->has_camera && !setting->layer.over)
@@ -665,7 +665,8 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = method_is_timed(c->frame.method);
-    c->layers.on = false;
+    if (c->layers != NULL)
+        c->layers->on = false;
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
                                          false };
     bool textured = false;

@@ -23,19 +23,19 @@
 static uint8_t find_layer(const struct smear_context *c, const smear_draw *draw)
 {
     uint32_t bits = draw->layers != 0 ? draw->layers : 1u;
-    for (int i = 0; i < c->layers.setting_count; i++)
-        if ((c->layers.setting[i].layer.mask & bits) != 0)
+    for (int i = 0; i < c->layers->setting_count; i++)
+        if ((c->layers->setting[i].layer.mask & bits) != 0)
             return (uint8_t)i;
     return SMEAR_NO_LAYER;
 }
 
 void smear_layers_begin(struct smear_context *c)
 {
-    c->layers.on = true;
-    c->layers.group_count = 0;
+    c->layers->on = true;
+    c->layers->group_count = 0;
     for (uint32_t i = 0; i < c->draw_count; i++) {
-        c->layers.group_of[i] = SMEAR_NO_GROUP;
-        c->layers.layer_of[i] = find_layer(c, &c->submitted[i].draw);
+        c->layers->group_of[i] = SMEAR_NO_GROUP;
+        c->layers->layer_of[i] = find_layer(c, &c->submitted[i].draw);
     }
 }
 
@@ -108,7 +108,7 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
                       const struct smear_placement *middle, bool moves)
 {
     enum { LOOKED_AT = 16 };    /* groups, from the newest: enough for parts of one thing, and no more than linear time */
-    struct smear_layers *l = &c->layers;
+    struct smear_layers *l = c->layers;
     const struct smear_layer_setting *setting = &l->setting[l->layer_of[draw]];
     bool over = setting->has_camera || setting->layer.over;
     struct motion m;
@@ -145,7 +145,7 @@ static bool is_before(const struct smear_group *a, const struct smear_group *b)
 
 void smear_layers_end(struct smear_context *c)
 {
-    struct smear_layers *l = &c->layers;
+    struct smear_layers *l = c->layers;
     for (uint32_t i = 0; i < l->group_count; i++) {
         uint32_t at = i;
         for (; at > 0 && is_before(&l->group[i], &l->group[l->order[at - 1]]); at--)
@@ -178,14 +178,14 @@ bool smear_layers_assemble(struct smear_context *c, const struct smear_assembly 
     const struct smear_viewport viewport = c->assembler.viewport;
     uint32_t *opaque = g->opaque_last;
     int end = g->row_end;
-    c->assembler.viewport = (struct smear_viewport){ c->layers.rows.width, c->layers.rows.height };
+    c->assembler.viewport = (struct smear_viewport){ c->layers->rows.width, c->layers->rows.height };
     g->opaque_last = g->mover_last;
     g->row_end = end + g->mover_rows;
     bool added = smear_assemble(&c->assembler, a, drop);
     g->row_end = end;
     g->opaque_last = opaque;
     c->assembler.viewport = viewport;
-    c->layers.group[c->layers.group_of[a->draw]].end = g->triangle_count;
+    c->layers->group[c->layers->group_of[a->draw]].end = g->triangle_count;
     return added;
 }
 
@@ -224,7 +224,7 @@ static void extend(struct smear_group *group, const struct smear_geometry *g, co
 /* Finds each group's part of the movers' list. */
 static void list_groups(struct smear_context *c)
 {
-    struct smear_layers *l = &c->layers;
+    struct smear_layers *l = c->layers;
     const struct smear_geometry *g = &c->geometry;
     for (uint32_t i = 0; i < l->group_count; i++) {
         struct smear_group *group = &l->group[i];
@@ -272,7 +272,7 @@ struct layers_row {
 /* Few taps along one velocity. */
 static inline bool is_plain(const struct layers_row *r)
 {
-    return r->group->method == SMEAR_OBJECT && r->row.c->layers.setting[r->group->layer].layer.plain;
+    return r->group->method == SMEAR_OBJECT && r->row.c->layers->setting[r->group->layer].layer.plain;
 }
 
 static void still_job(void *argument, int job, int worker)
@@ -290,7 +290,7 @@ static void still_job(void *argument, int job, int worker)
     }
     smear_raster_list(&r->row.c->raster, &t, r->row.c->opaque);
     for (int32_t y = t.y0; r->mixes && y < t.y1; y++)
-        pixels_fill(r->row.c->layers.rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
+        pixels_fill(r->row.c->layers->rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
 }
 
 /* Columns [x0, x1) of the group's rows, in as many cuts as there are workers. */
@@ -348,7 +348,7 @@ static void merge_job(void *argument, int job, int worker)
     } else {
         struct smear_streak_area area = r->area;
         smear_job_columns(c, job, &area.left, &area.right);
-        area.work = (uint8_t *)area.work + (uint32_t)worker * c->layers.rows.work_bytes;
+        area.work = (uint8_t *)area.work + (uint32_t)worker * c->layers->rows.work_bytes;
         samples = smear_streak_merge(&r->streak, &area);
     }
     c->worker_samples[worker] += samples;
@@ -357,7 +357,7 @@ static void merge_job(void *argument, int job, int worker)
 /* Blended draws lie behind what is in the middle of the exposure. */
 static void keep_depths(const struct layers_row *r)
 {
-    const struct smear_layer_rows *rows = &r->row.c->layers.rows;
+    const struct smear_layer_rows *rows = &r->row.c->layers->rows;
     for (int32_t y = 0; y < r->area.height; y++) {
         const uint16_t *depth = rows->depth + (y + r->area.top) * rows->width + rows->margin;
         uint16_t *still = r->area.still_depth + y * r->area.still_stride;
@@ -405,7 +405,7 @@ static int32_t reach_of(const struct smear_group *group)
 /* Where groups lie in part behind others that are merged before them. */
 static bool find_mixed(const struct smear_context *c)
 {
-    const struct smear_layers *l = &c->layers;
+    const struct smear_layers *l = c->layers;
     bool any = false;
     for (uint32_t i = 0; i < l->group_count; i++) {
         struct smear_group *g = &l->group[l->order[i]];
@@ -432,10 +432,10 @@ static bool find_mixed(const struct smear_context *c)
 
 static void merge_group(struct smear_context *c, struct layers_row *r, struct smear_group *group)
 {
-    const struct smear_layer_rows *rows = &c->layers.rows;
+    const struct smear_layer_rows *rows = &c->layers->rows;
     struct smear_streak *s = &r->streak;
     int32_t top = row_top(c, r->row.row) + c->window.tile, height = r->still.y1 - r->still.y0;
-    const struct smear_layer_setting *setting = &c->layers.setting[group->layer];
+    const struct smear_layer_setting *setting = &c->layers->setting[group->layer];
     smear_streak_make(s, group->vx, group->vy, streak_half_max(c->window.width), c->window.reach);
     r->group = group;
     bool gathers = group->method == SMEAR_LAYERED || is_plain(r);
@@ -533,8 +533,8 @@ static int finish_row(struct smear_context *c, int row, bool first)
     start = stage_start(c);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
-    for (uint32_t i = 0; i < c->layers.group_count; i++) {
-        struct smear_group *group = &c->layers.group[c->layers.order[i]];
+    for (uint32_t i = 0; i < c->layers->group_count; i++) {
+        struct smear_group *group = &c->layers->group[c->layers->order[i]];
         if (group->head != SMEAR_NO_TRIANGLE && group->x0 < group->x1)
             merge_group(c, &r, group);
     }

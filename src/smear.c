@@ -60,6 +60,7 @@ _Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
 _Static_assert(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
 _Static_assert(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
 _Static_assert(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
+_Static_assert(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_BYTES");
 _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 _Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 _Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
@@ -106,7 +107,13 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
     if (d->layers) {
-        struct smear_layer_rows *r = &c->layers.rows;
+        struct smear_layers spare, *l = arena_take(a, 1, sizeof *l);
+        if (l == NULL)          /* only measured */
+            l = &spare;
+        else
+            c->layers = l;
+        *l = (struct smear_layers){ 0 };
+        struct smear_layer_rows *r = &l->rows;
         *r = (struct smear_layer_rows){ .margin = d->reach, .width = d->width + 2 * d->reach,
                                         .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
         size_t layer = (size_t)r->width * (size_t)r->rows;
@@ -126,12 +133,12 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         r->edge = arena_take(a, (size_t)max_i32(r->width, r->rows) + 2u, sizeof *r->edge);
         r->work_bytes = (uint32_t)smear_streak_work(d->tile);
         r->work = arena_take(a, d->workers, r->work_bytes);
-        c->layers.group_of = arena_take(a, d->max_draws, sizeof *c->layers.group_of);
-        c->layers.group = arena_take(a, d->max_draws, sizeof *c->layers.group);
-        c->layers.order = arena_take(a, d->max_draws, sizeof *c->layers.order);
-        c->layers.sequence = arena_take(a, d->max_draws, sizeof *c->layers.sequence);
-        c->layers.layer_of = arena_take(a, d->max_draws, sizeof *c->layers.layer_of);
-        c->layers.setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *c->layers.setting);
+        l->group_of = arena_take(a, d->max_draws, sizeof *l->group_of);
+        l->group = arena_take(a, d->max_draws, sizeof *l->group);
+        l->order = arena_take(a, d->max_draws, sizeof *l->order);
+        l->sequence = arena_take(a, d->max_draws, sizeof *l->sequence);
+        l->layer_of = arena_take(a, d->max_draws, sizeof *l->layer_of);
+        l->setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *l->setting);
     }
     c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
@@ -263,9 +270,9 @@ static bool are_layers(const smear_frame *f)
 static void keep_layers(struct smear_context *c, const smear_frame *f)
 {
     static const smear_layer all = { .mask = 255 };
-    c->layers.setting_count = f->layer_count != 0 ? f->layer_count : 1;
-    for (int i = 0; i < c->layers.setting_count; i++) {
-        struct smear_layer_setting *s = &c->layers.setting[i];
+    c->layers->setting_count = f->layer_count != 0 ? f->layer_count : 1;
+    for (int i = 0; i < c->layers->setting_count; i++) {
+        struct smear_layer_setting *s = &c->layers->setting[i];
         s->layer = f->layer_count != 0 ? f->layer[i] : all;
         if (s->layer.method == 0)
             s->layer.method = f->method;
