@@ -9,19 +9,17 @@
 #include "assemble.h"
 #include "assemble_path.h"
 #include "blur.h"
+#include "camera.h"
 #include "choose.h"
 #include "geometry.h"
+#include "half.h"
 #include "jobs.h"
 #include "layer.h"
+#include "pingpong.h"
 #include "raster.h"
 #include "shutter.h"
 #include "subframes.h"
 #include "window.h"
-
-static inline bool method_is_timed(uint8_t method)
-{
-    return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
-}
 
 static inline bool method_has_layers(uint8_t method)
 {
@@ -50,9 +48,6 @@ struct smear_row_movers {
     struct smear_tile_load *load;               /* per tile */
 };
 
-/* Smooth tiles look at the movers of their own row and of its neighbours. */
-enum { ROWS_LISTED = 3 };
-
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
     enum smear_state state;
@@ -60,6 +55,7 @@ struct smear_context {
     /* the frame */
     smear_frame frame;
     smear_camera camera, camera_open, camera_close;
+    int32_t half_exposure;          /* q24 frames */
     bool camera_moves;              /* the earlier camera is known */
     smear_camera kept_camera;
     bool has_kept_camera;
@@ -73,23 +69,29 @@ struct smear_context {
     struct smear_geometry geometry;
     struct smear_assembler assembler;
     struct smear_window window;
+    struct smear_window *half;              /* with desc.half */
+    const struct smear_window *filtered;    /* which of the two a filter reads */
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
+    struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
     struct smear_jobs jobs;
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
+    uint32_t *half_scratch;         /* the same at half the size */
+    /* passes */
+    struct smear_pass pass[PINGPONG_PASSES_MAX];
+    int passes;
+    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
+    int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
-    struct smear_row_movers row_movers[ROWS_LISTED];    /* with smooth tiles row r at r % 3, else the first */
+    struct smear_row_movers row_movers;     /* of the row being drawn */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
-    uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
-    uint16_t *still_depth;
-
     struct smear_layers *layers;        /* null without desc.layers */
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */

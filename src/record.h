@@ -49,6 +49,7 @@ struct smear_assembly {
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
     struct smear_projection pose[2];    /* velocity is measured between these (one: and the drawn instant) */
@@ -110,6 +111,9 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
 /* Light and colour of a vertex. `flip`: seen from behind. */
 void smear_record_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
                         const uint8_t *face_color, uint32_t face_cosine, bool flip);
+
+/* Whether three stored vertices have one colour, or nearly, and there is no texture. */
+bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], bool linear);
 
 /* ------------------------------------------------------------------ faces */
 
