@@ -162,6 +162,7 @@ typedef struct smear_draw {
     uint8_t billboard;          /* smear_billboard */
     uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the mesh has. With
                                          * another number nothing is known of the deformation: the motion is rigid */
+    uint8_t layers;             /* bits: the layers it is in, see smear_layer; 0 means 1, the first */
 } smear_draw;
 
 typedef enum smear_method {
@@ -177,7 +178,10 @@ typedef enum smear_method {
     SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per vertex;
                                  * needs the window */
     SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
-    SMEAR_HALF                  /* `filter` at half the size, over the whole frame by amount of motion; needs desc.half */
+    SMEAR_HALF,                 /* `filter` at half the size, over the whole frame by amount of motion; needs desc.half */
+    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums whose cost does not
+                                 * grow with its length; those without one velocity as in SMEAR_LAYERED; needs desc.layers */
+    SMEAR_LAYERED               /* each blurred layer by velocities of its pixels, over the still scene; likewise */
 } smear_method;
 
 /* What a method needs of the desc: `timed`; a window (no `sharp`). */
@@ -247,6 +251,21 @@ typedef enum smear_weights {
     SMEAR_WEIGHTS_GUERTIN,      /* Guertin, McGuire, Nowrouzezahrai 2014 */
     SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
 } smear_weights;
+/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT and SMEAR_LAYERED. A draw is
+ * in the first of the frame's layers whose mask shares a bit with smear_draw.layers; in none, it is as SMEAR_NONE draws it,
+ * bit for bit where no streak passes over it. So is what does not move. */
+typedef struct smear_layer {
+    uint8_t mask;               /* bits of smear_draw.layers; required */
+    uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
+    uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the depths are */
+    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one velocity, that of the layer's
+                                 * first draw, in `samples` taps (up to 64), over all that is still */
+    uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
+    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the frame's */
+    const smear_camera *open, *close;   /* as in smear_frame; null: `camera` does not move */
+} smear_layer;
+
+enum { SMEAR_LAYERS_MAX = 8 };
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
@@ -280,6 +299,8 @@ typedef struct smear_frame {
                                          * 0 means 256 */
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
+    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that moves */
+    uint8_t layer_count;
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */
@@ -332,6 +353,7 @@ typedef struct smear_desc {
     uint8_t half;               /* 1: room for SMEAR_HALF */
     uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
                                  * as many tile rows more are kept. Not with timed, passes or half */
+    uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
@@ -358,6 +380,7 @@ typedef struct smear_stats {
     uint32_t tiles_camera, tiles_pingpong, tiles_half;
     uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or (but with
                                          * camera_step) the camera did */
+    uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */
@@ -463,6 +486,33 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile))
+
+/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what groups leave
+ * for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One worker. */
+#define SMEAR_LAYER_DRAW_BYTES 96u
+#define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
+    (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 4u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 2u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach)) / (tile) + 1u) * 13u + 16u) \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach)) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u + SMEAR_LAYERS_MAX * 272u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
+
+/* Of a desc with `layers` and with `sharp`. Give reach and tile, not 0. */
+#define SMEAR_MEMORY_SIZE_LAYERS(width, height, reach, triangles, draws, tile) \
+    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
+     + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) - 1u) / (tile)) + 8u \
+     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
+     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
+     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
+     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
+                    * SMEAR_SEGMENT_BYTES) \
+     + SMEAR_LAYERS_BYTES(width, height, reach, draws, tile))
 
 /* Of a desc with `timed` and a window for SMEAR_RECONSTRUCT. */
 #define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \

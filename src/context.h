@@ -14,11 +14,17 @@
 #include "geometry.h"
 #include "half.h"
 #include "jobs.h"
+#include "layer.h"
 #include "pingpong.h"
 #include "raster.h"
 #include "shutter.h"
 #include "subframes.h"
 #include "window.h"
+
+static inline bool method_has_layers(uint8_t method)
+{
+    return method == SMEAR_OBJECT || method == SMEAR_LAYERED;
+}
 
 /* The pose a draw had, kept under its id. */
 struct smear_kept_pose {
@@ -92,6 +98,8 @@ struct smear_context {
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
+    struct smear_layers *layers;        /* null without desc.layers */
+
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
     bool direct;                    /* sharp rows are drawn as the display's pixels */
@@ -106,6 +114,12 @@ struct smear_context {
     uint32_t worker_samples[SMEAR_WORKERS_MAX];
     smear_stats stats;
 };
+
+/* The frame has blurred layers. */
+static inline bool has_layers(const struct smear_context *c)
+{
+    return c->layers != NULL && c->layers->on;
+}
 
 /* frame.c: draws what was submitted. */
 int smear_frame_render(struct smear_context *c);

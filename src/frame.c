@@ -9,6 +9,7 @@
  *             finish      the row above, which now has neighbours on both sides:
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
+#include "layers.h"
 #include "timed.h"
 
 #include "convert.h"
@@ -81,6 +82,15 @@ struct draw_poses {
     const smear_camera *camera[3];
     const int16_t *position[3];
 };
+
+/* The layer of a draw, if it has a camera of its own. */
+static const struct smear_layer_setting *layer_with_camera(const struct smear_context *c, const struct smear_submitted *s)
+{
+    if (!has_layers(c))
+        return NULL;
+    uint32_t layer = c->layers->layer_of[s - c->submitted];
+    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? &c->layers->setting[layer] : NULL;
+}
 
 static uint32_t magnitude_of(int32_t a)
 {
@@ -178,7 +188,14 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
     }
-    if (c->camera_moves && !c->frame.cut && d->motion != SMEAR_MOTION_NONE) {
+    const struct smear_layer_setting *own = layer_with_camera(c, s);
+    for (int i = 0; i < 3 && own != NULL; i++)
+        p->camera[i] = &own->camera[0];
+    if (own != NULL && !c->frame.cut && d->motion != SMEAR_MOTION_NONE) {
+        p->camera[1] = &own->camera[1];
+        if (c->frame.shutter_poses)
+            p->camera[2] = &own->camera[2];
+    } else if (own == NULL && c->camera_moves && !c->frame.cut && d->motion != SMEAR_MOTION_NONE) {
         p->camera[1] = &c->camera_open;
         if (c->frame.shutter_poses)
             p->camera[2] = &c->camera_close;
@@ -243,7 +260,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
         weight[count++] = instant->weight[k];
     }
     if (count > 1)
-        smear_projection_weigh(sum, weight, count, &c->camera);
+        smear_projection_weigh(sum, weight, count, p->camera[0]);
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
@@ -307,10 +324,16 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
 {
     smear_geometry_reset(&c->geometry, first, end);
     smear_assembler_reset(&c->assembler);
-    for (uint32_t i = 0; i < c->draw_count; i++) {
+    for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
-        make_assembly(c, i, instant, &a);
-        if (!(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
+        uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
+        const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
+                                        ? &c->layers->group[c->layers->group_of[i]] : NULL;
+        if (has_layers(c))
+            c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
+        make_assembly(c, i, has_layers(c) && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
+        if (group != NULL ? !smear_layers_assemble(c, &a, drop)
+            : !(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -789,6 +812,45 @@ static int render_timed(struct smear_context *c)
     return SMEAR_OK;
 }
 
+/* Which draws are blurred, and how they move. */
+static void find_layers(struct smear_context *c, const struct instant *middle)
+{
+    const struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
+    smear_layers_begin(c);
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        const struct smear_submitted *s = &c->submitted[i];
+        const smear_mesh *mesh = s->draw.mesh;
+        struct draw_poses poses;
+        struct smear_placement key[2], at;
+        if (c->layers->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
+            continue;
+        const struct smear_layer_setting *setting = &c->layers->setting[c->layers->layer_of[i]];
+        poses_of(c, s, &poses);
+        bool moves = setting->layer.method != SMEAR_NONE && (pose_differs(&poses, 1) || pose_differs(&poses, 2));
+        if (!moves && !setting->has_camera && !setting->layer.over)
+            continue;
+        place(&key[0], c, &poses, mesh, moves ? &open : &sharp_instant);
+        place(&key[1], c, &poses, mesh, moves ? &close : &sharp_instant);
+        place(&at, c, &poses, mesh, moves ? middle : &sharp_instant);
+        smear_layers_add(c, i, key, &at, moves);
+    }
+    smear_layers_end(c);
+}
+
+static int render_layers(struct smear_context *c)
+{
+    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    find_layers(c, &middle);
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        int top = row;
+        end = assemble_part(c, &top, row, row, &middle);
+        int result = smear_layers_rows(c, row, end);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    return SMEAR_OK;
+}
+
 /* Adds the row's pixels to the sums: linear light, or codes in the same 16 bits. */
 static void add_row(struct smear_context *c, int row)
 {
@@ -880,6 +942,8 @@ static void prepare(struct smear_context *c)
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
+    if (c->layers != NULL)
+        c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -944,7 +1008,8 @@ int smear_frame_render(struct smear_context *c)
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
                : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : smear_method_is_filter(c->frame.method) ? render_filter(c) : render_timed(c);
+               : smear_method_is_filter(c->frame.method) ? render_filter(c)
+               : method_has_layers(c->frame.method) ? render_layers(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

@@ -12,7 +12,7 @@ void smear_geometry_reset(struct smear_geometry *g, int first, int end)
     g->row_end = end;
     for (int row = first; row < end; row++)
         g->opaque_last[row] = g->blend_last[row] = SMEAR_NO_TRIANGLE;
-    for (int row = first; g->mover_last != NULL && row < end; row++)
+    for (int row = first; g->mover_last != NULL && row < end + g->mover_rows; row++)
         g->mover_last[row] = SMEAR_NO_TRIANGLE;
 }
 
@@ -41,7 +41,7 @@ static bool reaches(const struct smear_geometry *g, uint32_t triangle, int32_t y
     return false;
 }
 
-uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row)
+uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row, int32_t y)
 {
     uint32_t fresh = SMEAR_NO_TRIANGLE;
     if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */
@@ -51,7 +51,6 @@ uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *
     }
     uint32_t first = SMEAR_NO_TRIANGLE;
     uint32_t *link = &first;
-    int32_t y = row * g->row_px;
     while (head != SMEAR_NO_TRIANGLE) {
         struct smear_triangle *t = geometry_triangle(g, head);
         uint32_t after = t->next;
@@ -68,4 +67,9 @@ uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *
     }
     *link = fresh;
     return first;
+}
+
+uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row)
+{
+    return smear_geometry_merge(g, last, head, row, row * g->row_px);
 }

@@ -90,6 +90,7 @@ struct smear_geometry {
     uint32_t segment_count, segment_limit;
     /* Per tile row: last triangle of each ring, or none. Movers: opaque and cut out, with a path. */
     uint32_t *opaque_last, *blend_last, *mover_last;
+    int mover_rows;                 /* rows of mover_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
@@ -160,5 +161,8 @@ static inline const struct smear_path_bounds *geometry_bounds(const struct smear
  * `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the new head; lists
  * end with SMEAR_NO_TRIANGLE. */
 uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row);
+
+/* The same for who looks further up: drops only what ends above pixel row y. */
+uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row, int32_t y);
 
 #endif

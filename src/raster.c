@@ -61,7 +61,7 @@ static inline void row_next(struct row *r, const struct setup *s)
 /* A cutout's velocity goes where its texels were drawn: colours first, then velocities by their mask. */
 static SMEAR_NOINLINE void draw_cutout(const struct setup *s, struct span *p, smear_span_fn *write)
 {
-    uint32_t mask[2048 / 32 + 1];
+    uint32_t mask[SPAN_MAX / 32 + 1];
     for (int32_t i = 0; i <= (p->b - p->a) >> 5; i++)
         mask[i] = 0;
     p->mask = mask;

@@ -5,6 +5,8 @@
 #include "arc.h"
 #include "arena.h"
 #include "convert.h"
+#include "layered.h"
+#include "object.h"
 #include "fixmath.h"
 
 /* ------------------------------------------------------------------ desc */
@@ -31,7 +33,8 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((!d->sharp || d->timed) && d->band_rows != d->tile))
+    if (d->band_rows < 8 || d->band_rows % 8 != 0
+        || ((!d->sharp || d->timed || d->layers) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -63,6 +66,10 @@ _Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTE
 _Static_assert(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
 _Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
+_Static_assert(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
+_Static_assert(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
+_Static_assert(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
+_Static_assert(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_BYTES");
 _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 _Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 _Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
@@ -135,6 +142,40 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
+    if (d->layers) {
+        struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);
+        if (l == NULL)          /* only measured */
+            l = &measured;
+        else
+            c->layers = l;
+        *l = (struct smear_layers){ 0 };
+        struct smear_layer_rows *r = &l->rows;
+        *r = (struct smear_layer_rows){ .margin = d->reach, .width = d->width + 2 * d->reach,
+                                        .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
+        size_t layer = (size_t)r->width * (size_t)r->rows;
+        r->color = arena_take(a, layer, 4);
+        r->depth = arena_take(a, layer, 2);
+        if (d->reach <= 15)
+            r->velocity8 = arena_take(a, layer, 2);
+        else
+            r->velocity16 = arena_take(a, layer, 4);
+        size_t cells = (size_t)(r->width >> w->tile_shift) + 1u;
+        r->moving = arena_take(a, cells, 1);
+        r->cell = arena_take(a, 2 * cells, sizeof *r->cell);
+        r->over = arena_take(a, (size_t)d->width * (size_t)d->tile, 4);
+        r->over_depth = arena_take(a, (size_t)d->width * (size_t)d->tile, 2);
+        r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
+        r->row_end = arena_take(a, (size_t)r->rows, sizeof *r->row_end);
+        r->edge = arena_take(a, (size_t)max_i32(r->width, r->rows) + 2u, sizeof *r->edge);
+        r->work_bytes = (uint32_t)smear_streak_work(d->tile);
+        r->work = arena_take(a, d->workers, r->work_bytes);
+        l->group_of = arena_take(a, d->max_draws, sizeof *l->group_of);
+        l->group = arena_take(a, d->max_draws, sizeof *l->group);
+        l->order = arena_take(a, d->max_draws, sizeof *l->order);
+        l->sequence = arena_take(a, d->max_draws, sizeof *l->sequence);
+        l->layer_of = arena_take(a, d->max_draws, sizeof *l->layer_of);
+        l->setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *l->setting);
+    }
     c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
     c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
 
@@ -155,7 +196,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
-    g->mover_last = d->timed ? arena_take(a, (size_t)w->rows, sizeof *g->mover_last) : NULL;
+    g->mover_rows = d->layers ? 2 : 0;
+    g->mover_last = d->timed || d->layers
+                  ? arena_take(a, (size_t)(w->rows + g->mover_rows), sizeof *g->mover_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
@@ -302,7 +345,7 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->filter = SMEAR_FILTER_MEAN;
     if (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
         return false;
-    if (f->method > SMEAR_HALF || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method > SMEAR_LAYERED || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (!smear_pingpong_resolve(&f->pingpong))
@@ -320,9 +363,51 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         return false;
     if (f->method == SMEAR_HALF && !c->desc.half)
         return false;
+    if (method_has_layers(f->method) && !c->desc.layers)
+        return false;
     if (smear_method_is_timed(f->method) && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
+}
+
+static bool is_layer(const smear_layer *l)
+{
+    return l->mask != 0 && (l->method == 0 || l->method == SMEAR_NONE || method_has_layers(l->method))
+        && l->shutter_degrees <= 3600
+        && (l->camera == NULL ? l->open == NULL && l->close == NULL
+            : is_camera(l->camera) && (l->open == NULL || is_camera(l->open)) && (l->close == NULL || is_camera(l->close)));
+}
+
+static bool are_layers(const smear_frame *f)
+{
+    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MAX)
+        return false;
+    for (int i = 0; i < f->layer_count; i++)
+        if (!is_layer(&f->layer[i]))
+            return false;
+    return true;
+}
+
+/* Copies the frame's layers, or makes the one it has without. */
+static void keep_layers(struct smear_context *c, const smear_frame *f)
+{
+    static const smear_layer all = { .mask = 255 };
+    c->layers->setting_count = f->layer_count != 0 ? f->layer_count : 1;
+    for (int i = 0; i < c->layers->setting_count; i++) {
+        struct smear_layer_setting *s = &c->layers->setting[i];
+        s->layer = f->layer_count != 0 ? f->layer[i] : all;
+        if (s->layer.method == 0)
+            s->layer.method = f->method;
+        s->has_camera = s->layer.camera != NULL;
+        if (s->has_camera) {
+            s->camera[0] = *s->layer.camera;
+            s->camera[1] = s->layer.open != NULL ? *s->layer.open : s->camera[0];
+            s->camera[2] = s->layer.close != NULL ? *s->layer.close : s->camera[0];
+        }
+        s->layer.camera = s->layer.open = s->layer.close = NULL;
+        s->shutter = s->layer.shutter_degrees != 0
+                   ? (int32_t)(((uint32_t)s->layer.shutter_degrees << 16) / f->shutter_degrees) : 1 << 16;
+    }
 }
 
 static bool same_kind(const smear_camera *a, const smear_camera *b)
@@ -337,8 +422,11 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !smear_shutter_make(&c->shutter, f.shutter))
+    if (!resolve_frame(c, &f) || !are_layers(&f) || !smear_shutter_make(&c->shutter, f.shutter))
         return SMEAR_ERR_ARG;
+    if (method_has_layers(f.method))
+        keep_layers(c, &f);
+    f.layer = NULL;
     c->camera = *frame->camera;
     c->camera_moves = true;
     c->camera_close = frame->close != NULL ? *frame->close : *frame->camera;

@@ -5,6 +5,9 @@
 
 #include "setup.h"
 
+/* Longest span: a frame's width, and what blurred layers have beyond it on both sides (layer.h). */
+enum { SPAN_MAX = 2048 + 2 * 64 };
+
 /* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
 struct span {
     int32_t a, b, left, right, y;

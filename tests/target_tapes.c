@@ -32,6 +32,9 @@ static const uint8_t slow_shutter[SMEAR_SHUTTER_POINTS] = {
     0, 16, 32, 48, 64, 80, 96, 112, 128, 144, 160, 176, 192, 208, 224, 240, 255,
     240, 224, 208, 192, 176, 160, 144, 128, 112, 96, 80, 64, 48, 32, 16, 0
 };
+/* As two cameras do it. */
+static const smear_layer plain_layer = { .mask = 255, .plain = 1 };
+
 static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
     200, 200, 200, 200, 200, 200, 200, 120, 20, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255
@@ -255,6 +258,37 @@ static const struct spec golden[] = {
       { .width = 97, .height = 61, .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .sharp = 1,
         .band_rows = 8, .max_triangles = 600 },
       { .method = SMEAR_NONE } },
+    { "object-565", "suite/cross", 14, 2, 1,
+      { .width = 80, .height = 60, .reach = 8, .format = SMEAR_RGB565, .sharp = 1, .layers = 1, .max_triangles = 1200 },
+      { .method = SMEAR_OBJECT, .shutter_poses = true },
+      .has_large_meshes = true },
+    { "object-encoded", "suite/enter", 14, 2, 1,
+      { .width = 97, .height = 61, .reach = 6, .tile = 8, .format = SMEAR_XRGB8888, .sharp = 1, .layers = 1,
+        .max_triangles = 1000 },
+      { .method = SMEAR_OBJECT, .light = SMEAR_LIGHT_ENCODED, .shutter_degrees = 300 },
+      .has_large_meshes = true },
+    { "object-parts", "suite/swarm", 14, 1, 1,
+      { .width = 72, .height = 72, .reach = 12, .tile = 32, .format = SMEAR_RGB565_SWAPPED, .sharp = 1, .layers = 1,
+        .max_triangles = 1000 },
+      { .method = SMEAR_OBJECT, .shutter_poses = true },
+      .has_large_meshes = true },
+    { "object-plain", "suite/translate", 14, 1, 1,
+      { .width = 64, .height = 48, .reach = 8, .format = SMEAR_L4, .sharp = 1, .layers = 1, .max_triangles = 800 },
+      { .method = SMEAR_OBJECT, .samples = 4, .layer = &plain_layer, .layer_count = 1 },
+      .has_large_meshes = true },
+    { "layered-565", "suite/propeller", 15, 2, 1,
+      { .width = 72, .height = 72, .reach = 8, .format = SMEAR_RGB565, .sharp = 1, .layers = 1, .max_triangles = 900 },
+      { .method = SMEAR_LAYERED, .shutter_poses = true },
+      .has_large_meshes = true },
+    { "layered-encoded", "suite/arena", 14, 1, 1,
+      { .width = 96, .height = 72, .reach = 20, .tile = 32, .format = SMEAR_RGB555, .sharp = 1, .layers = 1,
+        .max_triangles = 1200 },
+      { .method = SMEAR_LAYERED, .light = SMEAR_LIGHT_ENCODED, .samples = 6, .exposure = SMEAR_TRAILING },
+      .has_large_meshes = true },
+    { "layered-kept", "demo/drone", 24, 3, 1,
+      { .width = 64, .height = 48, .reach = 8, .format = SMEAR_L8, .sharp = 1, .layers = 1, .max_triangles = 1800 },
+      { .method = SMEAR_LAYERED, .keep_ids = true },
+      .has_large_meshes = true },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */

@@ -61,6 +61,7 @@ struct chart_setting {
     smear_filter filter;        /* as in smear_frame */
     smear_weights weights;
     bool spread;
+    bool plain;                 /* SMEAR_OBJECT as two cameras do it */
 };
 
 enum { CHART_MAX_SETTINGS = 64 };

@@ -11,7 +11,7 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, CAMERA, PINGPONG, HALF, SUBFRAMES, TIMEMASK, AUTO };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, CAMERA, PINGPONG, HALF, TWO_CAMERAS, OBJECT, LAYERED, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -22,6 +22,9 @@ const struct chart_curve chart_curves[] = {
     [CAMERA] = { "camera: velocity from depth, a mean", "camera", "#8c564b", MARK_CIRCLE, false },
     [PINGPONG] = { "pingpong: 8 and 8 taps", "pingpong", "#4b8b3b", MARK_SQUARE, false },
     [HALF] = { "half: reconstruct at half the size", "half", "#c77cba", MARK_TRIANGLE, false },
+    [TWO_CAMERAS] = { "two cameras: one velocity, N taps, over all", "plain", "#a0a0a0", MARK_SQUARE, false },
+    [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
+    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE, false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
     [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
     [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
@@ -65,6 +68,12 @@ const struct chart_setting chart_settings[] = {
     { PINGPONG, "pingpong spread", NULL, SMEAR_PINGPONG, .spread = true },
     { HALF, "half 8", "8", SMEAR_HALF, .samples = 8, .everywhere = true },
     { HALF, "half 8 mended", NULL, SMEAR_HALF, .samples = 8, .reconstruct = MEND },
+    { OBJECT, "object", NULL, SMEAR_OBJECT, .everywhere = true },
+    { TWO_CAMERAS, "object plain 4", "4", SMEAR_OBJECT, .samples = 4, .plain = true },
+    { TWO_CAMERAS, "object plain 16", "16", SMEAR_OBJECT, .samples = 16, .plain = true },
+    { LAYERED, "layered 4", "4", SMEAR_LAYERED, .samples = 4 },
+    { LAYERED, "layered 8", "8", SMEAR_LAYERED, .samples = 8, .everywhere = true },
+    { LAYERED, "layered 16", "16", SMEAR_LAYERED, .samples = 16 },
 
     { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
     { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },
@@ -126,6 +135,8 @@ bool chart_take(int index, struct take *out)
     *out = (struct take){
         .scene = kinds[kind].scene, .frame = -1, .windowed = smear_method_is_filter(s->method),
         .accumulate = s->method == SMEAR_ACCUMULATE, .timed = smear_method_is_timed(s->method),
+        .layers = s->method == SMEAR_OBJECT || s->method == SMEAR_LAYERED,
+        .plain = s->plain,
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .filter = s->filter, .weights = s->weights, .pingpong.spread = s->spread,

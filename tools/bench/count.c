@@ -155,7 +155,7 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->windowed == b->windowed && a->accumulate == b->accumulate
         && a->band_rows == b->band_rows && a->format == b->format && a->method == b->method
         && a->samples == b->samples && a->reconstruct == b->reconstruct
-        && a->timed == b->timed && a->target == b->target && a->reach == b->reach
+        && a->timed == b->timed && a->layers == b->layers && a->plain == b->plain && a->target == b->target && a->reach == b->reach
         && a->filter == b->filter && a->camera_step == b->camera_step && a->weights == b->weights
         && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0
         && a->shutter_poses == b->shutter_poses && a->workers == b->workers

@@ -108,6 +108,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.reach = (int16_t)t->reach;
     desc.accumulate = t->accumulate;
     desc.timed = t->timed;
+    desc.layers = t->layers;
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */
@@ -126,6 +127,7 @@ static bool start_library(struct rig *rig, struct failure *f)
 
 bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
 {
+    static const smear_layer plain = { .mask = 255, .plain = 1 };
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
@@ -133,7 +135,8 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
         .filter = t->filter, .camera_step = t->camera_step, .pingpong = t->pingpong, .weights = t->weights,
-        .texels_565 = t->texels_565, .fit_grid = t->fit_grid, .clear = rig->scene.clear
+        .texels_565 = t->texels_565, .fit_grid = t->fit_grid, .clear = rig->scene.clear,
+        .layer = t->plain ? &plain : NULL, .layer_count = t->plain
     };
     rig->frame = presenter_frame(rig->presenter, seconds, &options, f);
     return rig->frame != NULL;

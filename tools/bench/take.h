@@ -24,6 +24,8 @@ struct take {
     bool windowed;              /* a window for filters; else a context that is only sharp */
     bool accumulate;            /* room for SMEAR_ACCUMULATE */
     bool timed;                 /* room for the methods that look at several times */
+    bool layers;                /* room for blurred layers */
+    bool plain;                 /* SMEAR_OBJECT as two cameras do it */
     int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
     smear_format format;        /* never dithered */
     smear_method method;

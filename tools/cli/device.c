@@ -96,6 +96,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     if (desc.sharp)
         desc.passes = desc.half = 0;
     desc.timed = s->timed;
+    desc.layers = s->layers;
     desc.scatter = s->scatter;
     desc.accumulate = s->accumulate;
     desc.crc = 1;

@@ -123,7 +123,7 @@ static const struct {
     { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
     { "camera", true, SMEAR_CAMERA },           { "pingpong", true, SMEAR_PINGPONG },
     { "half", true, SMEAR_HALF },
-    { "object", false, SMEAR_DEFAULT_METHOD },  { "layered", false, SMEAR_DEFAULT_METHOD },
+    { "object", true, SMEAR_OBJECT },           { "layered", true, SMEAR_LAYERED },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -146,7 +146,7 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong or half";
+    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong, half, object or layered";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -243,9 +243,8 @@ static const char *read_tile(void *to, const char *value)
 
 static const char *read_mask(void *to, const char *value)
 {
-    (void)to;
-    (void)value;
-    return "not built yet";
+    ((struct render_options *)to)->mask = value;
+    return value[0] != '\0' ? NULL : "needs nodes, with commas";
 }
 
 static const char *read_motion(void *to, const char *value)
@@ -430,6 +429,7 @@ static int check_builtin(const struct render_options *o)
         { "--clip", o->view.clip != NULL }, { "--loop", o->view.loop },
         { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
         { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
+        { "--mask", o->mask != NULL },
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)
@@ -444,6 +444,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--exact", "goes with --method accumulate");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
+    if (o->mask != NULL && o->method != SMEAR_OBJECT && o->method != SMEAR_LAYERED)
+        return say_bad_usage("--mask", "goes with --method object and layered");
     if (!o->exact && o->samples > MAX_SAMPLES)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
     if (o->has_quality && o->has_target)

@@ -46,6 +46,7 @@ struct render_options {
     double reach_percent;       /* 0: not given */
     const char *motion[OPTIONS_MAX_MOTIONS];
     int motion_count;
+    const char *mask;           /* null: not given */
     long cut[OPTIONS_MAX_CUTS];
     int cut_count;
 

@@ -17,23 +17,35 @@ static bool is_timed_method(const struct render_options *o)
     return o->shutter_degrees > 0 && smear_method_is_timed(o->method);
 }
 
-static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
+static bool is_layered_method(const struct render_options *o)
+{
+    return o->shutter_degrees > 0 && (o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED);
+}
+
+/* What --motion and --mask say of each draw. */
+static int set_draws(const struct render_options *o, struct source *source, struct setup *out)
 {
     struct failure f = { "" };
     struct scene_instant instant = { 0 };
     int status = STATUS_OK;
-    if (o->motion_count == 0)
+    if (o->motion_count == 0 && o->mask == NULL)
         return STATUS_OK;
     if (!scene_pose(&source->scene, 0.0, &instant, &f)) {
         status = say_bad_input(source->name, &f);
     } else {
-        out->motion = calloc((size_t)instant.draw_count + 1, 1);
-        out->present.motion = out->motion;
-        out->present.motion_count = instant.draw_count;
-        if (out->motion == NULL)
+        size_t room = (size_t)instant.draw_count + 1;
+        out->motion = o->motion_count > 0 ? calloc(room, 1) : NULL;
+        out->layers = o->mask != NULL ? calloc(room, 1) : NULL;
+        if ((out->motion == NULL && o->motion_count > 0) || (out->layers == NULL && o->mask != NULL))
             status = say_bad_input(source->name, &f);
-        else
+        if (status == STATUS_OK && o->motion_count > 0)
             status = source_motion(source, o->motion, o->motion_count, &instant, out->motion);
+        if (status == STATUS_OK && o->mask != NULL)
+            status = source_mask(source, o->mask, &instant, out->layers);
+        out->present.motion = out->motion;
+        out->present.motion_count = out->motion != NULL ? instant.draw_count : 0;
+        out->present.layers = out->layers;
+        out->present.layers_count = out->layers != NULL ? instant.draw_count : 0;
     }
     scene_instant_free(&source->scene, &instant);
     return status;
@@ -41,6 +53,7 @@ static int set_motion(const struct render_options *o, struct source *source, str
 
 int setup_change(const struct render_options *o, const struct source *source, struct setup *out)
 {
+    static const smear_layer masked = { .mask = SOURCE_MASKED };
     const struct scene *scene = &source->scene;
     bool is_builtin = !source->is_file;
     out->width = is_builtin && !o->has_size ? scene->width : o->width;
@@ -55,6 +68,8 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
         .weights = o->weights, .turn_scale = o->turn_scale, .way_scale = o->way_scale, .object_scale = o->object_scale,
         .motion = out->present.motion, .motion_count = out->present.motion_count,
+        .layers = out->present.layers, .layers_count = out->present.layers_count,
+        .layer = o->mask != NULL ? &masked : NULL, .layer_count = o->mask != NULL,
     };
     out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
     return options_reach(o, out->height, &out->reach, &out->tile);
@@ -64,12 +79,13 @@ int setup_open(const struct render_options *o, struct source *source, struct set
 {
     *out = (struct setup){ .motion = NULL };
     int status = setup_change(o, source, out);
-    return status == STATUS_OK ? set_motion(o, source, out) : status;
+    return status == STATUS_OK ? set_draws(o, source, out) : status;
 }
 
 void setup_release(struct setup *setup)
 {
     free(setup->motion);
+    free(setup->layers);
     *setup = (struct setup){ .motion = NULL };
 }
 
@@ -78,7 +94,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
     return (struct device_setup){
         .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
-        .timed = is_timed_method(o),
+        .timed = is_timed_method(o), .layers = is_layered_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
         .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };

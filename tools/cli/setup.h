@@ -15,6 +15,7 @@ struct setup {
     int width, height, reach, tile;     /* pixels; tile 0: the library's default */
     struct present_options present;     /* of every frame, but for cuts */
     uint8_t *motion;                    /* per draw; or null */
+    uint8_t *layers;                    /* likewise */
 };
 
 /* A status. setup_release frees `out` in any case. */

@@ -82,26 +82,54 @@ void source_close(struct source *source)
         model_free(&source->model);
 }
 
-/* The node and the enum scene_motion of `NODE=MODE`. */
-static int read_setting(const struct model *model, const char *setting, int *node, int *motion)
+/* A node by its name, else by its index. */
+static int find_node(const struct model *model, const char *option, const char *text, size_t length,
+                     int *node)
 {
-    static const char *const modes[] = { "full", "camera", "none", NULL };
     char name[256];
-    const char *equals = strrchr(setting, '=');
-    size_t length = equals != NULL ? (size_t)(equals - setting) : 0;
-    *motion = equals != NULL ? read_name(equals + 1, modes) : -1;
-    if (*motion < 0 || length == 0 || length >= sizeof name)
-        return say_bad_usage("--motion", "needs NODE=full, NODE=camera or NODE=none (\"%s\")",
-                             setting);
-    memcpy(name, setting, length);
-    name[length] = '\0';
     long index;
+    if (length == 0 || length >= sizeof name)
+        return say_bad_usage(option, "needs the name or index of a node");
+    memcpy(name, text, length);
+    name[length] = '\0';
     *node = model_find_node(model, name);
     if (*node < 0 && read_integer(name, 0, model->node_count - 1, &index))
         *node = (int)index;
     if (*node < 0)
-        return say_bad_usage("--motion", "the file has no such node (\"%s\")", name);
+        return say_bad_usage(option, "the file has no such node (\"%s\")", name);
     return STATUS_OK;
+}
+
+/* The node and the enum scene_motion of `NODE=MODE`. */
+static int read_setting(const struct model *model, const char *setting, int *node, int *motion)
+{
+    static const char *const modes[] = { "full", "camera", "none", NULL };
+    const char *equals = strrchr(setting, '=');
+    size_t length = equals != NULL ? (size_t)(equals - setting) : 0;
+    *motion = equals != NULL ? read_name(equals + 1, modes) : -1;
+    if (*motion < 0 || length == 0 || length >= 256)
+        return say_bad_usage("--motion", "needs NODE=full, NODE=camera or NODE=none (\"%s\")",
+                             setting);
+    return find_node(model, "--motion", setting, length, node);
+}
+
+int source_mask(const struct source *source, const char *nodes, const struct scene_instant *instant,
+                uint8_t *layers)
+{
+    for (int i = 0; i < instant->draw_count; i++)
+        layers[i] = SOURCE_UNMASKED;
+    for (;;) {
+        size_t length = strcspn(nodes, ",");
+        int node, status = find_node(&source->model, "--mask", nodes, length, &node);
+        if (status != STATUS_OK)
+            return status;
+        for (int i = 0; i < instant->draw_count; i++)
+            if (model_node_is_under(&source->model, instant->draw[i].node, node))
+                layers[i] = SOURCE_MASKED;
+        if (nodes[length] == '\0')
+            return STATUS_OK;
+        nodes += length + 1;
+    }
 }
 
 int source_motion(const struct source *source, const char *const *setting, int setting_count,

@@ -37,6 +37,12 @@ void source_close(struct source *source);
 int source_motion(const struct source *source, const char *const *setting, int setting_count,
                   const struct scene_instant *instant, uint8_t *motion);
 
+/* Layers (smear_draw.layers) of each draw of an instant, by a list of nodes with commas: those and
+ * all below them are masked. A status. */
+enum { SOURCE_UNMASKED = 1, SOURCE_MASKED = 2 };
+int source_mask(const struct source *source, const char *nodes, const struct scene_instant *instant,
+                uint8_t *layers);
+
 /* "demo-race" of builtin:demo/race, "fox" of models/fox.glb; false when it does not fit. */
 bool source_stem(const char *name, char *out, size_t size);
 

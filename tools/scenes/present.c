@@ -469,7 +469,8 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .object_scale = (uint16_t)o->object_scale,
                             .shutter_mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
                             .shutter_us = (uint32_t)o->shutter_us,
-                            .clear = o->clear, .shutter = o->shutter };
+                            .clear = o->clear, .shutter = o->shutter, .layer = o->layer,
+                            .layer_count = (uint8_t)o->layer_count };
     return true;
 }
 
@@ -612,6 +613,8 @@ static bool add_draws(struct presenter *p, const bool seen[POSES], const double 
             if (!add_part(p, c, &c->part[j], plan, pose, reference, motion, f))
                 return false;
             smear_draw *draw = &p->draw[p->out.draw_count - 1];
+            if (o->layers != NULL && i < o->layers_count)
+                draw->layers = o->layers[i];
             if (o->keep_ids && !plan->deformed) {
                 draw->id = id;
                 draw->open = NULL;

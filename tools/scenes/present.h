@@ -65,6 +65,10 @@ struct present_options {
                                      * the world stay those of the presenter's first frame */
     const uint8_t *motion;          /* enum scene_motion of each draw of the scene; null: full */
     int motion_count;               /* draws beyond it are full */
+    const uint8_t *layers;          /* smear_draw.layers of each draw of the scene; null: all 0 */
+    int layers_count;               /* draws beyond it have 0 */
+    const smear_layer *layer;       /* of SMEAR_OBJECT and SMEAR_LAYERED; null: the default */
+    int layer_count;
 };
 
 /* A frame as the library sees it. Belongs to the presenter; valid until its next frame. */

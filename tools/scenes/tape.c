@@ -345,7 +345,28 @@ static void add_draw(struct text *text, struct tape_writer *w, const smear_draw 
     add_field(text, "billboard", d->billboard);
     add_field(text, "open_count", d->open_count);
     add_field(text, "close_count", d->close_count);
+    add_field(text, "layers", d->layers);
     add(text, "},\n");
+}
+
+/* Of layers without cameras. */
+static int layers(struct tape_writer *w, const smear_layer *layer, int count)
+{
+    struct text text = { 0 };
+    if (layer == NULL)
+        return NO_OBJECT;
+    add(&text, "{");
+    for (int i = 0; i < count; i++) {
+        add(&text, "{ ");
+        add_field(&text, "mask", layer[i].mask);
+        add_field(&text, "method", layer[i].method);
+        add_field(&text, "over", layer[i].over);
+        add_field(&text, "plain", layer[i].plain);
+        add_field(&text, "shutter_degrees", layer[i].shutter_degrees);
+        add(&text, "}, ");
+    }
+    add(&text, "}");
+    return object(w, "smear_layer", true, &text);
 }
 
 static int frame_object(struct tape_writer *w, const smear_frame *frame)
@@ -354,6 +375,7 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     int now = camera(w, frame->camera), open = camera(w, frame->open);
     int close = camera(w, frame->close);
     int shutter = array(w, UINT8, frame->shutter, SMEAR_SHUTTER_POINTS);
+    int layer = layers(w, frame->layer, frame->layer_count);
     add(&text, "{ ");
     add_reference(&text, w, "camera", now);
     add_reference(&text, w, "open", open);
@@ -385,6 +407,8 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_field(&text, "way_scale", frame->way_scale);
     add_field(&text, "object_scale", frame->object_scale);
     add_reference(&text, w, "shutter", shutter);
+    add_reference(&text, w, "layer", layer);
+    add_field(&text, "layer_count", frame->layer_count);
     add(&text, "}");
     return object(w, "smear_frame", false, &text);
 }
@@ -408,6 +432,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *d)
     add_field(&text, "passes", d->passes);
     add_field(&text, "half", d->half);
     add_field(&text, "scatter", d->scatter);
+    add_field(&text, "layers", d->layers);
     add_field(&text, "band_rows", d->band_rows);
     add_field(&text, "max_draws", d->max_draws);
     add_field(&text, "max_triangles", d->max_triangles);
