@@ -762,10 +762,6 @@ for option in --exposure --poses --method --quality --light --filter --format --
 done
 usage --reconstruct render "$plate" --reconstruct fence,
 usage --reconstruct render "$plate" --reconstruct fence,frob
-for method in object layered; do
-    usage --method render "$plate" --method $method
-    claim "says that it is not built" err_has "not built yet"
-done
 usage --inside render "$plate" --inside mean
 usage --inside render "$plate" --method camera --inside gauss
 usage --camera-step render "$plate" --method camera --camera-step 3
@@ -781,7 +777,6 @@ for method in camera "camera --camera-step 4 --inside reconstruct --reconstruct 
     claim "draws with --method $method" render builtin:suite/pan --size 64x48 --method $method -o filter.png
 done
 usage --mask render "$plate" --mask plate
-claim "says that it is not built" err_has "not built yet"
 usage --shutter-mode render "$plate" --shutter-mode frob
 usage --shutter-mode render "$plate" --shutter-mode fixed:
 usage --shutter-mode render "$plate" --shutter-mode capped:30
