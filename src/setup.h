@@ -79,6 +79,7 @@ struct setup {
     bool writes_velocity;
     bool has_velocity;              /* its planes are made */
     bool flat;                      /* one colour, opaque: `color` */
+    bool velocity_unknown;          /* with 0 poses: depth will tell it */
     bool velocity_affine;
     bool clamp_velocity;
     struct plane vx, vy;            /* affine: displacement q18 px */

@@ -52,6 +52,8 @@ static void fit_samples(struct render_options *o)
         o->samples = 0;
     if (o->method != SMEAR_RECONSTRUCT)
         o->reconstruct = 0;
+    if (o->method != SMEAR_CAMERA && o->method != SMEAR_HALF)
+        o->filter = SMEAR_FILTER_DEFAULT;
 }
 
 /* Other options for one lane; told when they do not work. */
@@ -128,7 +130,7 @@ static void do_samples(struct view *v, int way)
     const bool is_slots = o.method == SMEAR_TIMEMASK;
     const int *list = is_slots ? slots : taps;
     int count = is_slots ? 3 : (int)(sizeof taps / sizeof *taps), at = 0;
-    int now = o.samples > 0 ? o.samples : o.method >= SMEAR_SUBFRAMES ? 32 : 8;
+    int now = o.samples > 0 ? o.samples : smear_method_is_timed(o.method) ? 32 : 8;
     while (at < count - 1 && list[at] < now)
         at++;
     at += way;
@@ -250,7 +252,8 @@ static void do_debug(struct view *v, int way)
 {
     v->debug_kind = (enum debug_kind)(((int)v->debug_kind + way + DEBUG_KINDS) % DEBUG_KINDS);
     v->is_dirty = true;
-    view_say(v, "%s", debug_names[v->debug_kind]);
+    const char *legend = debug_legends[v->debug_kind];
+    view_say(v, "%s%s%s", debug_names[v->debug_kind], legend != NULL ? ": " : "", legend != NULL ? legend : "");
 }
 
 static void do_overlay(struct view *v, int way)
@@ -466,7 +469,7 @@ const struct control control_list[] = {
     { "v", { 'v', 0 }, do_split, "split screen" },
     { "V", { 'V', 0 }, do_left, "method of its left half" },
     { "> <", { '>', '<' }, do_divider, "its divider (or drag, right button)" },
-    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, bands, wire" },
+    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, methods ..." },
     { "o", { 'o', 0 }, do_overlay, "figures on, off" },
     { "e", { 'e', 0 }, do_error, "error against the truth" },
     { "z Z", { 'z', 'Z' }, do_zoom, "zoom" },
