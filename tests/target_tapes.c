@@ -44,7 +44,7 @@ static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. Methods
  * that look at several instants: all settings, with and without the window, still and moving
  * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. Filters: velocity from depth,
- * passes, half size, other weights, streaks longer than a tile, scales, a fixed rate.  Sharp
+ * passes, half size, other weights, streaks longer than a tile, scales, a fixed rate. Sharp
  * frames that are drawn as the display's pixels. */
 static const struct spec golden[] = {
     { "none-xrgb", "peer/E", 0, 2, 1,
