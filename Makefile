@@ -29,8 +29,8 @@ endif
 include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
-LAYERS := base fixed noise tables fixmath pixel arena matrix arc reproject transform light clip geometry path shutter record tiny assemble \
-          assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
+LAYERS := base fixed noise tables fixmath pixel arena matrix arc reproject transform light clip geometry path shutter record \
+          tiny assemble assemble_path texture target mover setup course span rows velocity raster subframes timemask_cover timemask_shade \
           timemask_slots timemask_spread timemask choose window camera half tilemax blur blur_uniform blur_reconstruct \
           blur_weights pingpong convert jobs context \
           band timed frame smear
@@ -171,7 +171,7 @@ CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c cha
 TEST_SRC := tests/run.c tests/test.c tests/accuracy.c tests/rig.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tty.c wire.c x11_auth.c)
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
@@ -223,6 +223,7 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	done
 
 include platform/programs.mk
+include tools/web/web.mk
 
 # The demo firmware on a desktop's screen.
 $(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \

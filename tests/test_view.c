@@ -14,6 +14,7 @@
 #include "../tools/view/panel.h"
 #include "../tools/view/script.h"
 #include "../tools/view/surface.h"
+#include "../tools/view/tiles.h"
 #include "../tools/view/tty.h"
 #include "../tools/view/wire.h"
 #include "../tools/view/x11_auth.h"
@@ -461,6 +462,33 @@ static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
     scene_free(&scene);
 }
 
+/* After half a second of a round in two, the eye is a quarter further, and it is back after all of it. */
+static void test_a_turntable_goes_round(void)
+{
+    struct failure f = { "" };
+    struct scene scene;
+    struct orbit orbit;
+    struct scene_instant own = { 0 }, turned = { 0 };
+    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
+        return;
+    orbit_open(&orbit, &scene);
+    CHECK(orbit_find_focus(&orbit, 0.0, &f));
+    orbit.spin = 3.14159265358979323846;
+    for (int quarter = 0; quarter <= 4; quarter++) {
+        double time = quarter * 0.5;
+        CHECK(scene_pose(&scene, time, &own, &f) && scene_pose(&orbit.scene, time, &turned, &f));
+        const double *a = own.camera.pose, *b = turned.camera.pose;
+        /* of where both look along the ground: the cosine between */
+        double dot = (a[8] * b[8] + a[10] * b[10]) / (hypot(a[8], a[10]) * hypot(b[8], b[10]));
+        CHECK(fabs(dot - (quarter % 2 ? 0.0 : quarter == 2 ? -1.0 : 1.0)) < 1e-9);
+    }
+    orbit_reset(&orbit);
+    CHECK(!orbit_is_turned(&orbit));
+    scene_instant_free(&scene, &own);
+    scene_instant_free(&orbit.scene, &turned);
+    scene_free(&scene);
+}
+
 /* What the camera looks at stays in the middle, at the distance that was asked for. */
 static void test_a_turned_camera_looks_at_the_same_point(void)
 {
@@ -531,6 +559,79 @@ static void test_wires_lie_on_what_is_drawn(void)
     CHECK_EQ(off, 0);
     presenter_free(p);
     scene_free(&scene);
+}
+
+/* ------------------------------------------------------------------ tiles */
+
+struct noted {
+    smear_context *ctx;
+    struct tiles tiles;
+};
+
+static int note_band(void *user, const smear_band *band)
+{
+    struct noted *n = user;
+    tiles_note(&n->tiles, n->ctx, band);
+    return 0;
+}
+
+/* What is noted of the tiles one by one adds up to what the library counts. */
+static void check_tiles(struct presenter *p, const struct present_options *o, bool sharp)
+{
+    enum { WIDTH = 250, HEIGHT = 130 };
+    struct failure f = { "" };
+    struct noted n = { .ctx = NULL };
+    const struct presented *frame = presenter_frame(p, 0.4, o, &f);
+    if (!CHECK(frame != NULL && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
+        return;
+    smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
+    desc.max_triangles *= 4;
+    desc.sharp = sharp;
+    desc.timed = o->method >= SMEAR_SUBFRAMES;
+    desc.accumulate = o->method == SMEAR_ACCUMULATE;
+    desc.flush = note_band;
+    desc.user = &n;
+    size_t bytes = smear_memory_size(&desc);
+    void *memory = malloc(bytes);
+    uint32_t count[TILES_TIMEMASK + 1] = { 0 };
+    smear_stats s;
+    CHECK_EQ(smear_init(&n.ctx, &desc, memory, bytes), SMEAR_OK);
+    CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
+    CHECK_EQ(smear_render(n.ctx), SMEAR_OK);
+    smear_get_stats(n.ctx, &s);
+    for (int i = 0; i < n.tiles.columns * n.tiles.rows; i++) {
+        const struct tile_note *tile = &n.tiles.note[i];
+        count[tile->method]++;
+        CHECK(tile->method == TILES_NONE ? tile->samples == 1 : tile->samples > 1);
+    }
+    CHECK_EQ(count[TILES_NONE], s.tiles_none);
+    CHECK_EQ(count[TILES_ACCUMULATE], s.tiles_accumulate);
+    CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles_reconstruct);
+    CHECK_EQ(count[TILES_SMOOTH], s.tiles_smooth);
+    CHECK_EQ(count[TILES_SUBFRAMES], s.tiles_subframes);
+    CHECK_EQ(count[TILES_TIMEMASK], s.tiles_timemask);
+    free(memory);
+    tiles_close(&n.tiles);
+}
+
+static void test_tiles_are_noted_as_they_are_counted(void)
+{
+    static const smear_method methods[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES,
+                                            SMEAR_TIMEMASK, SMEAR_AUTO };
+    static const char *const scenes[] = { "demo/drone", "suite/textured" };
+    struct failure f = { "" };
+    for (int k = 0; k < 2; k++) {
+        struct scene scene;
+        if (!CHECK(scene_builtin(scenes[k], &scene, &f)))
+            return;
+        struct presenter *p = presenter_new(&scene, &f);
+        for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+            struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = methods[i] };
+            check_tiles(p, &o, methods[i] != SMEAR_RECONSTRUCT && methods[i] != SMEAR_AUTO);
+        }
+        presenter_free(p);
+        scene_free(&scene);
+    }
 }
 
 /* ------------------------------------------------------------------ cookies, boards */
@@ -618,7 +719,9 @@ void suite_view(void)
     RUN(test_recorded_input_is_played);
     RUN(test_an_unturned_camera_is_the_scenes_own_bit_for_bit);
     RUN(test_a_turned_camera_looks_at_the_same_point);
+    RUN(test_a_turntable_goes_round);
     RUN(test_wires_lie_on_what_is_drawn);
+    RUN(test_tiles_are_noted_as_they_are_counted);
     RUN(test_the_cookie_of_the_display_is_found);
     RUN(test_boards_have_names_of_their_own);
 }

@@ -7,6 +7,7 @@
 #
 # Prints each claim that does not hold and, last, `N passed, N failed`.
 . "$(dirname "$0")/view_lib.sh"
+golden=$here/tests/golden.txt
 LC_ALL=C
 export LC_ALL
 trap 'rm -rf "$base"' EXIT
@@ -83,6 +84,15 @@ claim "a file that loops" as_render "$plate" 29-33 $small --loop
 claim "another clip and camera" as_render "$plate" 4-6 $small --clip rise --camera far
 claim "forced motion" as_render "$plate" 4-6 $small --motion plate=none
 claim "another rate" as_render "$plate" 4-6 $small --fps 12.5
+
+# The golden frames that firmware of every target is checked against (tests/golden.txt).
+as_firmware() {
+    sed -n 's/^reconstruct-l1 [01] \([0-9a-f]*\).*/\1/p' "$golden" >"$base/want"
+    view builtin:demo/drone --size 133x65 --format l1 --reach 8 --method reconstruct --shutter 360 --frames 9-10 --crc || return 1
+    crcs >"$base/got"
+    [ "$(wc -l <"$base/want")" -eq 2 ] && diff "$base/want" "$base/got"
+}
+claim "frames of firmware" as_firmware
 
 at_a_time() {
     "$smear" render $race --time 0.77 $small --stats "$base/stats.json" || return 1

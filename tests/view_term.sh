@@ -40,7 +40,8 @@ restored() {
         equals "$(tmux display-message -p -t t '#{alternate_on}')" 0 &&
         equals "$(tmux display-message -p -t t '#{mouse_any_flag}')" 0 || return 1
     say "echo typ''ed" Enter
-    wait_for 30 sees '^typed' && [ -z "$(tmux capture-pane -p -e -t t | tr -cd '\033')" ]
+    # behind a prompt where the keys came while `clear` ran
+    wait_for 30 sees 'typed' && [ -z "$(tmux capture-pane -p -e -t t | tr -cd '\033')" ]
 }
 
 # ------------------------------------------------------------------ the picture

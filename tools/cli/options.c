@@ -6,6 +6,7 @@
 #include "options_filter.h"
 #include "say.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -308,7 +309,7 @@ static const char *read_dither(void *to, const char *value)
 static const char *read_arena(void *to, const char *value)
 {
     long bytes;
-    if (!read_integer(value, 1, 1L << 40, &bytes))
+    if (!read_integer(value, 1, LONG_MAX, &bytes))
         return "needs a number of bytes";
     ((struct render_options *)to)->arena = (size_t)bytes;
     return NULL;

@@ -215,7 +215,7 @@ static const char *read_see(void *to, const char *value)
 {
     int found = read_name(value, debug_names);
     if (found < 0)
-        return "needs picture, velocity, depth, tiles, bands or wire";
+        return "needs picture, velocity, depth, tiles, methods, samples, bands or wire";
     ((struct view_options *)to)->debug = (enum debug_kind)found;
     return NULL;
 }
@@ -346,7 +346,7 @@ static const char *const help[] = {
     "\n"
     "What is seen at first\n"
     "  --split METHOD        left half by this method, right half by --method\n"
-    "  --see picture|velocity|depth|tiles|bands|wire\n"
+    "  --see picture|velocity|depth|tiles|methods|samples|bands|wire\n"
     "  --figures             written over the picture\n"
     "\n"
     "Without a user\n"

@@ -252,7 +252,8 @@ static void do_debug(struct view *v, int way)
 {
     v->debug_kind = (enum debug_kind)(((int)v->debug_kind + way + DEBUG_KINDS) % DEBUG_KINDS);
     v->is_dirty = true;
-    view_say(v, "%s", debug_names[v->debug_kind]);
+    const char *legend = debug_legends[v->debug_kind];
+    view_say(v, "%s%s%s", debug_names[v->debug_kind], legend != NULL ? ": " : "", legend != NULL ? legend : "");
 }
 
 static void do_overlay(struct view *v, int way)
@@ -334,6 +335,15 @@ static void do_move(struct view *v, int way)
 {
     if (find_focus(v))
         orbit_move(&v->orbit, way > 0 ? 1.0 / MOVE_STEP : MOVE_STEP);
+}
+
+/* A round in two seconds, so that what stands still is seen to move. */
+static void do_spin(struct view *v, int way)
+{
+    if (!find_focus(v))
+        return;
+    v->orbit.spin = v->orbit.spin == 0.0 ? way * PI : 0.0;
+    view_say(v, "turntable %s", v->orbit.spin != 0.0 ? "on" : "off");
 }
 
 static void do_reset(struct view *v, int way)
@@ -468,7 +478,7 @@ const struct control control_list[] = {
     { "v", { 'v', 0 }, do_split, "split screen" },
     { "V", { 'V', 0 }, do_left, "method of its left half" },
     { "> <", { '>', '<' }, do_divider, "its divider (or drag, right button)" },
-    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, bands, wire" },
+    { "tab", { SCREEN_TAB, '`' }, do_debug, "velocity, depth, tiles, methods ..." },
     { "o", { 'o', 0 }, do_overlay, "figures on, off" },
     { "e", { 'e', 0 }, do_error, "error against the truth" },
     { "z Z", { 'z', 'Z' }, do_zoom, "zoom" },
@@ -478,6 +488,7 @@ const struct control control_list[] = {
     { "right left", { SCREEN_RIGHT, SCREEN_LEFT }, do_yaw, "orbit (or drag)" },
     { "down up", { SCREEN_DOWN, SCREEN_UP }, do_pitch, "orbit (or drag)" },
     { "pageup -dn", { SCREEN_PAGE_UP, SCREEN_PAGE_DOWN }, do_move, "closer, farther (or wheel)" },
+    { "j", { 'j', 0 }, do_spin, "turntable" },
     { "x", { 'x', 0 }, do_reset, "the scene's own camera again" },
     { "c", { 'c', 'C' }, do_camera, "next camera of the file" },
     { "k K", { 'k', 'K' }, do_clip, "clip of the file" },

@@ -9,7 +9,18 @@
 
 #define PI 3.14159265358979323846
 
-const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "bands", "wire", NULL };
+const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "methods", "samples", "bands", "wire",
+                                    NULL };
+const char *const debug_legends[] = {
+    [DEBUG_PICTURE] = NULL,
+    [DEBUG_VELOCITY] = "colour: direction; bright: fast",
+    [DEBUG_DEPTH] = "bright: near; blue: nothing",
+    [DEBUG_TILES] = "green still, yellow to red streaks, violet beyond reach",
+    [DEBUG_METHODS] = "grey none, green smooth, blue subframes, violet timemask",
+    [DEBUG_SAMPLES] = "black 1 a pixel, blue to yellow to white 64",
+    [DEBUG_BANDS] = NULL,
+    [DEBUG_WIRE] = NULL,
+};
 
 enum { BAR_WIDTH = 4 };
 
@@ -207,6 +218,32 @@ static bool show_tiles(const struct debug *d, const struct lane *lane, uint32_t 
     return true;
 }
 
+/* Grey none, white accumulate, yellow reconstruct, green smooth, blue subframes, violet timemask. */
+static uint32_t method_color(const struct tile_note *tile)
+{
+    static const uint32_t color[] = { 0x505050, 0xffffff, 0xffe030, 0x30d060, 0x2080ff, 0xc040ff };
+    return color[tile->method];
+}
+
+static uint32_t samples_color(const struct tile_note *tile)
+{
+    double share = tile->samples > 1 ? log2(tile->samples) / 6.0 : 0.0;
+    return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, share < 0.35 ? 2.2 * share : share < 0.8 ? 0.77 - share : 4.0 * share - 3.0);
+}
+
+static void show_notes(const struct lane *lane, uint32_t (*color)(const struct tile_note *), uint32_t *picture)
+{
+    const struct tiles *t = &lane->tiles;
+    int width = lane->setup.width, height = lane->setup.height;
+    for (int y = 0; y < height && t->edge > 0; y++)
+        for (int x = 0; x < width; x++) {
+            uint32_t *p = &picture[(size_t)y * (size_t)width + (size_t)x];
+            const struct tile_note *tile = &t->note[y / t->edge * t->columns + x / t->edge];
+            bool is_border = x % t->edge == 0 || y % t->edge == 0;
+            *p = blend(grey_of(*p), is_border ? 0x000000 : color(tile), is_border ? 120 : 150);
+        }
+}
+
 /* ------------------------------------------------------------------ bands, wires */
 
 static void show_bands(const struct lane *lane, uint32_t *picture)
@@ -242,6 +279,8 @@ bool debug_draw(struct debug *d, enum debug_kind kind, const struct lane *lane,
     case DEBUG_VELOCITY: show_velocity(d, lane, picture); return true;
     case DEBUG_DEPTH: show_depth(d, lane, picture); return true;
     case DEBUG_TILES: return show_tiles(d, lane, picture, f);
+    case DEBUG_METHODS: show_notes(lane, method_color, picture); return true;
+    case DEBUG_SAMPLES: show_notes(lane, samples_color, picture); return true;
     case DEBUG_BANDS: show_bands(lane, picture); return true;
     case DEBUG_WIRE: return show_wire(lane, presenter, instant, picture, f);
     default: return true;

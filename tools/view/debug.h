@@ -14,12 +14,15 @@ enum debug_kind {
     DEBUG_DEPTH,
     DEBUG_TILES,                /* longest velocity in and around each tile; of each row of tiles the
                                  * share of classes (left edge) and of methods (right edge) */
+    DEBUG_METHODS,              /* what each tile got */
+    DEBUG_SAMPLES,              /* and how many samples per pixel: brightness, by powers of two */
     DEBUG_BANDS,                /* what is handed to the display at once */
     DEBUG_WIRE,                 /* the triangles' edges */
     DEBUG_KINDS
 };
 
 extern const char *const debug_names[];         /* null ends them */
+extern const char *const debug_legends[];       /* what colours mean; or null */
 
 struct debug {
     struct planes planes;

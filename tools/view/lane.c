@@ -11,7 +11,10 @@
 static void note_band(void *user, const smear_band *band)
 {
     struct lane *lane = user;
-    if (lane->band_count == LANE_MAX_BANDS || lane->device.is_timed)
+    if (lane->device.is_timed)
+        return;
+    tiles_note(&lane->tiles, lane->device.ctx, band);
+    if (lane->band_count == LANE_MAX_BANDS)
         return;
     struct lane_band *b = &lane->band[lane->band_count++];
     *b = (struct lane_band){ .y = band->y, .height = band->height, .bytes = band->size };
@@ -27,7 +30,8 @@ static bool open_parts(struct lane *lane, struct failure *f)
     lane->picture = calloc(pixels, sizeof *lane->picture);
     if (lane->picture == NULL)
         return fail(f, "out of memory");
-    return device_open(&lane->device, &setup, f) &&
+    return tiles_open(&lane->tiles, lane->setup.width, lane->setup.height, f) &&
+           device_open(&lane->device, &setup, f) &&
            panel_codes_open(&lane->codes, lane->options.format, f);
 }
 
@@ -53,6 +57,7 @@ void lane_close(struct lane *lane)
         return;
     device_close(&lane->device);
     panel_codes_close(&lane->codes);
+    tiles_close(&lane->tiles);
     setup_release(&lane->setup);
     free(lane->picture);
     *lane = (struct lane){ .is_open = false };

@@ -7,6 +7,7 @@
 
 #include "../cli/setup.h"
 #include "panel.h"
+#include "tiles.h"
 
 #include <smear.h>
 #include <stdbool.h>
@@ -31,6 +32,7 @@ struct lane {
     double wall_us;                 /* it took, posing and copying included */
     int band_count;
     struct lane_band band[LANE_MAX_BANDS];
+    struct tiles tiles;
 };
 
 /* Opens the device for these options. On failure (an arena that is too small) the lane is as it was

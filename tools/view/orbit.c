@@ -11,7 +11,7 @@
 #define MIN_DISTANCE 0.02
 #define MAX_DISTANCE 50.0
 
-static void turn_camera(const struct orbit *orbit, struct scene_camera *camera)
+static void turn_camera(const struct orbit *orbit, double time, struct scene_camera *camera)
 {
     struct xform pose;
     memcpy(pose.m, camera->pose, sizeof pose.m);
@@ -24,7 +24,7 @@ static void turn_camera(const struct orbit *orbit, struct scene_camera *camera)
     pose = xform_mul(xform_mul(pose, to_pivot),
                      xform_mul(xform_turn_x(orbit->pitch), from_pivot));
     struct xform yaw = xform_mul(xform_move(pivot.x, pivot.y, pivot.z),
-                                 xform_mul(xform_turn_y(orbit->yaw),
+                                 xform_mul(xform_turn_y(orbit->yaw + orbit->spin * time),
                                            xform_move(-pivot.x, -pivot.y, -pivot.z)));
     pose = xform_mul(yaw, pose);
     memcpy(camera->pose, pose.m, sizeof pose.m);
@@ -45,7 +45,7 @@ static bool pose_turned(struct scene *scene, double time, struct scene_instant *
     if (!scene_pose(orbit->inner, time, out, f))
         return false;
     if (orbit_is_turned(orbit))
-        turn_camera(orbit, &out->camera);
+        turn_camera(orbit, time, &out->camera);
     return true;
 }
 
@@ -81,7 +81,7 @@ void orbit_move(struct orbit *orbit, double factor)
 
 void orbit_reset(struct orbit *orbit)
 {
-    orbit->yaw = orbit->pitch = 0.0;
+    orbit->yaw = orbit->pitch = orbit->spin = 0.0;
     orbit->distance = 1.0;
     orbit->focus = 0.0;
 }
@@ -89,7 +89,7 @@ void orbit_reset(struct orbit *orbit)
 bool orbit_is_turned(const struct orbit *orbit)
 {
     return orbit->focus > 0.0 &&
-           (orbit->yaw != 0.0 || orbit->pitch != 0.0 || orbit->distance != 1.0);
+           (orbit->yaw != 0.0 || orbit->pitch != 0.0 || orbit->distance != 1.0 || orbit->spin != 0.0);
 }
 
 /* ------------------------------------------------------------------ focus */

@@ -13,6 +13,7 @@ struct orbit {
     struct scene scene;         /* to be shown instead of `inner` */
     struct scene *inner;
     double yaw, pitch;          /* radians, about the world's y and the camera's x */
+    double spin;                /* radians per second of the scene's time, added to yaw: a turntable */
     double distance;            /* factor of `focus` */
     double focus;               /* world units to what the camera looks at; 0: not known yet */
 };

@@ -85,8 +85,8 @@ static void add_counts(struct page *p, const struct view *v)
         add(p, "  drawn in parts: split %lu times", (unsigned long)s->triangles_split);
     add(p, "tiles %lu still %lu uniform %lu complex", (unsigned long)s->tiles_still,
         (unsigned long)s->tiles_uniform, (unsigned long)s->tiles_complex);
-    add(p, "  none %lu reconstruct %lu", (unsigned long)s->tiles_none,
-        (unsigned long)s->tiles_reconstruct);
+    add(p, "  none %lu reconstruct %lu smooth %lu", (unsigned long)s->tiles_none,
+        (unsigned long)s->tiles_reconstruct, (unsigned long)s->tiles_smooth);
     add(p, "  subframes %lu timemask %lu", (unsigned long)s->tiles_subframes,
         (unsigned long)s->tiles_timemask);
     add(p, "samples %lu, %.1f per pixel", (unsigned long)s->samples,
@@ -117,6 +117,8 @@ static void add_figures(struct page *p, const struct view *v)
     add_time(p, v);
     if (v->debug_kind != DEBUG_PICTURE)
         add(p, "seen: %s", debug_names[v->debug_kind]);
+    if (debug_legends[v->debug_kind] != NULL)
+        add(p, "  %s", debug_legends[v->debug_kind]);
     add_stages(p, v);
     add_counts(p, v);
     add_board(p, v);

@@ -174,6 +174,7 @@ bool view_load(struct view *v, const struct source_view *seen)
     }
     v->orbit.yaw = turned.yaw;              /* the user's turn stays */
     v->orbit.pitch = turned.pitch;
+    v->orbit.spin = turned.spin;
     v->orbit.distance = turned.distance;
     v->orbit.focus = turned.focus;
     v->is_dirty = true;

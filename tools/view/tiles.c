@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* tiles.c - see tiles.h. The only file of the viewer that looks into a context: the public statistics count tiles, but
+ * do not say where they are. */
+#include "tiles.h"
+
+#include "../../src/context.h"
+
+#include <stdlib.h>
+
+enum { SMALLEST_TILE = 8 };
+
+bool tiles_open(struct tiles *t, int width, int height, struct failure *f)
+{
+    size_t columns = ((size_t)width + SMALLEST_TILE - 1) / SMALLEST_TILE;
+    size_t rows = ((size_t)height + SMALLEST_TILE - 1) / SMALLEST_TILE;
+    *t = (struct tiles){ .note = calloc(columns * rows, sizeof *t->note) };
+    return t->note != NULL || fail(f, "out of memory");
+}
+
+void tiles_close(struct tiles *t)
+{
+    free(t->note);
+    *t = (struct tiles){ .note = NULL };
+}
+
+/* The chooser is asked again for what it has said of this tile. */
+static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
+{
+    struct smear_tile_choice choice;
+    if (load->method == TILE_COPY)
+        return (struct tile_note){ TILES_NONE, 1 };
+    smear_choose(&choice, &c->chooser, load);
+    if (load->method == TILE_SUBFRAMES)
+        return (struct tile_note){ TILES_SUBFRAMES, (uint16_t)choice.instants };
+    return (struct tile_note){ load->method == TILE_SMOOTH ? TILES_SMOOTH : TILES_TIMEMASK,
+                               (uint16_t)choice.timemask.slots };
+}
+
+static struct tile_note tile_of(const smear_context *c, int row, int column)
+{
+    const uint16_t samples = c->frame.samples > 0 ? c->frame.samples : 8;
+    switch (c->frame.method) {
+    case SMEAR_ACCUMULATE:
+        return (struct tile_note){ TILES_ACCUMULATE, samples };
+    case SMEAR_RECONSTRUCT:
+        if (window_around(&c->window, row)[column].kind == TILE_STILL)
+            return (struct tile_note){ TILES_NONE, 1 };
+        return (struct tile_note){ TILES_RECONSTRUCT, samples };
+    case SMEAR_SUBFRAMES:
+    case SMEAR_TIMEMASK:
+    case SMEAR_AUTO:
+        return timed_tile(c, &c->row_movers.load[column]);
+    default:
+        return (struct tile_note){ TILES_NONE, 1 };
+    }
+}
+
+void tiles_note(struct tiles *t, const smear_context *c, const smear_band *band)
+{
+    const int edge = c->window.tile;
+    t->edge = edge;
+    t->columns = (band->width + edge - 1) / edge;
+    t->rows = (c->desc.height + edge - 1) / edge;
+    for (int row = band->y / edge; row * edge < band->y + band->height; row++)
+        for (int column = 0; column < t->columns; column++)
+            t->note[row * t->columns + column] = tile_of(c, row, column);
+}

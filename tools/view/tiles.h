@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* tiles.h - what the library has done with each tile of a frame. */
+#ifndef SMEAR_TOOLS_VIEW_TILES_H
+#define SMEAR_TOOLS_VIEW_TILES_H
+
+#include "../failure.h"
+
+#include <smear.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+enum tile_method { TILES_NONE, TILES_ACCUMULATE, TILES_RECONSTRUCT, TILES_SMOOTH, TILES_SUBFRAMES, TILES_TIMEMASK };
+
+struct tile_note {
+    uint8_t method;             /* enum tile_method */
+    uint16_t samples;           /* per pixel, at most: taps, instants or slots; 1: none but the frame itself */
+};
+
+struct tiles {
+    int edge, columns, rows;
+    struct tile_note *note;     /* row after row */
+};
+
+/* Room for a frame of this size; zeroed before first use. */
+bool tiles_open(struct tiles *tiles, int width, int height, struct failure *f);
+void tiles_close(struct tiles *tiles);
+
+/* The tiles of a band, while it is being flushed. */
+void tiles_note(struct tiles *tiles, const smear_context *ctx, const smear_band *band);
+
+#endif

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+# The web page: build/web/index.html, one file. Needs clang-14 and wasm-ld-14 (packages clang-14, lld-14).
+
+WEB_CC ?= clang-14
+WEB_LD ?= wasm-ld-14
+WEB    := build/web
+
+# What the page needs of the tools, and scenes that are to be looked at in place of all.
+WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
+    $(filter-out $(addprefix tools/image/,apng.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
+    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
+        scene.c stage.c) \
+    $(addprefix tools/cli/,arguments.c convert.c device.c options.c picture.c say.c setup.c source.c) \
+    $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
+
+# Inner loops; everything else is to be small.
+WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
+    src/texture.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
+
+WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
+    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
+
+.PHONY: web web-chart web-bench
+## the web page: build/web/index.html (needs clang-14 and lld-14)
+web: $(WEB)/index.html
+
+$(WEB)/index.html: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm $(wildcard tools/web/*.html tools/web/*.js tools/web/*.css) \
+    $(WEB)/chart.csv
+	$(WEB)/pack tools/web/page.html $@
+
+$(call web_objects,scalar) $(call web_objects,simd): WEB_OPT = -Oz
+$(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
+$(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -Oz -fno-builtin
+$(foreach v,scalar simd,$(WEB)/$(v)/tools/web/libc/libc.o): WEB_OPT = -O2 -fno-builtin
+# Loops over pixels that the compiler makes vectors of; nothing else gains.
+WEB_VECTORS := $(filter src/blur% src/convert.c src/smooth.c src/band.c src/tilemax.c src/frame.c,$(LIB_SRC))
+$(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
+
+$(WEB)/scalar/%.o: %.c
+	@mkdir -p $(@D)
+	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) -c -o $@ $<
+
+$(WEB)/simd/%.o: %.c
+	@mkdir -p $(@D)
+	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) $(WEB_SIMD) -c -o $@ $<
+
+# The stack lies first: an overflow is a trap, not another's data.
+WEB_LDFLAGS := --no-entry --strip-all --gc-sections --stack-first -z stack-size=1048576 --max-memory=2147483648 -O2
+$(WEB)/scalar.wasm: $(call web_objects,scalar)
+	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
+
+$(WEB)/simd.wasm: $(call web_objects,simd)
+	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
+
+$(WEB)/pack: $(call objects,tools/web/pack.c $(IMAGE_SRC))
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+# The chart's numbers: those of the last whole `make chart` where there is one, else those that are kept.
+$(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) tools/web/chart.awk
+	@mkdir -p $(@D)
+	$(if $(filter build/%,$<),awk -f tools/web/chart.awk $< > $@,cp $< $@)
+
+# Of the settings that the page has, measured anew under valgrind in some minutes.
+WEB_SETTINGS := none,auto draft,auto balanced,auto fine,timemask,subframes,accumulate 2,accumulate 4,accumulate 8,accumulate 16,reconstruct 4,reconstruct 8,reconstruct 16
+## the kept numbers of the page's chart, measured again (needs valgrind)
+web-chart: $(BIN)/smear-bench
+	$(BIN)/smear-bench chart --quick --methods '$(WEB_SETTINGS)' > /dev/null
+	@mkdir -p $(WEB)
+	awk -f tools/web/chart.awk build/chart/part/chart.csv > $(WEB)/measured.csv
+	mv $(WEB)/measured.csv tools/web/chart.csv
+
+## frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
+web-bench: $(WEB)/index.html
+	node tests/web_bench.js $(WEB)/index.html
+
+# Its numbers on the host, under names that leave the host's alone.
+WEB_NAMES := sin cos tan atan atan2 exp log pow powf fmod remainder frexp ldexp lround llround ilogb strtod snprintf vsnprintf printf \
+    fprintf
+$(WEB)/libc_test: tests/web_libc.c $(addprefix tools/web/libc/,math.c decimal.c printf.c decimal.h math.h)
+	@mkdir -p $(WEB)/host
+	for name in math decimal printf; do \
+	    $(CC) -std=c11 -O1 -ffp-contract=off -fno-builtin -fno-math-errno -isystem tools/web/libc -c -o $(WEB)/host/$$name.o \
+	        tools/web/libc/$$name.c && \
+	    objcopy $(foreach n,$(WEB_NAMES),--redefine-sym $(n)=web_$(n)) $(WEB)/host/$$name.o || exit 1; done
+	$(CC) -std=c11 -O1 -fno-builtin -Wall -Wextra -o $@ $< $(addprefix $(WEB)/host/,math.o decimal.o printf.o) -lm
