@@ -118,7 +118,7 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
         for (int j = 0; j < 3; j++)
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
         struct number way = times(number_of(m->way[i], 0), zoom);
-        m->way[i] = way.e > 30 ? 0 : way.e < 0 ? (way.e < -31 ? 0 : way.m >> -way.e) : (int64_t)way.m << way.e;
+        m->way[i] = way.e > 30 ? 0 : way.e < 0 ? (way.e < -31 ? 0 : way.m >> -way.e) : (int64_t)way.m * ((int64_t)1 << way.e);
     }
 }
 
@@ -127,7 +127,7 @@ static void map_add(struct map *sum, const struct map *m, int32_t weight)
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             sum->turn[i][j] += m->turn[i][j] * weight >> 24;
-        sum->way[i] += (m->way[i] >> 12) * weight >> 12;
+        sum->way[i] += (m->way[i] >> 24) * weight;            /* 34 and 27 bits */
     }
 }
 
@@ -167,7 +167,8 @@ static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int
             m->turn[i][j] = sum;
         }
         for (int j = 0; j < 3; j++)
-            m->way[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 12) * (way[j] >> 8) >> 7;
+            m->way[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 10)
+                       * (clamp_i64(way[j], (int64_t)1 << 55) >> 14) >> 3;
     }
 }
 
