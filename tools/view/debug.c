@@ -228,7 +228,8 @@ static uint32_t method_color(const struct tile_note *tile)
 static uint32_t samples_color(const struct tile_note *tile)
 {
     double share = tile->samples > 1 ? log2(tile->samples) / 6.0 : 0.0;
-    return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, share < 0.35 ? 2.2 * share : share < 0.8 ? 0.77 - share : 4.0 * share - 3.0);
+    double blue = share < 0.35 ? 2.2 * share : share < 0.8 ? 0.77 - share : 4.0 * share - 3.0;
+    return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, blue);
 }
 
 static void show_notes(const struct lane *lane, uint32_t (*color)(const struct tile_note *), uint32_t *picture)
