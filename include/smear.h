@@ -134,6 +134,13 @@ typedef enum smear_motion {
     SMEAR_MOTION_NONE           /* zero velocity, also over what moves behind it */
 } smear_motion;
 
+/* How a draw turns with the camera: with that of now, and in each other pose with that of the pose. */
+typedef enum smear_billboard {
+    SMEAR_BILLBOARD_NONE,
+    SMEAR_BILLBOARD_FACING,     /* its basis is relative to the camera's */
+    SMEAR_BILLBOARD_UPRIGHT     /* the same, turned about the world's y only */
+} smear_billboard;
+
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
  * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now` is
@@ -150,6 +157,9 @@ typedef struct smear_draw {
     const int16_t *close_position;      /* offset; null: mesh->position. Nothing is kept of positions. */
     uint8_t motion;             /* smear_motion */
     uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
+    uint8_t billboard;          /* smear_billboard */
+    uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the mesh has. With
+                                         * another number nothing is known of the deformation: the motion is rigid */
 } smear_draw;
 
 typedef enum smear_method {
@@ -161,14 +171,59 @@ typedef enum smear_method {
                                  * most `samples`; needs desc.timed */
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
                                  * needs desc.timed */
-    SMEAR_AUTO                  /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_AUTO,                 /* per tile the cheapest method that keeps to `target`; needs desc.timed */
+    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per vertex;
+                                 * needs the window */
+    SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
+    SMEAR_HALF                  /* `filter` at half the size, over the whole frame by amount of motion; needs desc.half */
 } smear_method;
+
+/* What a method needs of the desc: `timed`; a window (no `sharp`). */
+static inline uint8_t smear_method_is_timed(int method)
+{
+    return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
+}
+
+static inline uint8_t smear_method_is_filter(int method)
+{
+    return method == SMEAR_RECONSTRUCT || (method >= SMEAR_CAMERA && method <= SMEAR_HALF);
+}
+
+/* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
+typedef enum smear_filter {
+    SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
+    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion reaches */
+    SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
+    SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
+} smear_filter;
+
+/* A blur in passes: each takes few taps of what the one before it left, `base` times closer, so that 8 and 8 taps weigh
+ * like 64. */
+typedef struct smear_pingpong {
+    uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
+    uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
+    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps, base 4 */
+    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either side */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out;
+                                 * 0 means 4. 255: none is */
+    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come over it */
+} smear_pingpong;
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
 enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 
 /* Points of a shutter's openness over the exposure. */
 #define SMEAR_SHUTTER_POINTS 33
+
+/* How the exposure follows the time from frame to frame, smear_frame.frame_us. */
+typedef enum smear_shutter_mode {
+    SMEAR_SHUTTER_NATIVE,       /* shutter_degrees of the frame time */
+    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames that come late do not smear more */
+    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time is: streaks keep their length */
+} smear_shutter_mode;
+
+/* A scale of motion that is nothing. */
+#define SMEAR_SCALE_NONE 65535u
 
 typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
 typedef enum smear_light { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light;
@@ -182,6 +237,14 @@ enum {
     SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the pixel's
                              * own velocity; motion below a pixel stays as it is */
 };
+
+/* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX and DIRECTION are departures of the first. */
+typedef enum smear_weights {
+    SMEAR_WEIGHTS_STACK,        /* Post Processing Stack v2 */
+    SMEAR_WEIGHTS_MCGUIRE,      /* McGuire, Hennessy, Bukowski, Osman 2012 */
+    SMEAR_WEIGHTS_GUERTIN,      /* Guertin, McGuire, Nowrouzezahrai 2014 */
+    SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
+} smear_weights;
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
@@ -198,6 +261,21 @@ typedef struct smear_frame {
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
     uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
+    uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
+    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
+                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
+                                 * vertices, the background none (SMEAR_CAMERA: as 1) */
+    uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the `filter` */
+    smear_pingpong pingpong;
+    uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the application's poses say it all */
+    uint16_t reference_hz;      /* 1..1000; 0 means 30 */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by shutter_us and by modes
+                                 * other than native */
+    uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by those. CAPPED: at most a
+                                 * frame */
+    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to 16128; */
+    uint16_t object_scale;              /* and of draws (which deform as they do, or with SMEAR_SCALE_NONE not at all);
+                                         * 0 means 256 */
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
 } smear_frame;
@@ -247,6 +325,11 @@ typedef struct smear_desc {
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
     uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
+    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
+                                 * each but the last; 0 and 1: none. In any case one pass may be had */
+    uint8_t half;               /* 1: room for SMEAR_HALF */
+    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
+                                 * as many tile rows more are kept. Not with timed, passes or half */
     int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
@@ -270,6 +353,9 @@ typedef struct smear_stats {
     uint32_t tiles_still, tiles_uniform, tiles_complex;
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
     uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
+    uint32_t tiles_camera, tiles_pingpong, tiles_half;
+    uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or (but with
+                                         * camera_step) the camera did */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
     uint32_t arena_bytes;               /* memory in use */
@@ -340,7 +426,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* ------------------------------------------------------------------ memory in detail */
 
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
-#define SMEAR_CONTEXT_BYTES 1536u           /* the context itself, at most */
+#define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
@@ -379,6 +465,25 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \
     (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile))
+
+/* Of a desc with `scatter`: the window has as many tiles more as the reach covers beyond one. */
+#define SMEAR_LAG(reach, tile) (((size_t)(reach) + (tile) - 1u) / (tile))
+#define SMEAR_MEMORY_SIZE_SCATTER(width, height, reach, triangles, draws, tile) \
+    (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
+     + (SMEAR_LAG(reach, tile) - 1u) \
+       * (SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
+          + SMEAR_ALIGN8((size_t)(width) * (tile) * ((reach) <= 15 ? 2u : 4u)) \
+          + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 40u) + 8u))
+
+/* Beyond a window's memory: what passes but the last leave; a window of half the size and a tile of it. One worker. */
+#define SMEAR_PASSES_BYTES(width, reach, tile, passes) \
+    ((passes) > 1 ? ((passes) - 1u) * SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) : 0u)
+#define SMEAR_HALF_BYTES(width, reach, tile) \
+    (SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 4u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 2u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * ((reach) <= 30 ? 2u : 4u)) \
+     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
+     + SMEAR_ALIGN8((size_t)(tile) * (tile)) + 136u)
 
 /* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
  * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */

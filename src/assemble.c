@@ -384,7 +384,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     }
     b.shares = shares_vertices(d, b.segment);
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0;
+    b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0 && !d->fixed;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
     if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)

@@ -6,13 +6,17 @@
 #ifndef SMEAR_BLUR_H
 #define SMEAR_BLUR_H
 
+#include "noise.h"
+#include "tables.h"
 #include "window.h"
 
 struct smear_blur_settings {
     bool linear;                /* average linear light, else codes */
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
+    bool dense;                 /* plain means: a tap per pixel of the way, not one per two */
     uint8_t flags;              /* SMEAR_FENCE | ... */
+    uint8_t weights;            /* smear_weights */
     /* Orthographic only: distance over range at units 0, in q16: where "5 % nearer" is. */
     uint32_t far_over_range;
 };
@@ -23,6 +27,24 @@ struct smear_row_table {
     const uint32_t *offset;
     int32_t first;
 };
+
+/* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
+ * centres are at 1/2. */
+static inline int32_t tile_jump(int32_t x, int32_t sine, int shift)
+{
+    return ((x << 8) + 128 + (sine * 258 * (64 << shift) >> 15)) >> (shift + 8);
+}
+
+/* The neighbourhood that pixel (x, y) of a tile takes its direction from: one a quarter tile away in a random direction,
+ * which hides the tiles' borders [Guertin14]. Of the row below, the window knows only what the rows drawn so far tell. */
+static inline const struct smear_tile_neighborhood *tile_looked_up(const struct smear_window *w, int32_t row,
+                                                                   int32_t column, int32_t x, int32_t y, uint32_t inner)
+{
+    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
+    row += tile_jump(y, smear_sine[angle & 255u], w->tile_shift);
+    column += tile_jump(x, smear_sine[(angle + 64u) & 255u], w->tile_shift);
+    return &window_around(w, clamp_i32(row, 0, w->rows - 1))[clamp_i32(column, 0, w->columns - 1)];
+}
 
 /* Reconstruction filter [McGuire12], [Guertin14], as in Post Processing Stack v2. Writes tile x tile pixels (those
  * inside the frame) to `out`, rows `tile` apart. Returns the taps taken. */
@@ -35,6 +57,10 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings);
+
+/* The gather with the weights of other filters (settings->weights). */
+uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
+                            int32_t column, const struct smear_blur_settings *settings);
 
 /* The tile as it is. */
 void smear_blur_copy(uint32_t *out, const struct smear_window *w, int32_t row, int32_t column);

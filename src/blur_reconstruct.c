@@ -15,24 +15,13 @@
 #include "blur.h"
 
 #include "fixmath.h"
+#include "noise.h"
 #include "pixel.h"
 #include "smear.h"
 
 struct vector {
     int32_t x, y;               /* q8 px */
 };
-
-/* ------------------------------------------------------------------ noise */
-
-/* Interleaved gradient noise [Jimenez14]: frac(52.9829189 frac(0.06711056 x + 0.00583715 y)). The inner
- * factors in q32; adding them steps from pixel to pixel. */
-static const uint32_t noise_x = 288237660u, noise_y = 25070368u;
-
-/* The outer factor is 53 - 0.0170811, 35822 in q21. Result q16. */
-static inline uint32_t noise_of(uint32_t inner)
-{
-    return (inner * 53u - ((inner >> 16) * 35822u >> 5)) >> 16;
-}
 
 /* ------------------------------------------------------------------ lengths */
 
@@ -420,13 +409,6 @@ static void choice_make(struct choice *c, const struct gathering *g, int32_t row
         }
 }
 
-/* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
- * centres are at 1/2. */
-static inline int32_t jump(int32_t x, int32_t sine, int shift)
-{
-    return ((x << 8) + 128 + (sine * 258 * (64 << shift) >> 15)) >> (shift + 8);
-}
-
 static inline const struct direction *choose(const struct choice *c, const struct smear_window *w,
                                              int32_t x, int32_t y, uint32_t inner)
 {
@@ -437,9 +419,9 @@ static inline const struct direction *choose(const struct choice *c, const struc
     bool inside_x = (uint32_t)x - quarter < half, inside_y = (uint32_t)y - quarter < half;
     if (inside_x && inside_y)
         return &c->direction[4];
-    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * noise_x) + 128u) >> 8;
-    int32_t dx = inside_x ? 0 : jump(x, smear_sine[(angle + 64u) & 255u], shift);
-    int32_t dy = inside_y ? 0 : jump(y, smear_sine[angle & 255u], shift);
+    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
+    int32_t dx = inside_x ? 0 : tile_jump(x, smear_sine[(angle + 64u) & 255u], shift);
+    int32_t dy = inside_y ? 0 : tile_jump(y, smear_sine[angle & 255u], shift);
     return c->at[dy + 1][dx + 1];
 }
 
@@ -451,8 +433,8 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
     uint32_t taps = 0;
     for (int32_t y = y0; y < y1; y++, out += w->tile) {
         uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
-        uint32_t inner = (uint32_t)x0 * noise_x + (uint32_t)y * noise_y;
-        for (int32_t x = x0; x < x1; x++, at++, inner += noise_x) {
+        uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
+        for (int32_t x = x0; x < x1; x++, at++, inner += NOISE_X) {
             const struct direction *top = choose(choice, w, x - x0, y - y0, inner);
             if (top->pairs == 0) {
                 out[x - x0] = w->color[at];

@@ -104,7 +104,7 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     }
     /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In
      * pairs. */
-    int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> 2;                       /* px */
+    int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> (settings->dense ? 1 : 2);   /* px */
     int32_t n = min_i32(travel + 3, clamp_i32(settings->samples, 2, 128) * 2) >> 2 << 1;
     n = max_i32(n, 2);
     int32_t x0 = column << w->tile_shift;

@@ -9,9 +9,12 @@
 #include "assemble.h"
 #include "assemble_path.h"
 #include "blur.h"
+#include "camera.h"
 #include "choose.h"
 #include "geometry.h"
+#include "half.h"
 #include "jobs.h"
+#include "pingpong.h"
 #include "raster.h"
 #include "shutter.h"
 #include "subframes.h"
@@ -46,6 +49,7 @@ struct smear_context {
     /* the frame */
     smear_frame frame;
     smear_camera camera, camera_open, camera_close;
+    int32_t half_exposure;          /* q24 frames */
     bool camera_moves;              /* the earlier camera is known */
     smear_camera kept_camera;
     bool has_kept_camera;
@@ -59,12 +63,21 @@ struct smear_context {
     struct smear_geometry geometry;
     struct smear_assembler assembler;
     struct smear_window window;
+    struct smear_window *half;              /* with desc.half */
+    const struct smear_window *filtered;    /* which of the two a filter reads */
     struct smear_raster_frame raster;
     struct smear_blur_settings blur;
+    struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
     struct smear_jobs jobs;
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
+    uint32_t *half_scratch;         /* the same at half the size */
+    /* passes */
+    struct smear_pass pass[PINGPONG_PASSES_MAX];
+    int passes;
+    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
+    int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
     uint32_t *sums;                 /* accumulate: r g b per pixel */
     /* methods that look at several instants */
     struct smear_shutter shutter;

@@ -14,6 +14,7 @@
 #include "fixmath.h"
 #include "pixel.h"
 #include "tilemax.h"
+#include "velocity.h"
 
 /* ------------------------------------------------------------------ poses */
 
@@ -37,7 +38,7 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
         i.weight[2] = (int32_t)((square + u) * 128);
     } else {
         /* Frames from now: the exposure's centre plus u half exposures. */
-        int64_t half = ((uint32_t)c->frame.shutter_degrees << 20) / 45u;       /* degrees / 720, q24 */
+        int64_t half = c->half_exposure;
         int64_t centre = c->frame.exposure == SMEAR_TRAILING ? -half
                        : c->frame.exposure == SMEAR_LEADING ? half : 0;
         i.weight[1] = (int32_t)-(centre + (half * u >> 16));
@@ -78,7 +79,93 @@ struct draw_poses {
     const smear_transform *object[3];   /* now, open, close */
     const smear_camera *camera[3];
     const int16_t *position[3];
+    smear_transform made[3];            /* what `object` points to where it is not the application's */
 };
+
+static uint32_t magnitude_of(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
+{
+    return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
+}
+
+/* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
+static void scale_object(struct draw_poses *p, uint32_t scale)
+{
+    for (int i = 1; i < 3; i++) {
+        const smear_transform *other = p->object[i], *now = p->object[0];
+        smear_transform *made = &p->made[i];
+        for (int k = 0; k < 9; k++)
+            made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
+        for (int k = 0; k < 3; k++)
+            made->origin[k] = scaled(now->origin[k], other->origin[k], scale);
+        p->object[i] = made;
+        if (scale == 0)
+            p->position[i] = p->position[0];
+    }
+}
+
+/* Turns a billboard with the camera of each pose. */
+static void turn_billboard(struct draw_poses *p, bool upright)
+{
+    for (int pose = 0; pose < 3; pose++) {
+        const int32_t *camera = p->camera[pose]->pose.basis;
+        int32_t turn[9], made[9];
+        for (int i = 0; i < 9; i++)
+            turn[i] = camera[i];
+        if (upright) {
+            /* The camera's x axis, without its y. Looking straight up or down it stays as long. */
+            uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
+            int32_t x = 1 << 24, z = 0;
+            if (length > 1u << 16) {
+                x = ratio_q30((int64_t)min_u32(magnitude_of(camera[0]), length), length) >> 6;
+                z = ratio_q30((int64_t)min_u32(magnitude_of(camera[6]), length), length) >> 6;
+                x = camera[0] < 0 ? -x : x;
+                z = camera[6] < 0 ? -z : z;
+            }
+            const int32_t about_y[9] = { x, 0, -z, 0, 1 << 24, 0, z, 0, x };
+            for (int i = 0; i < 9; i++)
+                turn[i] = about_y[i];
+        }
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                int64_t sum = 0;
+                for (int k = 0; k < 3; k++)
+                    sum += (int64_t)turn[3 * i + k] * p->object[pose]->basis[3 * k + j];
+                made[3 * i + j] = narrow_sat(sum >> 24);
+            }
+        for (int i = 0; i < 3; i++)
+            p->made[pose].origin[i] = p->object[pose]->origin[i];
+        for (int i = 0; i < 9; i++)
+            p->made[pose].basis[i] = made[i];
+        p->object[pose] = &p->made[pose];
+    }
+}
+
+/* Of the object alone. */
+static void object_poses(const struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
+{
+    const smear_draw *d = &s->draw;
+    if (c->frame.cut || d->cut || d->motion != SMEAR_MOTION_FULL)
+        return;
+    if (d->open_position != NULL && (d->open_count == 0 || d->open_count == d->mesh->vertex_count))
+        p->position[1] = d->open_position;
+    if (d->open != NULL)
+        p->object[1] = d->open;
+    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
+        p->object[1] = &c->kept[s->kept].before;
+    if (c->frame.shutter_poses) {
+        if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
+            p->position[2] = d->close_position;
+        if (d->close != NULL)
+            p->object[2] = d->close;
+    }
+    if (c->frame.object_scale != 256)
+        scale_object(p, c->frame.object_scale);
+}
 
 static void poses_of(const struct smear_context *c, const struct smear_submitted *s,
                      struct draw_poses *p)
@@ -91,33 +178,43 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
     }
-    if (c->frame.cut || d->motion == SMEAR_MOTION_NONE)
-        return;
-    if (c->camera_moves) {
+    if (c->camera_moves && !c->frame.cut && d->motion != SMEAR_MOTION_NONE) {
         p->camera[1] = &c->camera_open;
         if (c->frame.shutter_poses)
             p->camera[2] = &c->camera_close;
     }
-    if (d->cut || d->motion == SMEAR_MOTION_CAMERA)
-        return;
-    if (d->open_position != NULL)
-        p->position[1] = d->open_position;
-    if (d->open != NULL)
-        p->object[1] = d->open;
-    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
-        p->object[1] = &c->kept[s->kept].before;
-    if (c->frame.shutter_poses) {
-        if (d->close_position != NULL)
-            p->position[2] = d->close_position;
-        if (d->close != NULL)
-            p->object[2] = d->close;
-    }
+    object_poses(c, s, p);
+    if (d->billboard != SMEAR_BILLBOARD_NONE)
+        turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 
 static bool pose_differs(const struct draw_poses *p, int i)
 {
     return p->position[i] != p->position[0] || !same_transform(p->object[i], p->object[0])
         || !same_camera(p->camera[i], p->camera[0]);
+}
+
+/* Where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
+static void classify_draw(struct smear_context *c, const struct smear_submitted *s, struct smear_raster_draw *r)
+{
+    struct draw_poses p;
+    poses_of(c, s, &p);
+    r->moves = pose_differs(&p, 1) || pose_differs(&p, 2);
+    r->fixed = false;
+    if (c->raster.velocity_from_depth) {
+        bool own = false, attached = true;
+        for (int i = 1; i < 3; i++) {
+            bool deforms = p.position[i] != p.position[0];
+            own = own || deforms || !same_transform(p.object[i], p.object[0]);
+            attached = attached && !deforms && smear_is_attached(p.object[i], p.camera[i], p.object[0], p.camera[0]);
+        }
+        r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
+        r->moves = own && !attached;
+    }
+    if (c->frame.method == SMEAR_CAMERA)
+        r->moves = false;
+    if (r->moves)
+        c->stats.draws_moved++;
 }
 
 static void project_pose(struct smear_projection *out, const struct smear_context *c,
@@ -171,7 +268,7 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->draw = (uint16_t)i;
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->path = false;
+    a->path = a->fixed = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
                        c->frame.light == SMEAR_LIGHT_LINEAR);
 
@@ -185,7 +282,8 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
         place(&a->key[0], c, &poses, a->mesh, &open);
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
-    if (!c->assembler.keep_motion)
+    a->fixed = c->raster_draw[i].fixed;
+    if (!c->assembler.keep_motion || !c->raster_draw[i].moves)
         return;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
      * itself, one further pose is enough. */
@@ -254,10 +352,11 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
         int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
         pixels_fill(w->color + at, clear, n);
         __builtin_memset(w->depth + at, 0, (size_t)n * 2);
+        int velocity = c->raster.velocity_from_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0;
         if (w->velocity8 != NULL)
-            __builtin_memset(w->velocity8 + 2 * at, 0, (size_t)n * 2);
+            __builtin_memset(w->velocity8 + 2 * at, velocity, (size_t)n * 2);
         if (w->velocity16 != NULL)
-            __builtin_memset(w->velocity16 + 2 * at, 0, (size_t)n * 4);
+            __builtin_memset(w->velocity16 + 2 * at, velocity, (size_t)n * 4);
         if (c->inspect != NULL)
             __builtin_memset(c->inspect + 2 * at, 0, (size_t)n * 8);
     }
@@ -281,6 +380,11 @@ static void raster_job(void *argument, int job, int worker)
         t.inspect = c->inspect;
     }
     smear_raster_list(&c->raster, &t, c->opaque);
+    if (!c->raster.velocity_from_depth)
+        return;
+    const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale, c->raster.reach_q3,
+                                              c->inspect };
+    smear_camera_velocity(w, &c->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0, t.y1);
 }
 
 /* Blended draws straight over the window's rows: where no filter will read them. */
@@ -351,12 +455,30 @@ static int finish_sharp(struct smear_context *c, int row)
 
 /* ------------------------------------------------------------------ finishing with a filter */
 
+/* First pixel row of a tile row in the window that filters read, and past its last. */
+static int32_t filtered_top(const struct smear_context *c, int row)
+{
+    return row << c->filtered->tile_shift;
+}
+
+static int32_t filtered_bottom(const struct smear_context *c, int row)
+{
+    return min_i32(filtered_top(c, row + 1), c->filtered->height);
+}
+
+static void half_job(void *argument, int column, int worker)
+{
+    const struct row_job *r = argument;
+    (void)worker;
+    smear_half_reduce(r->c->half, &r->c->window, r->row, column, r->c->blur.linear);
+}
+
 static void reduce_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
-    const struct smear_window *w = &r->c->window;
+    const struct smear_window *w = r->c->filtered;
     (void)worker;
-    if (w->moving[column])
+    if (r->c->window.moving[column])
         smear_tilemax(w, r->row, column);
     else
         window_motion(w, r->row)[column] = (struct smear_tile_motion){ 0, 0, 0, 0, 0, 0 };
@@ -366,13 +488,15 @@ static void reduce_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
     uint32_t start = stage_start(c);
+    if (c->filtered == c->half)
+        smear_jobs_run(&c->jobs, half_job, &job, c->window.columns);
     smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
     stage_end(c, &c->stats.time_reduce, start);
 }
 
 static struct smear_row_table row_table(const struct smear_context *c, int row)
 {
-    return (struct smear_row_table){ c->row_offset, row_top(c, row) - c->window.reach };
+    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach };
 }
 
 static bool is_still(const struct smear_window *w, int row, int column)
@@ -383,7 +507,7 @@ static bool is_still(const struct smear_window *w, int row, int column)
 /* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
 static void convert_still(const struct row_job *r, int column)
 {
-    const struct smear_window *w = &r->c->window;
+    const struct smear_window *w = r->c->filtered;
     if (column > 0 && is_still(w, r->row, column - 1))
         return;
     int end = column + 1;
@@ -392,38 +516,124 @@ static void convert_still(const struct row_job *r, int column)
     smear_band_convert_window(r, tile_left(r->c, column), tile_right(r->c, end - 1));
 }
 
+/* What a pass reads: what the one before it left, or the picture. */
+static const uint32_t *pass_input(const struct smear_context *c, int pass)
+{
+    return pass == 0 ? c->filtered->color : c->pass_plane[pass - 1];
+}
+
+/* The filter, over a tile of the window it reads; rows of `tile` are that window's tile apart. */
+static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int worker)
+{
+    const struct smear_window *w = c->filtered;
+    struct smear_row_table rows = row_table(c, row);
+    uint8_t kind = window_around(w, row)[column].kind;
+    uint32_t samples = 0;
+    if (kind == TILE_STILL)
+        smear_blur_copy(tile, w, row, column);
+    else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
+        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->passes - 1), w, &rows, &c->pass[c->passes - 1], row,
+                                      column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
+    else if (c->frame.filter == SMEAR_FILTER_MEAN
+             || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
+        samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
+    else if (c->frame.weights != SMEAR_WEIGHTS_STACK)
+        samples = smear_blur_weights(tile, w, &rows, row, column, &c->blur);
+    else
+        samples = smear_blur_reconstruct(tile, w, &rows, row, column, &c->blur);
+    c->worker_samples[worker] += samples;
+}
+
 static void tile_job(void *argument, int column, int worker)
 {
     const struct row_job *r = argument;
     struct smear_context *c = r->c;
-    const struct smear_window *w = &c->window;
+    const struct smear_window *w = c->filtered;
     if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
         convert_still(r, column);
         return;
     }
-    struct smear_row_table rows = row_table(c, r->row);
-    uint32_t *tile = c->scratch + worker * w->tile * w->tile;
-    uint8_t kind = window_around(w, r->row)[column].kind;
-    if (kind == TILE_STILL)
-        smear_blur_copy(tile, w, r->row, column);
-    else if (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM))
-        c->worker_samples[worker] += smear_blur_uniform(tile, w, &rows, r->row, column, &c->blur);
-    else
-        c->worker_samples[worker] += smear_blur_reconstruct(tile, w, &rows, r->row, column, &c->blur);
+    uint32_t *tile = c->scratch + worker * c->window.tile * c->window.tile;
+    if (w != c->half) {
+        filter_tile(c, tile, r->row, column, worker);
+    } else if (is_still(w, r->row, column)) {
+        smear_blur_copy(tile, &c->window, r->row, column);
+    } else {
+        uint32_t *blurred = c->half_scratch + worker * w->tile * w->tile;
+        filter_tile(c, blurred, r->row, column, worker);
+        smear_half_blend(tile, blurred, w, &c->window, r->row, column);
+    }
     if (c->blend != SMEAR_NO_TRIANGLE)
         smear_band_blend_tile(r, column, tile);
     smear_band_convert_tile(r, column, tile);
 }
 
+/* ------------------------------------------------------------------ passes before the last */
+
+/* A part of tile row `row` in pass `pass`: pixel rows [y0, y1). */
+struct pass_job {
+    struct smear_context *c;
+    int pass, row;
+    int32_t y0, y1;
+};
+
+static void pass_tile_job(void *argument, int column, int worker)
+{
+    const struct pass_job *r = argument;
+    struct smear_context *c = r->c;
+    struct smear_row_table rows = row_table(c, r->row);
+    c->worker_samples[worker] += smear_pingpong_pass(c->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
+                                                     &c->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
+}
+
+/* Offsets of the rows that a blur of tile row `row` may read; those below row `end` stand for row end - 1. */
+static void fill_row_table(struct smear_context *c, int row, int32_t end)
+{
+    const struct smear_window *w = c->filtered;
+    int32_t first = filtered_top(c, row) - w->reach;
+    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
+        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, end - 1)) * w->width);
+}
+
+/* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays as far
+ * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
+static int32_t run_passes(struct smear_context *c, int known)
+{
+    int32_t end = filtered_bottom(c, known);
+    for (int i = 0; i < c->passes - 1; i++) {
+        int32_t input_end = end;
+        if (known != c->window.rows - 1)
+            end = max_i32(end - c->pass[i].reach, 0);
+        for (int32_t y = c->pass_end[i]; y < end;) {
+            int row = y >> c->filtered->tile_shift;
+            struct pass_job job = { c, i, row, y, min_i32(end, filtered_bottom(c, row)) };
+            fill_row_table(c, row, input_end);
+            smear_jobs_run(&c->jobs, pass_tile_job, &job, c->window.columns);
+            y = job.y1;
+        }
+        c->pass_end[i] = max_i32(c->pass_end[i], end);
+    }
+    return end;
+}
+
+/* ------------------------------------------------------------------ a tile row */
+
+static uint32_t *count_of(struct smear_context *c)
+{
+    smear_stats *s = &c->stats;
+    return c->frame.method == SMEAR_CAMERA ? &s->tiles_camera : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
+         : c->frame.method == SMEAR_HALF ? &s->tiles_half : &s->tiles_reconstruct;
+}
+
 static void count_tiles(struct smear_context *c, int row)
 {
-    const struct smear_tile_neighborhood *around = window_around(&c->window, row);
+    const struct smear_tile_neighborhood *around = window_around(c->filtered, row);
     for (int32_t i = 0; i < c->window.columns; i++) {
         if (around[i].kind == TILE_STILL) {
             c->stats.tiles_still++;
             c->stats.tiles_none++;
         } else {
-            c->stats.tiles_reconstruct++;
+            ++*count_of(c);
             if (around[i].kind == TILE_UNIFORM)
                 c->stats.tiles_uniform++;
             else
@@ -435,15 +645,16 @@ static void count_tiles(struct smear_context *c, int row)
 /* Finishes tile row `row`; rows up to `known` are in the window. */
 static int finish_blurred(struct smear_context *c, int row, int known)
 {
-    struct smear_window *w = &c->window;
+    const struct smear_window *w = c->filtered;
     bool corner = c->frame.reconstruct & SMEAR_CORNER;
     smear_neighbormax_row(w, row, known, corner);
-    if (known > row)
-        smear_neighbormax_row(w, known, known, corner);
+    if (known > row)        /* looked at by the pixels of this row, and by passes that are ahead */
+        smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(c, row);
-    int32_t first = row_top(c, row) - w->reach;
-    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
-        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, w->height - 1)) * w->width);
+    int32_t end = w->height;
+    if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->passes > 1)
+        end = run_passes(c, known);
+    fill_row_table(c, row, end);
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
@@ -476,22 +687,29 @@ static int render_none(struct smear_context *c)
  *      drawn      drawn      drawn       colour, depth, velocity: the blur only reads them
  *                 blurred -> band -> flush
  *
- * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). */
+ * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). Where it
+ * reaches farther, it is finished as many rows later. */
 static int roll(struct smear_context *c, int row)
 {
     reduce_row(c, row);
-    int result = row > 0 ? finish_blurred(c, row - 1, row) : SMEAR_OK;
-    if (result == SMEAR_OK && row == c->window.rows - 1)
-        result = finish_blurred(c, row, row);
+    int lag = c->filtered->lag, result = SMEAR_OK;
+    if (row >= lag)
+        result = finish_blurred(c, row - lag, row);
+    if (row == c->window.rows - 1)
+        for (int last = max_i32(row - lag + 1, 0); last <= row && result == SMEAR_OK; last++)
+            result = finish_blurred(c, last, row);
     return result;
 }
 
-static int render_reconstruct(struct smear_context *c)
+static int render_filter(struct smear_context *c)
 {
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    if (c->raster.velocity_from_depth)
+        smear_reproject_make(&c->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
+                             c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
-        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
+        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -596,17 +814,22 @@ static void prepare(struct smear_context *c)
     uint32_t degrees = c->frame.shutter_degrees;
 
     c->raster.linear = linear;
-    c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : (int32_t)((degrees << 16) / 720u);
+    c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : c->half_exposure >> 8;
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
-    c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
-    c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
+    c->assembler.keep_motion = smear_method_is_filter(c->frame.method);
+    c->assembler.keep_paths = smear_method_is_timed(c->frame.method);
+    c->raster.velocity_from_depth = c->assembler.keep_motion && c->frame.camera_step != 0 && c->camera_moves
+                                 && !c->frame.cut && c->state != STATE_FILTER
+                                 && !(same_camera(&c->camera, &c->camera_open)
+                                      && same_camera(&c->camera, &c->camera_close));
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,
-        .flags = c->frame.reconstruct
+        .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct,
+        .weights = c->frame.weights
     };
     if (c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
@@ -616,11 +839,17 @@ static void prepare(struct smear_context *c)
         c->blur.far_over_range = over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
     }
 
+    c->filtered = c->frame.method == SMEAR_HALF ? c->half : w;
+    c->passes = smear_pingpong_plan(c->pass, &c->frame.pingpong, c->filtered->reach);
+    for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
+        c->pass_end[i] = 0;
+
     c->blends = false;
     for (uint32_t i = 0; i < c->draw_count; i++) {
         const smear_draw *d = &c->submitted[i].draw;
         struct smear_raster_draw *r = &c->raster_draw[i];
         const smear_material *m = d->material;
+        classify_draw(c, &c->submitted[i], r);
         r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
         r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
         if (m != NULL && m->texture != NULL)
@@ -652,7 +881,7 @@ int smear_frame_render(struct smear_context *c)
     prepare(c);
     int result = c->frame.method == SMEAR_NONE ? render_none(c)
                : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
+               : smear_method_is_filter(c->frame.method) ? render_filter(c) : render_timed(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

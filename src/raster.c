@@ -526,7 +526,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
                 t->depth[at] = (uint16_t)code;
                 t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
                 if (s->writes_velocity)
-                    smear_velocity_zero(t, at);
+                    smear_velocity_still(t, at, s->velocity_unknown);
             }
             e0 += e.right0;
             e1 += e.right1;
@@ -588,10 +588,11 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         return;
 
     uint64_t area = setup_edges(&s);
-    /* The planes start with zero velocity: still triangles need to write it only over moving ones. */
+    /* The planes start with that of the background: still triangles need to write it only over others. */
     s.writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
-                     && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || *moved);
-    if (s.segment->moves != 0)
+                     && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || s.draw->fixed || *moved);
+    s.velocity_unknown = frame->velocity_from_depth && !s.draw->fixed;
+    if (s.segment->moves != 0 || s.draw->fixed)
         *moved = true;
     if (is_tiny(&s, width, height)) {
         draw_tiny(&s, (int32_t)area, left, right, top, bottom);
@@ -628,7 +629,8 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 }
 
 /* A finished pixel. */
-static inline void draw_point(const struct smear_raster_target *target, const struct smear_triangle *t, bool moved)
+static inline void draw_point(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                              const struct smear_triangle *t, bool moved)
 {
     int32_t x = t->x, y = t->y - target->y0;
     if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
@@ -642,7 +644,7 @@ static inline void draw_point(const struct smear_raster_target *target, const st
     target->depth[at] = t->depth;
     target->color[at] = t->color & 0xffffffu;
     if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
-        smear_velocity_zero(target, at);
+        smear_velocity_still(target, at, frame->velocity_from_depth);
 }
 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -653,7 +655,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const struct smear_triangle *t = geometry_triangle(frame->geometry, head);
         head = t->next;
         if (t->segment == SMEAR_POINT) {
-            draw_point(target, t, moved);
+            draw_point(frame, target, t, moved);
             continue;
         }
         const struct smear_segment *segment = &frame->geometry->segment[t->segment];

@@ -49,6 +49,7 @@ struct smear_assembly {
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
     struct smear_projection pose[2];    /* velocity is measured between these (one: and the drawn instant) */

@@ -77,6 +77,7 @@ struct setup {
 
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool writes_velocity;
+    bool velocity_unknown;          /* with 0 poses: depth will tell it */
     bool velocity_affine;
     bool clamp_velocity;
     struct plane vx, vy;            /* affine: displacement q18 px */

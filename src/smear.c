@@ -2,8 +2,10 @@
 /* smear.c - the public functions: check, fill in defaults, cut memory, keep poses, call frame.c. */
 #include "context.h"
 
+#include "arc.h"
 #include "arena.h"
 #include "convert.h"
+#include "fixmath.h"
 
 /* ------------------------------------------------------------------ desc */
 
@@ -17,13 +19,15 @@ static bool resolve(smear_desc *d)
 {
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
         return false;
+    if (d->scatter > 1 || (d->scatter && (d->sharp || d->timed || d->half || d->passes > 1)))
+        return false;
     if (d->reach == 0)
         d->reach = (int16_t)clamp_i32(d->height * 5 / 100, 1, 64);
     if (d->reach < 1 || d->reach > 64)
         return false;
     if (d->tile == 0)
         d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || d->tile < d->reach)
+    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || (d->tile < d->reach && !d->scatter))
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
@@ -37,8 +41,12 @@ static bool resolve(smear_desc *d)
         d->max_draws = 16;
     if (d->max_triangles == 0)
         d->max_triangles = 1024;
+    if (d->passes == 0)
+        d->passes = 1;
     if (d->vertex_cache == 0)
         d->vertex_cache = 64;
+    if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && d->sharp))
+        return false;
     return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && d->format <= SMEAR_L1_PAGES
         && d->dither <= SMEAR_DITHER_BLUE && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
@@ -58,18 +66,38 @@ _Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_C
 _Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 _Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
 
+/* A window of half the size of `full`. */
+static void layout_half(struct smear_window *w, struct smear_arena *a, const struct smear_window *full)
+{
+    *w = (struct smear_window){ .width = (full->width + 1) / 2, .height = (full->height + 1) / 2, .tile = full->tile / 2,
+                                .tile_shift = full->tile_shift - 1, .reach = (full->reach + 1) / 2,
+                                .columns = full->columns, .rows = full->rows, .lag = 1 };
+    w->ring = 2 * w->tile + w->reach;
+    size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
+    w->color = arena_take(a, plane, 4);
+    w->depth = arena_take(a, plane, 2);
+    if (w->reach <= 15)
+        w->velocity8 = arena_take(a, plane, 2);
+    else
+        w->velocity16 = arena_take(a, plane, 4);
+    w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
+    w->around = arena_take(a, 3 * columns, sizeof *w->around);
+}
+
 /* Measures or cuts all that a context needs; `c` receives the pieces. d is resolved. */
 static void layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
-    struct smear_window *w = &c->window;
+    struct smear_window *w = &c->window, spare;
     *w = (struct smear_window){ .width = d->width, .height = d->height, .tile = d->tile,
                                 .reach = d->reach };
     for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + d->band_rows - 1) / d->band_rows;
-    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : 2 * d->tile + d->reach;
+    w->lag = (d->reach + d->tile - 1) / d->tile;
+    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : (w->lag + 1) * d->tile + d->reach;
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
+    size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
     w->depth = arena_take(a, plane, 2);
     w->moving = arena_take(a, columns, 1);
@@ -80,9 +108,17 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             w->velocity8 = arena_take(a, plane, 2);
         else
             w->velocity16 = arena_take(a, plane, 4);
-        w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
-        w->around = arena_take(a, 3 * columns, sizeof *w->around);
+        w->motion = arena_take(a, reduced, sizeof *w->motion);
+        w->around = arena_take(a, reduced, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
+    }
+    for (int i = 0; i + 1 < d->passes; i++)
+        c->pass_plane[i] = arena_take(a, plane, 4);
+    c->half = NULL;
+    if (d->half) {
+        c->half = arena_take(a, 1, sizeof *c->half);
+        layout_half(c->half != NULL ? c->half : &spare, a, w);
+        c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
     }
     if (!d->sharp || d->timed)
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
@@ -177,6 +213,69 @@ static bool is_camera(const smear_camera *c)
     return c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
 }
 
+/* a / b in q24, at most 100 of them. */
+static int32_t ratio_q24(uint32_t a, uint32_t b)
+{
+    int zeros = count_leading_zeros(b);
+    uint64_t ratio = (uint64_t)a * recip_norm_precise(b << zeros) >> (37 - zeros);
+    return (int32_t)(ratio < (uint64_t)100 << 24 ? ratio : (uint64_t)100 << 24);
+}
+
+/* Half the exposure in frames, q24; brings frame->shutter_degrees up to date. */
+static int32_t half_exposure(smear_frame *f)
+{
+    const int32_t whole = 1 << 24, longest = 10 << 24;
+    int32_t exposure;
+    if (f->shutter_us != 0) {
+        exposure = ratio_q24(f->shutter_us, f->frame_us);
+        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+            exposure = min_i32(exposure, whole);
+    } else {
+        /* Frames in which the shutter is to be as it is in one at the rate of reference. */
+        int32_t frames = whole;
+        if (f->shutter_mode != SMEAR_SHUTTER_NATIVE)
+            frames = ratio_q24(1000000, f->reference_hz * f->frame_us);
+        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+            frames = min_i32(frames, whole);
+        if (frames == whole)
+            return (int32_t)(((uint32_t)f->shutter_degrees << 20) / 45u);
+        uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;             /* 2^32 / 360 = 11930465 */
+        degrees = (degrees >> 8) * 11930465u >> 24;
+        exposure = (int32_t)(degrees < (uint64_t)longest ? degrees : (uint64_t)longest);
+    }
+    exposure = clamp_i32(exposure, 2, longest);
+    f->shutter_degrees = (uint16_t)clamp_i32((int32_t)((int64_t)exposure * 360 >> 24), 1, 3600);
+    return exposure / 2;
+}
+
+/* A scale of motion as it is used. False when out of range. */
+static bool resolve_scale(uint16_t *scale)
+{
+    if (*scale == 0)
+        *scale = 256;
+    else if (*scale == SMEAR_SCALE_NONE)
+        *scale = 0;
+    return *scale <= 16128;
+}
+
+/* Brings a camera's pose nearer to that of now, or farther: its turn and its way each by their scale. */
+static void scale_camera(smear_camera *other, const smear_camera *now, const smear_frame *f)
+{
+    smear_transform turned;
+    if (f->turn_scale != 256) {
+        smear_arc_between(&turned, &other->pose, &now->pose, -(int32_t)f->turn_scale * (1 << 16));
+        for (int i = 0; i < 9; i++)
+            other->pose.basis[i] = f->turn_scale == 0 ? now->pose.basis[i] : turned.basis[i];
+        int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->turn_scale >> 8);
+        int64_t half = now->half_height + (((int64_t)other->half_height - now->half_height) * f->turn_scale >> 8);
+        other->focal = now->focal > 0 ? max_i32(narrow_sat(focal), 1) : 0;
+        other->half_height = now->half_height > 0 ? max_i32(narrow_sat(half), 1) : 0;
+    }
+    for (int i = 0; i < 3 && f->way_scale != 256; i++)
+        other->pose.origin[i] = narrow_sat(now->pose.origin[i]
+                                           + (((int64_t)other->pose.origin[i] - now->pose.origin[i]) * f->way_scale >> 8));
+}
+
 /* Defaults of a frame; false when something is out of range. */
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
@@ -188,12 +287,35 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method > SMEAR_AUTO || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method == SMEAR_CAMERA && f->camera_step == 0)
+        f->camera_step = 1;
+    if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
+        f->filter = SMEAR_FILTER_RECONSTRUCT;
+    else if (f->method == SMEAR_PINGPONG)
+        f->filter = SMEAR_FILTER_PINGPONG;
+    else if (f->filter == SMEAR_FILTER_DEFAULT)
+        f->filter = SMEAR_FILTER_MEAN;
+    if (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
+        return false;
+    if (f->method > SMEAR_HALF || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
-    if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
+    if (!smear_pingpong_resolve(&f->pingpong))
         return false;
-    if (f->method >= SMEAR_SUBFRAMES && !c->desc.timed)
+    if (f->reference_hz == 0)
+        f->reference_hz = 30;
+    if (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
+        || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0))
+        return false;
+    if (!resolve_scale(&f->turn_scale) || !resolve_scale(&f->way_scale) || !resolve_scale(&f->object_scale))
+        return false;
+    if (smear_method_is_filter(f->method) && c->desc.sharp)
+        return false;
+    if (smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG && f->pingpong.passes > c->desc.passes)
+        return false;
+    if (f->method == SMEAR_HALF && !c->desc.half)
+        return false;
+    if (smear_method_is_timed(f->method) && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
 }
@@ -228,6 +350,9 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         c->camera_moves = false;
         c->camera_open = c->camera_close = *frame->camera;
     }
+    scale_camera(&c->camera_open, &c->camera, &f);
+    scale_camera(&c->camera_close, &c->camera, &f);
+    c->half_exposure = half_exposure(&f);
     c->kept_camera = *frame->camera;
     c->has_kept_camera = true;
     f.camera = f.open = f.close = NULL;
@@ -296,7 +421,8 @@ static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
-    if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
+    if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE
+        || draw->billboard > SMEAR_BILLBOARD_UPRIGHT)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
     if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))))
@@ -346,12 +472,13 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
     if (c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || f.method != SMEAR_RECONSTRUCT || c->desc.workers > 1)
+    if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA || c->desc.workers > 1)
         return SMEAR_ERR_ARG;
     f.camera = f.open = f.close = NULL;
     f.shutter_poses = 0;
     c->camera = *frame->camera;
     c->camera.half_height = 0;
+    c->half_exposure = half_exposure(&f);
     c->frame = f;
     c->state = STATE_FILTER;
     smear_frame_filter_begin(c);

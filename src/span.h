@@ -58,7 +58,8 @@ static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
  * comes after them and goes by the mask. */
 void smear_span_velocity(const struct setup *s, const struct span *p);
 
-/* One pixel without motion. */
-void smear_velocity_zero(const struct smear_raster_target *t, int32_t at);
+/* One pixel without a motion of its own: its velocity is zero or, where the camera's is still to be told from depth,
+ * unknown. */
+void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown);
 
 #endif

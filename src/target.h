@@ -40,6 +40,8 @@ struct smear_raster_draw {          /* one per draw, indexed by smear_segment.dr
     struct smear_sampler sampler;
     uint8_t alpha;                  /* smear_alpha */
     uint8_t cutoff;
+    bool moves;                     /* its velocity comes from its vertices */
+    bool fixed;                     /* still to the eye even where the camera moves: its velocity is zero */
 };
 
 struct smear_raster_frame {
@@ -49,6 +51,7 @@ struct smear_raster_frame {
     int32_t width, height;
     int32_t velocity_scale;         /* q16: displacement between the motion poses to half the exposure's */
     int32_t inspect_scale;          /* q16: the same to a whole frame */
+    bool velocity_from_depth;       /* what has no motion of its own moves as its depth tells */
     int32_t reach_q3;               /* longest stored velocity, 1/8 px */
 };
 

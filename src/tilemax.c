@@ -161,8 +161,59 @@ static void neighborhood(const struct smear_window *w, int32_t row, int32_t colu
     out->kind = still ? TILE_STILL : is_uniform(&n, here) ? TILE_UNIFORM : TILE_COMPLEX;
 }
 
+/* Whether a tile's motion comes to a tile dx, dy tiles from it: somewhere, by the box its pixels' ways fill; and its
+ * longest, by a line as wide as two tiles, a tile longer than the motion. */
+static bool comes_near(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx, int32_t dy)
+{
+    int32_t x = max_i32(m->max_x, -m->min_x), y = max_i32(m->max_y, -m->min_y);
+    return max_i32(abs_i32(dx) - 1, 0) * w->tile * 8 <= x + 8 && max_i32(abs_i32(dy) - 1, 0) * w->tile * 8 <= y + 8
+        && (x | y) != 0;
+}
+
+static bool comes_along(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx, int32_t dy)
+{
+    int32_t square = m->x * m->x + m->y * m->y, tile = w->tile * 8;                     /* 1/8 px */
+    int32_t length = (int32_t)(sqrt_q3((uint32_t)square) + 7u) >> 3;
+    int32_t along = abs_i32(dx * m->x + dy * m->y) * tile, across = abs_i32(dx * m->y - dy * m->x) * tile;
+    return along <= square + tile * length && across <= tile * length;
+}
+
+/* The longest motion of all whose way leads over the tile, itself first: each tile's longest is told to the tiles along its
+ * own direction, as far as the reach goes; here by looking for them, so that tiles may be done in any order. */
+static void scattered(const struct smear_window *w, int32_t row, int32_t column, int32_t known)
+{
+    struct smear_tile_neighborhood *out = &window_around(w, row)[column];
+    const struct smear_tile_motion *here = &window_motion(w, row)[column], *best = here;
+    uint32_t longest = (uint32_t)(here->x * here->x + here->y * here->y);
+    bool still = !moves(here);
+    for (int32_t dy = -w->lag; dy <= w->lag; dy++) {
+        if (row + dy < 0 || row + dy > known)
+            continue;
+        for (int32_t dx = -w->lag; dx <= w->lag; dx++) {
+            if (column + dx < 0 || column + dx >= w->columns)
+                continue;
+            const struct smear_tile_motion *m = &window_motion(w, row + dy)[column + dx];
+            if (!comes_near(w, m, dx, dy))
+                continue;
+            still = false;
+            uint32_t square = (uint32_t)(m->x * m->x + m->y * m->y);
+            if (square > longest && comes_along(w, m, dx, dy)) {
+                longest = square;
+                best = m;
+            }
+        }
+    }
+    out->x = (int16_t)(best->x * 32);
+    out->y = (int16_t)(best->y * 32);
+    out->kind = still ? TILE_STILL : TILE_COMPLEX;
+}
+
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
 {
-    for (int32_t column = 0; column < w->columns; column++)
-        neighborhood(w, row, column, known, corner);
+    for (int32_t column = 0; column < w->columns; column++) {
+        if (w->lag > 1)
+            scattered(w, row, column, known);
+        else
+            neighborhood(w, row, column, known, corner);
+    }
 }

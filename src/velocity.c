@@ -5,6 +5,8 @@
  * displacement itself is a plane. */
 #include "span.h"
 
+#include "velocity.h"
+
 /* d / ratio (q20 > 0) in q8, clamped. */
 static int32_t over_ratio(int32_t d, int32_t ratio)
 {
@@ -140,19 +142,18 @@ static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t
     shorten(out, 22);
 }
 
-/* Half the exposure's displacement, q16 px, no longer than the reach: the direction is kept. */
-static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3, int32_t out[2])
 {
-    int64_t k = s->frame->velocity_scale;
+    int64_t k = scale;
     out[0] = narrow_sat((displacement[0] * k) >> 8);
     out[1] = narrow_sat((displacement[1] * k) >> 8);
-    if (!s->clamp_velocity)
+    if (!clamp)
         return;
     /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
     shorten(out, 27);
     int32_t sx = out[0] >> 12, sy = out[1] >> 12;
     uint32_t square = (uint32_t)(sx * sx) + (uint32_t)(sy * sy);
-    uint32_t reach = (uint32_t)s->frame->reach_q3 * 2u;
+    uint32_t reach = (uint32_t)reach_q3 * 2u;
     if (square > reach * reach) {
         uint32_t length = sqrt_floor_64((uint64_t)square << 8);     /* 1/256 px */
         int zeros = count_leading_zeros(length);
@@ -162,6 +163,11 @@ static void stored_velocity(const struct setup *s, const int32_t displacement[2]
         out[0] = (int32_t)((int64_t)out[0] * factor >> 16);
         out[1] = (int32_t)((int64_t)out[1] * factor >> 16);
     }
+}
+
+static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
+{
+    smear_velocity_store(displacement, s->frame->velocity_scale, s->clamp_velocity, s->frame->reach_q3, out);
 }
 
 static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)
@@ -175,9 +181,10 @@ static inline void velocity_write(const struct smear_raster_target *t, int32_t a
     }
 }
 
-void smear_velocity_zero(const struct smear_raster_target *t, int32_t at)
+void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown)
 {
-    velocity_write(t, at, 0, 0);
+    int32_t still = !unknown ? 0 : t->velocity8 != NULL ? SMEAR_VELOCITY_UNKNOWN8 : SMEAR_VELOCITY_UNKNOWN16;
+    velocity_write(t, at, still, still);
     if (t->inspect != NULL)
         t->inspect[2 * at] = t->inspect[2 * at + 1] = 0;
 }
@@ -195,7 +202,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
     if (s->poses == 0) {
         for (int32_t i = 0; i < p->b - p->a; i++, z += (uint32_t)p->dz)
             if (is_drawn(p, i, z, depth))
-                smear_velocity_zero(t, p->at + i);
+                smear_velocity_still(t, p->at + i, s->velocity_unknown);
         return;
     }
     /* Exact at multiples of 8 and at the span's ends; linear between. */

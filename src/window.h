@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* window.h - the rolling window: the rows of the sharp frame that a filter may still read.
  *
- * A ring of pixel rows: the tile row being finished, the one below it, and `reach` rows of the one above.
+ * A ring of pixel rows: the tile row being finished, the one below it, and `reach` rows of the one above. Where the reach
+ * exceeds a tile (desc.scatter), as many tile rows below it as that covers.
  *
  *      row - 2    row - 1    row
  *      (reach)    finished   drawn        the oldest rows are overwritten next
@@ -35,13 +36,14 @@ struct smear_window {
     int32_t reach;
     int32_t columns, rows;          /* tiles */
     int32_t ring;                   /* pixel rows kept */
+    int32_t lag;                    /* tile rows that are drawn before one is finished: as many as the reach covers */
     uint32_t *color;
     uint16_t *depth;
     int8_t *velocity8;              /* one of the two, or none (sharp only) */
     int16_t *velocity16;
     uint8_t *moving;                /* per tile column of the row being drawn */
-    struct smear_tile_motion *motion;           /* three tile rows, row r at r % 3 */
-    struct smear_tile_neighborhood *around;     /* likewise, of rows with both neighbours */
+    struct smear_tile_motion *motion;           /* 2 lag + 1 tile rows, row r at r % (2 lag + 1) */
+    struct smear_tile_neighborhood *around;     /* likewise, of rows with all neighbours */
 };
 
 static inline int32_t window_slot(const struct smear_window *w, int32_t y)
@@ -51,12 +53,12 @@ static inline int32_t window_slot(const struct smear_window *w, int32_t y)
 
 static inline struct smear_tile_motion *window_motion(const struct smear_window *w, int32_t row)
 {
-    return w->motion + (uint32_t)row % 3u * (uint32_t)w->columns;
+    return w->motion + (uint32_t)row % (2u * (uint32_t)w->lag + 1u) * (uint32_t)w->columns;
 }
 
 static inline struct smear_tile_neighborhood *window_around(const struct smear_window *w, int32_t row)
 {
-    return w->around + (uint32_t)row % 3u * (uint32_t)w->columns;
+    return w->around + (uint32_t)row % (2u * (uint32_t)w->lag + 1u) * (uint32_t)w->columns;
 }
 
 /* Velocity of a pixel in 1/8 px. */

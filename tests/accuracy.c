@@ -441,6 +441,7 @@ bool shot_take(struct subject *s, const struct present_options *present,
     smear_desc desc = presented_desc(p, width, height);
     desc.reach = (int16_t)o->reach;
     desc.tile = (int16_t)o->tile;
+    desc.scatter = o->scatter;
     desc.workers = (uint8_t)(o->workers > 1 ? o->workers : 1);
     desc.format = SMEAR_XRGB8888;
     desc.crc = 1;

@@ -65,6 +65,7 @@ struct shot_options {
     int reach, tile;            /* 0: the library's choice */
     int workers;                /* 0: one */
     int triangles;              /* room for as many; 0: for all */
+    bool scatter;               /* the reach may exceed the tile */
     bool look;                  /* keep what lies under the picture, too */
 };
 

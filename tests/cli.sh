@@ -762,16 +762,58 @@ for option in --exposure --poses --method --quality --light --filter --format --
 done
 usage --reconstruct render "$plate" --reconstruct fence,
 usage --reconstruct render "$plate" --reconstruct fence,frob
-for method in object camera pingpong half layered; do
+for method in object layered; do
     usage --method render "$plate" --method $method
     claim "says that it is not built" err_has "not built yet"
 done
+usage --inside render "$plate" --inside mean
+usage --inside render "$plate" --method camera --inside gauss
+usage --camera-step render "$plate" --method camera --camera-step 3
+usage --camera-step render "$plate" --method timemask --camera-step 2
+usage --pingpong render "$plate" --pingpong taps=8
+for list in taps=1 taps=65 passes=0 passes=4 base=1 bias=0 bias=256 jitter=2 jitter=nan frob frob=1 taps taps=8, =; do
+    usage --pingpong render "$plate" --method pingpong --pingpong "$list"
+done
+usage --reconstruct render "$plate" --method camera --reconstruct fence
+for method in camera "camera --camera-step 4 --inside reconstruct --reconstruct fence,box" \
+    "camera --inside pingpong --pingpong passes=3,taps=4,base=4,bias=255,jitter=0.5,spread" \
+    "pingpong --camera-step 2" "reconstruct --camera-step 1"; do
+    claim "draws with --method $method" render builtin:suite/pan --size 64x48 --method $method -o filter.png
+done
 usage --mask render "$plate" --mask plate
 claim "says that it is not built" err_has "not built yet"
-for mode in capped fixed fixed:50; do
-    usage --shutter-mode render "$plate" --shutter-mode $mode
-    claim "says that it is not built" err_has "not built yet"
+usage --shutter-mode render "$plate" --shutter-mode frob
+usage --shutter-mode render "$plate" --shutter-mode fixed:
+usage --shutter-mode render "$plate" --shutter-mode capped:30
+for value in 0s 2s 1001ms -1ms nans s ms 10us; do usage --shutter render "$plate" --shutter $value; done
+for value in turn turn=64 way=-1 turn=nan frob=1 =1 way=1, ''; do usage --scale render "$plate" --scale "$value"; done
+usage --scale render "$plate" --method accumulate --exact --scale turn=2
+usage --weights render "$plate" --weights gauss --method reconstruct
+usage --weights render "$plate" --weights guertin --method camera
+for weights in mcguire guertin jimenez; do
+    claim "draws with the weights of $weights" render builtin:suite/cross --size 64x48 --method reconstruct \
+        --weights $weights -o $weights.png
 done
+claim "weights differ" differ mcguire.png guertin.png
+claim "a shutter in seconds" render builtin:suite/cross --size 64x48 --fps 30 --shutter 16.6667ms -o seconds.png
+claim "is that in degrees" render builtin:suite/cross --size 64x48 --fps 30 --shutter 180 -o degrees.png
+claim "of the same length" same seconds.png degrees.png
+claim "at 10 Hz, fixed" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode fixed --poses shutter -o fixed.png
+claim "it is as at 30 Hz" render builtin:suite/cross --size 64x48 --fps 30 --poses shutter -o native.png
+claim "bit for bit" same fixed.png native.png
+claim "capped, too" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode capped --poses shutter -o capped.png
+claim "bit for bit" same capped.png native.png
+claim "at 60 Hz, fixed at 60" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode fixed:60 -o fixed.png
+claim "it is native" render builtin:suite/cross --size 64x48 --fps 60 -o native.png
+claim "bit for bit" same fixed.png native.png
+claim "capped does not lengthen" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode capped -o capped.png
+claim "bit for bit" same capped.png native.png
+claim "no motion of objects" render builtin:suite/cross --size 64x48 --scale objects=0 -o scaled.png
+claim "is the sharp frame" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.png
+claim "before a still camera" same scaled.png sharp.png
+claim "no motion of the camera" render builtin:suite/pan --size 64x48 --scale turn=0,way=0 -o scaled.png
+claim "is the sharp frame" render builtin:suite/pan --size 64x48 --shutter 0 -o sharp.png
+claim "of what stands still" same scaled.png sharp.png
 usage --shutter-mode render "$plate" --shutter-mode fixed:0
 
 usage --time render "$plate" --time 1 --frames 0-0

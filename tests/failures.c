@@ -19,6 +19,10 @@ const struct fail_method fail_method[METHODS] = {
     [TIMEMASK] = {"timemask 32", SMEAR_TIMEMASK, 32, 0, 0},
     [AUTO] = {"auto balanced", SMEAR_AUTO, 0, 0, SMEAR_BALANCED},
     [FINE] = {"auto fine", SMEAR_AUTO, 0, 0, SMEAR_FINE},
+    [CAMERA] = {"camera 8", SMEAR_CAMERA, 8, 0, 0},
+    [PINGPONG] = {"pingpong", SMEAR_PINGPONG, 0, 0, 0, .spread = true},
+    [HALF_SIZE] = {"half 8", SMEAR_HALF, 8, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
+    [JIMENEZ] = {"jimenez 8", SMEAR_RECONSTRUCT, 8, 0, 0, .weights = SMEAR_WEIGHTS_JIMENEZ},
 };
 
 static bool broken(const struct subject *s, const char *why)
@@ -39,6 +43,8 @@ struct present_options fail_options(const struct subject *s, const struct fail_m
     present.samples = method->samples;
     present.reconstruct = method->flags;
     present.target = method->target;
+    present.weights = method->weights;
+    present.pingpong.spread = method->spread;
     return present;
 }
 
@@ -66,7 +72,7 @@ static smear_context *context_for(const struct presented *p, int width, int heig
     desc.tile = FAIL_TILE;
     desc.format = SMEAR_XRGB8888;
     desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
-    desc.timed = p->frame.method >= SMEAR_SUBFRAMES;
+    desc.timed = smear_method_is_timed(p->frame.method);
     desc.max_triangles *= 5;
     desc.max_draws += 4;        /* more may come in later frames */
     desc.flush = take_band;

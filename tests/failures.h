@@ -21,16 +21,19 @@
 /* ------------------------------------------------------------------ methods and rows */
 
 /* The columns, in the order of fail_method. */
-enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, METHODS };
+enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, CAMERA, PINGPONG, HALF_SIZE, JIMENEZ, METHODS };
 
 #define ONLY(method) (1u << (method))
 #define FILTERS (ONLY(PLAIN) | ONLY(MENDED))
+#define REACHING (FILTERS | ONLY(CAMERA) | ONLY(PINGPONG) | ONLY(HALF_SIZE) | ONLY(JIMENEZ))
 #define NOBODY (1u << 31)
 
 struct fail_method {
     const char *name;
     smear_method method;
     int samples, flags, target;
+    smear_weights weights;
+    bool spread;
 };
 
 extern const struct fail_method fail_method[METHODS];
@@ -57,6 +60,9 @@ struct fail_row {
     struct fail_measure measure[FAIL_MEASURES];
     const char *note;           /* what the table should say about it; or null */
 };
+
+/* At most: what a filter of failures_filters.c is known to fail measure `measure` of a row with; 0: must pass. */
+double fail_filter_known(const struct fail_row *row, int measure, int method);
 
 extern const struct fail_row fail_picture_rows[], fail_time_rows[], fail_other_rows[];
 extern const int fail_picture_count, fail_time_count, fail_other_count;

@@ -236,13 +236,28 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
         .shutter_degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
-    if (method >= SMEAR_SUBFRAMES) {
+    if (smear_method_is_timed(method)) {
         scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
         if (take_chance(s, 4)) {
             for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)
                 scene->shutter[i] = take(s);
             scene->frame.shutter = scene->shutter;
         }
+    }
+    if (smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) {
+        smear_frame *f = &scene->frame;
+        f->filter = take(s) & 3;
+        f->camera_step = (uint8_t)(1 << take(s) % 4 >> 1);
+        f->weights = take(s) & 3;
+        f->pingpong = (smear_pingpong){ .passes = take(s) % 4, .taps = take(s) & 31, .base = take(s) & 31,
+                                        .jitter = take(s) & 127, .bias = take(s), .spread = take(s) & 1 };
+        f->shutter_mode = take(s) % 3;
+        f->frame_us = take_word(s) % 1000001u;
+        f->reference_hz = (uint16_t)take_range(s, 0, 1000);
+        f->shutter_us = take_chance(s, 2) ? take_word(s) : 0;
+        f->turn_scale = (uint16_t)(take_word(s) & 1023u);
+        f->way_scale = (uint16_t)(take_word(s) & 1023u);
+        f->object_scale = (uint16_t)(take_word(s) & 1023u);
     }
     int changes = take_range(s, 0, scene->draws);
     for (int i = 0; i < changes; i++) {
@@ -402,6 +417,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t kind = take(s);
     bool wild_index = kind & 1;
     smear_desc desc = take_desc(s);
+    if (!desc.sharp) {
+        desc.passes = kind >> 4 & 3;
+        desc.half = kind >> 6 & 1;
+        desc.scatter = (kind >> 7) & !desc.timed & (desc.passes < 2) & !desc.half;
+        if (desc.scatter && desc.tile != 0)
+            desc.reach = (int16_t)(desc.reach * 2 <= 64 ? desc.reach * 2 : 64);
+    }
     bool open = rig_open(&rig, &pool, &desc, kind & 2);
     /* The same picture from another context: more room, other cuts. */
     desc.max_triangles = 3000;
@@ -421,6 +443,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int frames = take_range(s, 1, 4);
     for (int k = 0; k < frames && open; k++) {
         int method = take_range(s, SMEAR_DEFAULT_METHOD, desc.timed ? SMEAR_AUTO : SMEAR_RECONSTRUCT);
+        if (!desc.sharp && take_chance(s, 3))
+            method = SMEAR_CAMERA + take(s) % 3;
         take_frame(s, &scene, method);
         rig.fail_at = kind & 4 ? take(s) % 4 : -1;
         int result = rig_frame(&rig, &scene);

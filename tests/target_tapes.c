@@ -21,7 +21,8 @@ struct spec {
     int first, count, step;         /* frames at the scene's rate */
     smear_desc desc;                /* max_draws 0: as many as there are */
     struct present_options present; /* fps, clear and a shutter of 0 degrees are filled in */
-    bool has_large_textures;        /* not for small boards */
+    bool has_large_textures;        /* not for small boards; */
+    bool has_large_meshes;          /* neither: beside the others they would not fit the flash */
 };
 
 enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20, SMALL_BYTES = 64 << 10 };
@@ -39,7 +40,8 @@ static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
 /* Every method, output format, dither and light, all tile sizes, both pose models, kept poses, a
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. Methods
  * that look at several instants: all settings, with and without the window, still and moving
- * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. */
+ * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. Filters: velocity from depth,
+ * passes, half size, other weights, streaks longer than a tile, scales, a fixed rate. */
 static const struct spec golden[] = {
     { "none-xrgb", "peer/E", 0, 2, 1,
       { .width = 160, .height = 120, .format = SMEAR_XRGB8888, .max_triangles = 600 },
@@ -63,13 +65,14 @@ static const struct spec golden[] = {
       { .samples = 6, .shutter_degrees = 270, .exposure = SMEAR_TRAILING } },
     { "reconstruct-555", "demo/race", 12, 2, 1,
       { .width = 96, .height = 60, .reach = 6, .format = SMEAR_RGB555, .max_triangles = 500 },
-      { .shutter_poses = true, .reconstruct = SMEAR_FENCE | SMEAR_CORNER } },
+      { .shutter_poses = true, .reconstruct = SMEAR_FENCE | SMEAR_CORNER }, .has_large_meshes = true },
     { "reconstruct-l8", "demo/drone", 4, 2, 1,
       { .width = 101, .height = 75, .reach = 15, .tile = 32, .format = SMEAR_L8 },
       { .samples = 12, .reconstruct = SMEAR_BOX | SMEAR_DIRECTION } },
     { "reconstruct-l4", "demo/race", 20, 2, 1,
       { .width = 128, .height = 64, .reach = 5, .format = SMEAR_L4, .max_triangles = 400 },
-      { .light = SMEAR_LIGHT_ENCODED, .exposure = SMEAR_LEADING, .reconstruct = SMEAR_UNIFORM } },
+      { .light = SMEAR_LIGHT_ENCODED, .exposure = SMEAR_LEADING, .reconstruct = SMEAR_UNIFORM },
+      .has_large_meshes = true },
     { "reconstruct-l1", "demo/drone", 9, 2, 1,
       { .width = 133, .height = 65, .reach = 8, .format = SMEAR_L1 }, { .shutter_degrees = 360 } },
     { "reconstruct-pages", "peer/E", 6, 2, 1,
@@ -82,7 +85,7 @@ static const struct spec golden[] = {
       { .shutter_degrees = 720, .samples = 16 } },
     { "kept", "demo/race", 30, 4, 1,
       { .width = 80, .height = 60, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 700 },
-      { .keep_ids = true } },
+      { .keep_ids = true }, .has_large_meshes = true },
     { "full-list", "peer/E", 3, 1, 1,
       { .width = 96, .height = 96, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 64 },
       { .samples = 4 } },
@@ -193,6 +196,57 @@ static const struct spec golden[] = {
     { "auto-cut", "peer/E", 4, 1, 1,
       { .width = 64, .height = 48, .reach = 8, .format = SMEAR_RGB565, .timed = 1, .max_triangles = 600 },
       { .method = SMEAR_AUTO, .cut = true } },
+
+    { "camera-pan", "suite/pan", 14, 2, 1,
+      { .width = 96, .height = 72, .reach = 12, .format = SMEAR_RGB565, .max_triangles = 1200 },
+      { .method = SMEAR_CAMERA }, .has_large_meshes = true },
+    { "camera-dolly", "suite/dolly", 14, 1, 1,
+      { .width = 80, .height = 60, .reach = 16, .format = SMEAR_RGB565_SWAPPED, .max_triangles = 1200 },
+      { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_RECONSTRUCT, .camera_step = 4, .shutter_poses = true,
+        .light = SMEAR_LIGHT_ENCODED }, .has_large_meshes = true },
+    { "camera-roll", "suite/roll", 15, 1, 1,
+      { .width = 61, .height = 49, .reach = 15, .tile = 32, .format = SMEAR_XRGB8888, .passes = 2,
+        .max_triangles = 1400 },
+      { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG, .camera_step = 2, .exposure = SMEAR_TRAILING,
+        .pingpong = { .bias = 255 } }, .has_large_meshes = true },
+    { "depth-drone", "demo/drone", 6, 2, 1,
+      { .width = 96, .height = 64, .reach = 9, .format = SMEAR_RGB565, .max_triangles = 1500 },
+      { .method = SMEAR_RECONSTRUCT, .camera_step = 1, .exposure = SMEAR_LEADING }, .has_large_meshes = true },
+    { "pingpong-race", "demo/race", 12, 2, 1,
+      { .width = 96, .height = 60, .reach = 15, .format = SMEAR_RGB565, .passes = 2, .max_triangles = 500 },
+      { .method = SMEAR_PINGPONG } },
+    { "pingpong-spread", "suite/cross", 14, 1, 1,
+      { .width = 80, .height = 60, .reach = 24, .format = SMEAR_L8, .passes = 3, .max_triangles = 1200 },
+      { .method = SMEAR_PINGPONG, .light = SMEAR_LIGHT_ENCODED, .shutter_degrees = 360,
+        .pingpong = { .passes = 3, .taps = 4, .jitter = 32, .spread = 1 } }, .has_large_meshes = true },
+    { "pingpong-comb", "peer/E", 2, 1, 1,
+      { .width = 72, .height = 40, .reach = 8, .format = SMEAR_RGB332, .passes = 2, .max_triangles = 400 },
+      { .method = SMEAR_PINGPONG, .pingpong = { .taps = 7, .base = 4, .bias = 12 } }, .has_large_meshes = true },
+    { "half-arena", "suite/arena", 14, 2, 1,
+      { .width = 97, .height = 73, .reach = 11, .format = SMEAR_RGB565, .half = 1, .max_triangles = 1200 },
+      { .method = SMEAR_HALF, .reconstruct = SMEAR_FENCE | SMEAR_UNIFORM }, .has_large_meshes = true },
+    { "half-drone", "demo/drone", 9, 1, 1,
+      { .width = 88, .height = 64, .reach = 40, .format = SMEAR_RGB565, .half = 1, .passes = 2, .max_triangles = 1500 },
+      { .method = SMEAR_HALF, .filter = SMEAR_FILTER_PINGPONG, .camera_step = 1, .light = SMEAR_LIGHT_ENCODED }, .has_large_meshes = true },
+    { "mcguire", "suite/cross", 14, 1, 1,
+      { .width = 72, .height = 54, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 1200 },
+      { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_MCGUIRE }, .has_large_meshes = true },
+    { "guertin", "suite/cross", 14, 1, 1,
+      { .width = 72, .height = 54, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 1200 },
+      { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_GUERTIN, .light = SMEAR_LIGHT_ENCODED }, .has_large_meshes = true },
+    { "jimenez", "suite/arena", 14, 1, 1,
+      { .width = 72, .height = 54, .reach = 16, .format = SMEAR_RGB565, .max_triangles = 1200 },
+      { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_JIMENEZ, .samples = 12 }, .has_large_meshes = true },
+    { "scatter", "suite/long", 14, 1, 1,
+      { .width = 80, .height = 64, .reach = 30, .tile = 8, .format = SMEAR_RGB565, .scatter = 1, .max_triangles = 900 },
+      { .method = SMEAR_RECONSTRUCT, .shutter_degrees = 360 }, .has_large_meshes = true },
+    { "fixed-rate", "peer/E", 6, 1, 1,
+      { .width = 64, .height = 48, .reach = 12, .format = SMEAR_RGB565, .max_triangles = 600 },
+      { .method = SMEAR_RECONSTRUCT, .shutter_mode = SMEAR_SHUTTER_FIXED, .frame_us = 6944 } },
+    { "scales", "demo/drone", 24, 1, 1,
+      { .width = 64, .height = 48, .reach = 12, .format = SMEAR_RGB565, .max_triangles = 1500 },
+      { .method = SMEAR_RECONSTRUCT, .turn_scale = 600, .way_scale = 100, .object_scale = SMEAR_SCALE_NONE,
+        .frame_us = 33333, .shutter_us = 12000 }, .has_large_meshes = true },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */
@@ -370,8 +424,8 @@ static bool draw(struct visitor *v, const struct spec *spec, int index,
     printf("%s %d %08" PRIx32, spec->name, index, v->crc);
     if (spec->desc.timed)
         printf("    %" PRIu32 " still, %" PRIu32 " smooth, %" PRIu32 " subframes, %" PRIu32 " timemask, %" PRIu32
-               " split, %" PRIu32 " bytes", stats.tiles_none, stats.tiles_smooth, stats.tiles_subframes,
-               stats.tiles_timemask, stats.triangles_split, stats.arena_bytes);
+               " split", stats.tiles_none, stats.tiles_smooth, stats.tiles_subframes, stats.tiles_timemask,
+               stats.triangles_split);
     printf("\n");
     if (spec->desc.timed && stats.triangles_dropped != 0)
         return fail(f, "%" PRIu32 " triangles are dropped", stats.triangles_dropped);
@@ -414,7 +468,7 @@ static bool write_tapes(const char *path, const char *golden_path, size_t limit,
         *file = spec.name;
         smear_desc desc = spec.desc;
         desc.flush = add_to_crc;
-        if (limit == 0 || (smear_memory_size(&desc) <= limit && !spec.has_large_textures))
+        if (limit == 0 || (smear_memory_size(&desc) <= limit && !(spec.has_large_textures || spec.has_large_meshes)))
             ok = visit(&spec, &visitor, f);
     }
     if (ok) {

@@ -248,9 +248,23 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(r.ctx, NULL), SMEAR_ERR_ARG);
         CHECK_EQ(smear_begin(NULL, &s.frame), SMEAR_ERR_ARG);
-        for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO + 1; method++) {       /* desc.timed is 0 */
+        for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {           /* desc.timed is 0 */
             f = (smear_frame){ .camera = &good, .method = (uint8_t)method };
             CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        static const smear_frame bad_filter[] = {
+            { .method = SMEAR_HALF + 1 }, { .method = SMEAR_PINGPONG },    /* desc.passes is 0 */
+            { .method = SMEAR_HALF },                                       /* desc.half is 0 */
+            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG },
+            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG + 1 }, { .camera_step = 3 }, { .camera_step = 8 },
+            { .pingpong.passes = 4 }, { .pingpong.taps = 1 }, { .pingpong.taps = 65 }, { .pingpong.base = 1 },
+            { .pingpong.base = 65 }, { .pingpong.jitter = 129 }, { .pingpong.spread = 2 }
+        };
+        for (size_t i = 0; i < sizeof bad_filter / sizeof *bad_filter; i++) {
+            f = bad_filter[i];
+            f.camera = &good;
+            if (!CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG))
+                CHECK_EQ((int64_t)i, -1);
         }
         const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
         f = (smear_frame){ .camera = &good, .shutter = closed };

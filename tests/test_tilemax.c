@@ -34,7 +34,7 @@ static int between(int low, int high)
 /* A window of tiles of 8 px whose ring holds `ring` rows; still. */
 static void make_window(int width, int height, int ring, bool is_wide)
 {
-    window = (struct smear_window){
+    window = (struct smear_window){ .lag = 1,
         .width = width, .height = height, .tile = 8, .tile_shift = 3, .reach = 8,
         .columns = (width + 7) / 8, .rows = (height + 7) / 8, .ring = ring, .motion = motion, .around = around
     };

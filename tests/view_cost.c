@@ -80,7 +80,7 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
         desc.sharp = methods[m].method != SMEAR_RECONSTRUCT;
-        desc.timed = methods[m].method >= SMEAR_SUBFRAMES;
+        desc.timed = smear_method_is_timed(methods[m].method);
         desc.accumulate = methods[m].method == SMEAR_ACCUMULATE;
         desc.flush = throw_away;
         snprintf(name, sizeof name, "%.5s-%d-%s", strchr(scene_name, '/') + 1, size[0],

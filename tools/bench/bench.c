@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [accuracy] [methods] [threads] [memory] [targets FILE...]
+ *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [targets FILE...]
  *     bench chart [options]
  *
- * Without arguments, the first five. `targets` reads what target_bench printed, from files named
+ * Without arguments, the first six. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "chart.h"
@@ -23,6 +23,8 @@ bool group_take(const char *group, int index, struct take *out)
         return peers_take(index, out);
     if (strcmp(group, "methods") == 0)
         return methods_take(index, out);
+    if (strcmp(group, "filters") == 0)
+        return filters_take(index, out);
     if (strcmp(group, "chart") == 0)
         return chart_take(index, out);
     return strcmp(group, "threads") == 0 && threads_take(index, out);
@@ -35,7 +37,7 @@ struct report {
 
 static const struct report reports[] = {
     { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
-    { "threads", threads_report }, { "memory", memory_report },
+    { "filters", filters_report }, { "threads", threads_report }, { "memory", memory_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

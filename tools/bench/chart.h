@@ -58,6 +58,9 @@ struct chart_setting {
     smear_method method;
     int samples, reconstruct, target;
     bool everywhere;            /* under all conditions; else under the main one only */
+    smear_filter filter;        /* as in smear_frame */
+    smear_weights weights;
+    bool spread;
 };
 
 enum { CHART_MAX_SETTINGS = 64 };

@@ -11,7 +11,7 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, SUBFRAMES, TIMEMASK, AUTO };
+enum { NONE, ACCUMULATE, PUBLISHED, MENDED, CAMERA, PINGPONG, HALF, SUBFRAMES, TIMEMASK, AUTO };
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -19,6 +19,9 @@ const struct chart_curve chart_curves[] = {
     [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
                     MARK_TRIANGLE, false },
     [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
+    [CAMERA] = { "camera: velocity from depth, a mean", "camera", "#8c564b", MARK_CIRCLE, false },
+    [PINGPONG] = { "pingpong: 8 and 8 taps", "pingpong", "#4b8b3b", MARK_SQUARE, false },
+    [HALF] = { "half: reconstruct at half the size", "half", "#c77cba", MARK_TRIANGLE, false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
     [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
     [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
@@ -49,6 +52,19 @@ const struct chart_setting chart_settings[] = {
       .everywhere = true },
     { MENDED, "reconstruct 16 mended", "16", SMEAR_RECONSTRUCT, .samples = 16,
       .reconstruct = MEND },
+
+    { PUBLISHED, "reconstruct 8 mcguire", NULL, SMEAR_RECONSTRUCT, .samples = 8,
+      .weights = SMEAR_WEIGHTS_MCGUIRE },
+    { PUBLISHED, "reconstruct 8 guertin", NULL, SMEAR_RECONSTRUCT, .samples = 8,
+      .weights = SMEAR_WEIGHTS_GUERTIN },
+    { PUBLISHED, "reconstruct 8 jimenez", NULL, SMEAR_RECONSTRUCT, .samples = 8,
+      .weights = SMEAR_WEIGHTS_JIMENEZ },
+
+    { CAMERA, "camera 8", "8", SMEAR_CAMERA, .samples = 8, .everywhere = true },
+    { PINGPONG, "pingpong", "8+8", SMEAR_PINGPONG, .everywhere = true },
+    { PINGPONG, "pingpong spread", NULL, SMEAR_PINGPONG, .spread = true },
+    { HALF, "half 8", "8", SMEAR_HALF, .samples = 8, .everywhere = true },
+    { HALF, "half 8 mended", NULL, SMEAR_HALF, .samples = 8, .reconstruct = MEND },
 
     { SUBFRAMES, "subframes 4", "4", SMEAR_SUBFRAMES, .samples = 4 },
     { SUBFRAMES, "subframes 8", "8", SMEAR_SUBFRAMES, .samples = 8 },
@@ -108,10 +124,11 @@ bool chart_take(int index, struct take *out)
         return false;
     const struct chart_setting *s = &chart_settings[setting];
     *out = (struct take){
-        .scene = kinds[kind].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
-        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = s->method >= SMEAR_SUBFRAMES,
+        .scene = kinds[kind].scene, .frame = -1, .windowed = smear_method_is_filter(s->method),
+        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = smear_method_is_timed(s->method),
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
+        .filter = s->filter, .weights = s->weights, .pingpong.spread = s->spread,
         .linear = chart_conditions[condition].linear,
         .shutter_poses = !chart_conditions[condition].previous
     };

@@ -155,7 +155,9 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->windowed == b->windowed && a->accumulate == b->accumulate
         && a->band_rows == b->band_rows && a->format == b->format && a->method == b->method
         && a->samples == b->samples && a->reconstruct == b->reconstruct
-        && a->timed == b->timed && a->target == b->target
+        && a->timed == b->timed && a->target == b->target && a->reach == b->reach
+        && a->filter == b->filter && a->camera_step == b->camera_step && a->weights == b->weights
+        && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0
         && a->shutter_poses == b->shutter_poses && a->workers == b->workers
         && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
         && a->change == b->change;

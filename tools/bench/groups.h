@@ -13,5 +13,6 @@ bool group_take(const char *group, int index, struct take *out);
 bool peers_take(int index, struct take *out);
 bool methods_take(int index, struct take *out);
 bool threads_take(int index, struct take *out);
+bool filters_take(int index, struct take *out);
 
 #endif

@@ -32,6 +32,7 @@ double process_seconds(void);
 bool peers_report(struct sheet *sheet, struct failure *f);      /* instructions, time */
 bool accuracy_report(struct sheet *sheet, struct failure *f);   /* against the double reference */
 bool methods_report(struct sheet *sheet, struct failure *f);    /* cost and error of blur */
+bool filters_report(struct sheet *sheet, struct failure *f);    /* camera, pingpong, half, weights */
 bool threads_report(struct sheet *sheet, struct failure *f);
 bool memory_report(struct sheet *sheet, struct failure *f);      /* arenas of small displays */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);

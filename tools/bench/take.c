@@ -105,6 +105,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.format = (uint8_t)t->format;
     desc.dither = SMEAR_DITHER_NONE;
     desc.sharp = !t->windowed;
+    desc.reach = (int16_t)t->reach;
     desc.accumulate = t->accumulate;
     desc.timed = t->timed;
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
@@ -131,7 +132,8 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
         .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
-        .clear = rig->scene.clear
+        .filter = t->filter, .camera_step = t->camera_step, .pingpong = t->pingpong,
+        .weights = t->weights, .clear = rig->scene.clear
     };
     rig->frame = presenter_frame(rig->presenter, seconds, &options, f);
     return rig->frame != NULL;

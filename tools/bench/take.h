@@ -30,6 +30,11 @@ struct take {
     int samples;                /* 0: the library's default */
     int reconstruct;            /* SMEAR_FENCE | ... */
     int target;                 /* of SMEAR_AUTO */
+    int reach;                  /* px; 0: the library's default */
+    smear_filter filter;        /* as in struct present_options */
+    int camera_step;
+    smear_pingpong pingpong;
+    smear_weights weights;
     bool shutter_poses;
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */

@@ -93,7 +93,10 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.dither = (uint8_t)s->dither;
     desc.workers = (uint8_t)s->threads;
     desc.sharp = s->sharp;
+    if (desc.sharp)
+        desc.passes = desc.half = 0;
     desc.timed = s->timed;
+    desc.scatter = s->scatter;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;

@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include "arguments.h"
+#include "options_filter.h"
 #include "say.h"
 
 #include <limits.h>
@@ -91,15 +92,6 @@ static const char *read_filter(void *to, const char *value)
     return found >= 0 ? NULL : "needs nearest or bilinear";
 }
 
-static const char *read_shutter(void *to, const char *value)
-{
-    double degrees;
-    if (!read_number(value, 0.0, 3600.0, &degrees))
-        return "needs degrees from 0 to 3600";
-    ((struct render_options *)to)->shutter_degrees = (int)lround(degrees);
-    return NULL;
-}
-
 static const char *read_exposure(void *to, const char *value)
 {
     static const char *const names[] = { "centred", "trailing", "leading", NULL };
@@ -129,9 +121,9 @@ static const struct {
     { "auto", true, SMEAR_AUTO },               { "none", true, SMEAR_NONE },
     { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
     { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
-    { "object", false, SMEAR_DEFAULT_METHOD },  { "camera", false, SMEAR_DEFAULT_METHOD },
-    { "pingpong", false, SMEAR_DEFAULT_METHOD }, { "half", false, SMEAR_DEFAULT_METHOD },
-    { "layered", false, SMEAR_DEFAULT_METHOD },
+    { "camera", true, SMEAR_CAMERA },           { "pingpong", true, SMEAR_PINGPONG },
+    { "half", true, SMEAR_HALF },
+    { "object", false, SMEAR_DEFAULT_METHOD },  { "layered", false, SMEAR_DEFAULT_METHOD },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -154,7 +146,7 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate, reconstruct, subframes or timemask";
+    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong or half";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -274,18 +266,6 @@ static const char *read_cut(void *to, const char *value)
                                                                      : "needs a frame number";
 }
 
-static const char *read_shutter_mode(void *to, const char *value)
-{
-    double hertz;
-    (void)to;
-    if (strcmp(value, "native") == 0)
-        return NULL;
-    if (strcmp(value, "capped") == 0 || strcmp(value, "fixed") == 0 ||
-        (strncmp(value, "fixed:", 6) == 0 && read_number(value + 6, 1e-3, 1e6, &hertz)))
-        return "not built yet";
-    return "needs native, capped or fixed[:HZ]";
-}
-
 static const char *read_light(void *to, const char *value)
 {
     static const char *const names[] = { "linear", "encoded", NULL };
@@ -395,6 +375,12 @@ static const struct option table[] = {
     { "--samples", true, read_samples },
     { "--exact", false, read_exact },
     { "--reconstruct", true, read_reconstruct },
+    { "--inside", true, read_inside },
+    { "--camera-step", true, read_camera_step },
+    { "--pingpong", true, read_pingpong },
+    { "--weights", true, read_weights },
+    { "--scatter", false, read_scatter },
+    { "--scale", true, read_scale },
     { "--quality", true, read_quality },
     { "--target", true, read_target },
     { "--reach", true, read_reach },
@@ -460,13 +446,11 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (!o->exact && o->samples > MAX_SAMPLES)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
-    if (o->reconstruct != 0 && o->method != SMEAR_RECONSTRUCT)
-        return say_bad_usage("--reconstruct", "goes with --method reconstruct");
     if (o->has_quality && o->has_target)
         return say_bad_usage("--target", "contradicts --quality");
     if (o->has_time && o->has_frames)
         return say_bad_usage("--time", "contradicts --frames");
-    return STATUS_OK;
+    return check_filter(o);
 }
 
 static int check_outputs(struct render_options *o)
@@ -523,7 +507,7 @@ int options_read(struct render_options *o, int count, char **text, bool *wants_h
 int options_reach(const struct render_options *o, int height, int *reach, int *tile)
 {
     double percent = o->reach_percent > 0.0 ? o->reach_percent : 5.0;
-    int limit = o->tile > 0 ? o->tile : MAX_REACH;
+    int limit = o->tile > 0 && !o->scatter ? o->tile : MAX_REACH;
     *tile = o->tile;
     *reach = o->reach_px;
     if (*reach == 0) {
@@ -534,7 +518,8 @@ int options_reach(const struct render_options *o, int height, int *reach, int *t
             *reach = limit;         /* the default is 5 %, but at most one tile */
     }
     if (*reach > limit)
-        return say_bad_usage("--reach", "%d pixels are more than a tile of %d", *reach, limit);
+        return o->scatter ? say_bad_usage("--reach", "%d pixels are more than %d", *reach, limit)
+                          : say_bad_usage("--reach", "%d pixels are more than a tile of %d", *reach, limit);
     return STATUS_OK;
 }
 

@@ -22,12 +22,22 @@ struct render_options {
     long first, last;           /* frames; 0 and 0 without --frames */
 
     int shutter_degrees;        /* 0: the sharp frame */
+    double shutter_seconds;     /* > 0: instead */
+    smear_shutter_mode shutter_mode;
+    double reference_hz;        /* of modes that are not native */
     smear_exposure exposure;
     bool shutter_poses;
     smear_method method;
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;
     int reconstruct;            /* SMEAR_FENCE | ... */
+    smear_filter filter;        /* of camera and half */
+    int camera_step;
+    bool has_pingpong;
+    smear_pingpong pingpong;
+    smear_weights weights;
+    bool scatter;               /* the reach may exceed the tile */
+    int turn_scale, way_scale, object_scale;    /* as in smear_frame */
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;
     unsigned clear;

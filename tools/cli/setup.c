@@ -2,19 +2,19 @@
 /* setup.c - see setup.h. */
 #include "setup.h"
 
+#include "options_filter.h"
 #include "say.h"
 
 #include <stdlib.h>
 
 static bool is_sharp_method(const struct render_options *o)
 {
-    return o->shutter_degrees == 0
-        || (o->method != SMEAR_RECONSTRUCT && o->method != SMEAR_AUTO);
+    return o->shutter_degrees == 0 || (!smear_method_is_filter(o->method) && o->method != SMEAR_AUTO);
 }
 
 static bool is_timed_method(const struct render_options *o)
 {
-    return o->shutter_degrees > 0 && o->method >= SMEAR_SUBFRAMES;
+    return o->shutter_degrees > 0 && smear_method_is_timed(o->method);
 }
 
 static int set_motion(const struct render_options *o, struct source *source, struct setup *out)
@@ -47,13 +47,16 @@ int setup_change(const struct render_options *o, const struct source *source, st
     out->height = is_builtin && !o->has_size ? scene->height : o->height;
     out->present = (struct present_options){
         .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
-        .shutter_degrees = o->shutter_degrees, .exposure = o->exposure,
+        .exposure = o->exposure,
         .shutter_poses = o->shutter_poses, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
         .reconstruct = o->reconstruct, .target = o->target,
+        .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
+        .weights = o->weights, .turn_scale = o->turn_scale, .way_scale = o->way_scale, .object_scale = o->object_scale,
         .motion = out->present.motion, .motion_count = out->present.motion_count,
     };
+    out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
 
@@ -77,7 +80,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
         .timed = is_timed_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
-        .threads = o->threads, .arena = o->arena,
+        .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };
 }
 

@@ -74,9 +74,10 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             ",\"complex\":%" PRIu32 "},\n", c->tiles_still, c->tiles_uniform, c->tiles_complex);
     fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
             ",\"reconstruct\":%" PRIu32 ",\"smooth\":%" PRIu32 ",\"subframes\":%" PRIu32
-            ",\"timemask\":%" PRIu32 "},\n",
+            ",\"timemask\":%" PRIu32 ",\"camera\":%" PRIu32 ",\"pingpong\":%" PRIu32 ",\"half\":%" PRIu32 "},\n",
             c->tiles_none, c->tiles_accumulate, c->tiles_reconstruct, c->tiles_smooth, c->tiles_subframes,
-            c->tiles_timemask);
+            c->tiles_timemask, c->tiles_camera, c->tiles_pingpong, c->tiles_half);
+    fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 "},\n", c->draws_moved);
     fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
             c->crc32);
     s->frames++;

@@ -437,6 +437,12 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .reconstruct = (uint8_t)o->reconstruct,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
                             .shutter_degrees = (uint16_t)degrees,
+                            .filter = (uint8_t)o->filter, .camera_step = (uint8_t)o->camera_step,
+                            .pingpong = o->pingpong, .weights = (uint8_t)o->weights,
+                            .turn_scale = (uint16_t)o->turn_scale, .way_scale = (uint16_t)o->way_scale,
+                            .object_scale = (uint16_t)o->object_scale,
+                            .shutter_mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
+                            .shutter_us = (uint32_t)o->shutter_us,
                             .clear = o->clear, .shutter = o->shutter };
     return true;
 }
@@ -655,7 +661,12 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
     /* Clipping turns a triangle into a few; most frames need far less than this. */
     uint32_t triangles = presented->triangle_count + presented->triangle_count / 8 + 64;
     int draws = presented->draw_count > 0 ? presented->draw_count : 1;
+    const smear_frame *frame = &presented->frame;
+    bool is_pingpong = frame->method == SMEAR_PINGPONG || frame->filter == SMEAR_FILTER_PINGPONG;
+    int passes = frame->pingpong.passes != 0 ? frame->pingpong.passes : 2;
     return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height,
+                         .passes = (uint8_t)(is_pingpong ? passes : 0),
+                         .half = frame->method == SMEAR_HALF,
                          .max_draws = (uint16_t)(draws < 65535 ? draws : 65535),
                          .max_triangles = triangles };
 }

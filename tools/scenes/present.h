@@ -48,6 +48,13 @@ struct present_options {
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
+    smear_filter filter;            /* of SMEAR_CAMERA and SMEAR_HALF */
+    int camera_step;                /* 1, 2, 4: still draws take their velocity from depth */
+    smear_pingpong pingpong;
+    smear_weights weights;
+    int turn_scale, way_scale, object_scale;        /* as in smear_frame */
+    smear_shutter_mode shutter_mode;                /* likewise: what the library makes of a frame time, */
+    int frame_us, shutter_us;                       /* without shutter_poses */
     const uint8_t *shutter;         /* SMEAR_SHUTTER_POINTS of openness; null: a box */
     bool keep_ids;                  /* rigid draws get ids, and neither they nor the camera get an
                                      * earlier pose: the library has kept it. Scale and reference of
@@ -82,7 +89,7 @@ const struct presented *presenter_frame(struct presenter *presenter, double time
 /* smear_begin and every smear_submit; integers only. May be repeated. The first error ends it. */
 int presented_submit(const struct presented *presented, smear_context *ctx);
 
-/* A desc that has room for this frame at this size (max_draws, max_triangles); the rest is zero. */
+/* A desc that has room for this frame at this size (max_draws, max_triangles; passes, half); the rest is zero. */
 smear_desc presented_desc(const struct presented *presented, int width, int height);
 
 /* Distance along the view in scene units of a depth code; infinity for the background. */

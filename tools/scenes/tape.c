@@ -342,6 +342,9 @@ static void add_draw(struct text *text, struct tape_writer *w, const smear_draw 
     add_reference(text, w, "close_position", close_position);
     add_field(text, "motion", d->motion);
     add_field(text, "cut", d->cut);
+    add_field(text, "billboard", d->billboard);
+    add_field(text, "open_count", d->open_count);
+    add_field(text, "close_count", d->close_count);
     add(text, "},\n");
 }
 
@@ -365,6 +368,22 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_field(&text, "shutter_degrees", frame->shutter_degrees);
     add_field(&text, "target", frame->target);
     add_field(&text, "clear", frame->clear);
+    add_field(&text, "filter", frame->filter);
+    add_field(&text, "camera_step", frame->camera_step);
+    add_field(&text, "weights", frame->weights);
+    add_field(&text, "pingpong.passes", frame->pingpong.passes);
+    add_field(&text, "pingpong.taps", frame->pingpong.taps);
+    add_field(&text, "pingpong.base", frame->pingpong.base);
+    add_field(&text, "pingpong.jitter", frame->pingpong.jitter);
+    add_field(&text, "pingpong.bias", frame->pingpong.bias);
+    add_field(&text, "pingpong.spread", frame->pingpong.spread);
+    add_field(&text, "shutter_mode", frame->shutter_mode);
+    add_field(&text, "reference_hz", frame->reference_hz);
+    add_field(&text, "frame_us", frame->frame_us);
+    add_field(&text, "shutter_us", frame->shutter_us);
+    add_field(&text, "turn_scale", frame->turn_scale);
+    add_field(&text, "way_scale", frame->way_scale);
+    add_field(&text, "object_scale", frame->object_scale);
     add_reference(&text, w, "shutter", shutter);
     add(&text, "}");
     return object(w, "smear_frame", false, &text);
@@ -386,6 +405,9 @@ static int desc_object(struct tape_writer *w, const smear_desc *d)
     add_field(&text, "crc", d->crc);
     add_field(&text, "accumulate", d->accumulate);
     add_field(&text, "timed", d->timed);
+    add_field(&text, "passes", d->passes);
+    add_field(&text, "half", d->half);
+    add_field(&text, "scatter", d->scatter);
     add_field(&text, "band_rows", d->band_rows);
     add_field(&text, "max_draws", d->max_draws);
     add_field(&text, "max_triangles", d->max_triangles);

@@ -52,6 +52,8 @@ static void fit_samples(struct render_options *o)
         o->samples = 0;
     if (o->method != SMEAR_RECONSTRUCT)
         o->reconstruct = 0;
+    if (o->method != SMEAR_CAMERA && o->method != SMEAR_HALF)
+        o->filter = SMEAR_FILTER_DEFAULT;
 }
 
 /* Other options for one lane; told when they do not work. */
@@ -128,7 +130,7 @@ static void do_samples(struct view *v, int way)
     const bool is_slots = o.method == SMEAR_TIMEMASK;
     const int *list = is_slots ? slots : taps;
     int count = is_slots ? 3 : (int)(sizeof taps / sizeof *taps), at = 0;
-    int now = o.samples > 0 ? o.samples : o.method >= SMEAR_SUBFRAMES ? 32 : 8;
+    int now = o.samples > 0 ? o.samples : smear_method_is_timed(o.method) ? 32 : 8;
     while (at < count - 1 && list[at] < now)
         at++;
     at += way;
