@@ -10,7 +10,8 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(filter-out $(addprefix tools/image/,apng.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
-    $(addprefix tools/cli/,arguments.c convert.c device.c options.c picture.c say.c setup.c source.c) \
+    $(filter-out $(addprefix tools/cli/,compare.c crew.c exact.c help.c info.c main.c measure.c memory.c planes.c render.c sink.c \
+        stats.c view.c),$(CLI_SRC)) \
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small.
