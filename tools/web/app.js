@@ -555,14 +555,13 @@ async function pose() {
     posing = true;
     do {
         poseAgain = false;
-        epoch++;
+        const wanted = ++epoch;
         forget();
-        for (const engine of engines) {
-            if (engine.openKey !== openKey()) continue;
-            const wanted = epoch;
-            await engine.ask("turn", { ...poses, spin: engine.spin, straight: true }, 30000);
-            engine.epoch = wanted;
-        }
+        // Told at once: what an engine draws from here on it draws after this.
+        await Promise.all(engines.filter(e => e.openKey === openKey()).map(e => {
+            e.epoch = wanted;
+            return e.ask("turn", { ...poses, spin: e.spin, straight: true }, 30000);
+        }));
     } while (poseAgain);
     posing = false;
     pump();
