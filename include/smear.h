@@ -89,7 +89,9 @@ typedef enum smear_texel_format {
 
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
 
-/* Row 0 is v = 0. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay below
+/* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that is `sharp`: with
+ * textures of that format alone and nothing blended, triangles are drawn as the display's pixels, and converted never.
+ * Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay below
  * 32768 texels, but for repeated powers of two, which may go on for ever. */
 typedef struct smear_texture {
     const void *texels;         /* width x height, no padding, aligned to a texel */

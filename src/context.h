@@ -69,6 +69,7 @@ struct smear_context {
     struct smear_blur_settings blur;
     struct smear_reprojection reprojection;     /* where raster.velocity_from_depth */
     struct smear_jobs jobs;
+    struct smear_raster_cache cache;        /* of the first raster job */
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
@@ -88,6 +89,7 @@ struct smear_context {
     uint32_t moving;                /* list of the row being drawn */
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
+    bool direct;                    /* sharp rows are drawn as the display's pixels */
 
     /* bands */
     uint8_t *band[2];

@@ -53,14 +53,6 @@ static inline uint32_t luma(uint32_t p)
     return (77u * pixel_red(p) + 150u * pixel_green(p) + 29u * pixel_blue(p) + 128u) >> 8;
 }
 
-/* Red and blue in one product: 255 x 249 + 1014 stays below 2^16. */
-static inline uint32_t rgb565_nearest(uint32_t p)
-{
-    uint32_t rb = (p & 0xff00ffu) * 249u + 0x03f603f6u;
-    uint32_t g = pixel_green(p) * 253u + 505u;
-    return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
-}
-
 static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, uint32_t out[3],
                        const uint32_t levels[3])
 {
@@ -75,6 +67,12 @@ static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
 {
     uint32_t packed = rgb565_nearest(p);
     return swapped ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
+}
+
+void smear_convert_swap(uint16_t *pixels, int32_t n)
+{
+    for (; n > 0; n--, pixels++)
+        *pixels = (uint16_t)(*pixels >> 8 | *pixels << 8);
 }
 
 /* Two pixels of 16 bits as they lie in memory. */
@@ -167,9 +165,8 @@ void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     case SMEAR_RGB565:
     case SMEAR_RGB565_SWAPPED:
         if (dither == SMEAR_DITHER_NONE) {
-            const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
             uint16_t *out = (uint16_t *)(void *)row + x;
-            if ((format == SMEAR_RGB565_SWAPPED) != big)
+            if (smear_convert_is_swapped(format))
                 row_rgb565(out, in, n, true);
             else
                 row_rgb565(out, in, n, false);

@@ -19,6 +19,15 @@ uint32_t smear_convert_size(int32_t width, int32_t rows, smear_format format);
 void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                        int32_t y0, smear_format format, smear_dither dither);
 
+/* RGB565 whose bytes are not this machine's order; and from one to the other. */
+static inline bool smear_convert_is_swapped(smear_format format)
+{
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    return (format == SMEAR_RGB565_SWAPPED) != big;
+}
+
+void smear_convert_swap(uint16_t *pixels, int32_t n);
+
 /* CRC-32 as in zlib, continued from `crc` (0 to start with). */
 uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size);
 

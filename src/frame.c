@@ -11,6 +11,7 @@
  */
 #include "timed.h"
 
+#include "convert.h"
 #include "fixmath.h"
 #include "pixel.h"
 #include "tilemax.h"
@@ -315,6 +316,16 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     return true;
 }
 
+/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
+static void cache_free_pool(struct smear_context *c)
+{
+    const struct smear_geometry *g = &c->geometry;
+    uint32_t first = (g->vertex_words + 1u) & ~1u;
+    uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+    size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
+    c->cache = smear_raster_cache_make(g->pool + first, bytes, c->jobs.workers);
+}
+
 /* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
  * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
  * dropped and counted. */
@@ -336,6 +347,8 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
+    if (SMEAR_RASTER_CACHE && !c->assembler.keep_paths)
+        cache_free_pool(c);
     for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     stage_end(c, &c->stats.time_submit, start);
@@ -362,6 +375,43 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
     }
 }
 
+/* Sharp frames straight into the band: neither working pixels nor a conversion. A row's place in the band is its place
+ * in the window, which has no more rows. */
+static void direct_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = argument;
+    struct smear_context *c = r->c;
+    struct smear_raster_target t;
+    (void)worker;
+    smear_row_target(c, r->row, &t);
+    smear_job_columns(c, job, &t.x0, &t.x1);
+    if (t.x0 >= t.x1)
+        return;
+    t.direct = (uint16_t *)(void *)r->band;
+    t.cache = smear_raster_cache_of(&c->cache, job);
+    const uint32_t clear = rgb565_nearest(c->frame.clear);
+    int32_t at = t.x0, n = t.x1 - t.x0;
+    for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width) {
+        pixels_fill_narrow(t.direct + at, clear, n);
+        pixels_fill_narrow(t.depth + at, 0, n);
+    }
+    smear_raster_list(&c->raster, &t, c->opaque);
+    at = t.x0;
+    if (smear_convert_is_swapped((smear_format)c->desc.format))
+        for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width)
+            smear_convert_swap(t.direct + at, n);
+}
+
+static int render_direct_row(struct smear_context *c, int row)
+{
+    uint32_t start = stage_start(c);
+    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
+    smear_jobs_run(&c->jobs, direct_job, &job, c->jobs.workers);
+    stage_end(c, &c->stats.time_raster, start);
+    return smear_band_flush(c, row, job.band);
+}
+
 static void raster_job(void *argument, int job, int worker)
 {
     const struct row_job *r = argument;
@@ -374,6 +424,7 @@ static void raster_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
+    t.cache = smear_raster_cache_of(&c->cache, job);
     if (c->assembler.keep_motion) {
         t.velocity8 = w->velocity8;
         t.velocity16 = w->velocity16;
@@ -672,8 +723,13 @@ static int render_none(struct smear_context *c)
     for (int row = 0; row < c->window.rows;) {
         int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
         for (; row < end; row++) {
-            draw_row(c, row);
-            int result = finish_sharp(c, row);
+            int result;
+            if (SMEAR_DIRECT && c->direct) {
+                result = render_direct_row(c, row);
+            } else {
+                draw_row(c, row);
+                result = finish_sharp(c, row);
+            }
             if (result != SMEAR_OK)
                 return result;
         }
@@ -845,6 +901,8 @@ static void prepare(struct smear_context *c)
         c->pass_end[i] = 0;
 
     c->blends = false;
+    c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE && c->desc.dither == SMEAR_DITHER_NONE
+             && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
         const smear_draw *d = &c->submitted[i].draw;
         struct smear_raster_draw *r = &c->raster_draw[i];
@@ -856,6 +914,9 @@ static void prepare(struct smear_context *c)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
+        c->direct = SMEAR_DIRECT && c->direct && !c->blends
+                 && (m == NULL || m->texture == NULL || m->texture->format == SMEAR_TEXEL_565);
         s->triangles_in += d->mesh->triangle_count;
     }
 }

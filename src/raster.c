@@ -8,6 +8,7 @@
 #include "raster.h"
 
 #include "pixel.h"
+#include "rows.h"
 #include "setup.h"
 #include "span.h"
 #include "tiny.h"
@@ -73,8 +74,8 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
                               enum depth_slope slope, int32_t units, smear_span_fn *write)
 {
     const struct smear_raster_target *t = s->target;
-    p->color = t->color + (r->color + p->a);
     p->at = r->window + p->a;
+    p->color = target_is_direct(t) ? (void *)(t->direct + p->at) : t->color + (r->color + p->a);
     p->depth = t->depth + p->at;
     p->z = code_from_units(units, slope);
     p->dz = step_from_units(s->depth.dx, slope);
@@ -274,25 +275,43 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->slot = 0;
 }
 
-static void cover_rows(const struct setup *s, smear_rows_fn *draw)
+/* Pixels of an edge in n rows: one edge after the other, in registers. */
+SMEAR_INLINE void gather_left(struct span_rows *r, struct edge_walk *edge, int32_t n)
+{
+    struct edge_walk e = *edge;
+    for (int32_t i = 0; i < n; i++) {
+        r->side[i].left = max_i32(edge_pixel(&e), 0);
+        edge_step(&e);
+    }
+    *edge = e;
+}
+
+SMEAR_INLINE void gather_right(struct span_rows *r, struct edge_walk *edge, int32_t n, int32_t width)
+{
+    struct edge_walk e = *edge;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t x = edge_pixel(&e);
+        r->side[i].right = min_i32(x, width);
+        r->side[i].edge = x;
+        edge_step(&e);
+    }
+    *edge = e;
+}
+
+static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
     struct gather g;
     if (!sides_start(&d, s))
         return;
     gather_start(&g, s, d.y);
+    g.rows.cut = cut;
     while (g.rows.y < d.end) {
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.slot);
-            for (int32_t i = 0; i < n; i++) {
-                int32_t edge = edge_pixel(&d.right);
-                g.rows.side[i].left = max_i32(edge_pixel(&d.left), 0);
-                g.rows.side[i].right = min_i32(edge, s->frame->width);
-                g.rows.side[i].edge = edge;
-                edge_step(&d.left);
-                edge_step(&d.right);
-            }
+            gather_left(&g.rows, &d.left, n);
+            gather_right(&g.rows, &d.right, n, s->frame->width);
             g.rows.count = n;
             g.slot += n;
             gather_draw(&g, s, draw);
@@ -300,51 +319,64 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw)
     }
 }
 
-/* Depth test and write for one pixel of a run. */
-SMEAR_INLINE void put_flat(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t color)
+/* Depth test and write for pixel i of a run. */
+SMEAR_INLINE void put_flat(void *pixel, uint16_t *depth, int32_t i, uint32_t z, uint32_t color, bool narrow)
 {
     uint16_t code = (uint16_t)(z >> 16);
-    if (code > *depth) {
+    if (code > depth[i]) {
         __asm__ volatile ("");      /* one branch: cores that predicate pay for both stores even when hidden */
-        *pixel = color;
-        *depth = code;
+        if (narrow)
+            ((uint16_t *)pixel)[i] = (uint16_t)color;
+        else
+            ((uint32_t *)pixel)[i] = color;
+        depth[i] = code;
     }
 }
 
-SMEAR_INLINE void put_four(uint32_t *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color)
+SMEAR_INLINE void put_four(void *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
 {
-    put_flat(pixel, depth, z, color);
-    put_flat(pixel + 1, depth + 1, z += dz, color);
-    put_flat(pixel + 2, depth + 2, z += dz, color);
-    put_flat(pixel + 3, depth + 3, z + dz, color);
+    put_flat(pixel, depth, 0, z, color, narrow);
+    put_flat(pixel, depth, 1, z += dz, color, narrow);
+    put_flat(pixel, depth, 2, z += dz, color, narrow);
+    put_flat(pixel, depth, 3, z + dz, color, narrow);
 }
 
 /* n pixels of one colour, depth codes from z on in 16.16: the odd ones, then eights. */
-SMEAR_INLINE void run_flat(uint32_t *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color)
+SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
 {
     if (n & 1) {
-        put_flat(pixel, depth, z, color);
-        pixel++;
+        put_flat(pixel, depth, 0, z, color, narrow);
+        pixel = pixel_after(pixel, 1, narrow);
         depth++;
         z += dz;
     }
     if (n & 2) {
-        put_flat(pixel, depth, z, color);
-        put_flat(pixel + 1, depth + 1, z + dz, color);
-        pixel += 2;
+        put_flat(pixel, depth, 0, z, color, narrow);
+        put_flat(pixel, depth, 1, z + dz, color, narrow);
+        pixel = pixel_after(pixel, 2, narrow);
         depth += 2;
         z += 2 * dz;
     }
     if (n & 4) {
-        put_four(pixel, depth, z, dz, color);
-        pixel += 4;
+        put_four(pixel, depth, z, dz, color, narrow);
+        pixel = pixel_after(pixel, 4, narrow);
         depth += 4;
         z += 4 * dz;
     }
-    for (n >>= 3; n > 0; n--, pixel += 8, depth += 8, z += 8 * dz) {
-        put_four(pixel, depth, z, dz, color);
-        put_four(pixel + 4, depth + 4, z + 4 * dz, dz, color);
+    for (n >>= 3; n > 0; n--, pixel = pixel_after(pixel, 8, narrow), depth += 8, z += 8 * dz) {
+        put_four(pixel, depth, z, dz, color, narrow);
+        put_four(pixel_after(pixel, 4, narrow), depth + 4, z + 4 * dz, dz, color, narrow);
     }
+}
+
+/* The same from index `at` on; of the colour as the target has it. */
+SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z, uint32_t dz,
+                              uint32_t color)
+{
+    if (target_is_direct(t))
+        run_flat(t->direct + at, t->depth + at, n, z, dz, color, true);
+    else
+        run_flat(t->color + at, t->depth + at, n, z, dz, color, false);
 }
 
 /* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth
@@ -361,8 +393,8 @@ static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_
         int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
         if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
             n = pixels_to_bend(units, dx, n);
-        run_flat(t->color + (at + a), t->depth + (at + a), n, code_from_units(units, slope),
-                 (uint32_t)step_from_units(dx, slope), s->color & 0xffffffu);
+        run_flat_at(t, at + a, n, code_from_units(units, slope), (uint32_t)step_from_units(dx, slope),
+                    target_pixel(t, s->color));
         units = add_wrap(units, mul_wrap(dx, n));
         a += n;
     }
@@ -376,7 +408,7 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
     struct sides d;
     if (!sides_start(&d, s))
         return;
-    const uint32_t color = s->color & 0xffffffu, dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t stride = t->window_rows.stride;
     uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
@@ -403,7 +435,7 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
             if (cut)
                 row_flat_cut(s, y - n, at, a, b);
             else
-                run_flat(t->color + (at + a), t->depth + (at + a), b - a, z + dz * (uint32_t)a, dz, color);
+                run_flat_at(t, at + a, b - a, z + dz * (uint32_t)a, dz, color);
         }
         d.left = left;
         d.right = right;
@@ -460,10 +492,9 @@ static void cover_small(const struct setup *s, int32_t area, int32_t left, int32
  * their gradients. Untextured, opaque, no motion. */
 enum { TINY_PIXELS = 32 };
 
-static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
+static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
-    return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
-        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
+    return pixels <= TINY_PIXELS && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
         && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -524,7 +555,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
-                t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
+                target_put(t, at, gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color);
                 if (s->writes_velocity)
                     smear_velocity_still(t, at, s->velocity_unknown);
             }
@@ -557,75 +588,131 @@ static bool is_flat(struct setup *s)
     return true;
 }
 
+/* A triangle that goes on in the next rows. Memory of its own, between the pool's vertices and triangles (frame.c). */
+struct slot {
+    struct setup s;
+    uint32_t triangle;
+};
+
+enum { SLOTS_MAX = 512 };
+
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count)
+{
+    struct slot *slot = memory;
+    uint32_t slots = min_u32((uint32_t)(bytes / sizeof *slot), SLOTS_MAX) / (uint32_t)count;
+    for (uint32_t i = 0; i < slots * (uint32_t)count; i++)
+        slot[i].triangle = SMEAR_NO_TRIANGLE;
+    return (struct smear_raster_cache){ slot, slots };
+}
+
+struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
+{
+    return (struct smear_raster_cache){ (struct slot *)first->slot + (uint32_t)i * first->slots, first->slots };
+}
+
+/* Gradients and planes. */
+static void setup_all(struct setup *s, uint64_t area)
+{
+    smear_setup_area(s, area);
+    smear_setup_depth(s);
+    s->flat = is_flat(s);
+    s->has_velocity = false;
+    if (!s->flat)
+        smear_setup_color(s);
+    if (s->segment->uv != 0)
+        smear_setup_texture(s);
+}
+
+static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int32_t bottom, bool small)
+{
+#if SMEAR_SPAN_ROWS
+    const struct smear_raster_target *target = s->target;
+    if (s->flat && !s->writes_velocity && !small) {
+        cover_flat(s, s->slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
+        return;
+    }
+#endif
+    if (s->writes_velocity && !s->has_velocity) {
+        smear_setup_velocity(s);
+        s->has_velocity = true;
+    }
+#if SMEAR_SPAN_ROWS
+    if (!small) {
+        smear_rows_fn *rows = smear_rows_choose(s);
+        if (rows != NULL) {
+            cover_rows(s, rows, max_i32(left, 0) < target->x0 || min_i32(right, s->frame->width) > target->x1);
+            return;
+        }
+    }
+#endif
+    smear_span_fn *write = s->flat ? smear_span_flat : smear_span_general;
+    if (small)
+        cover_small(s, (int32_t)setup_edges(s), left, right, top, bottom, write);
+    else
+        cover_large(s, write);
+}
+
+/* Triangle number `triangle` of the list's geometry, or none. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
-                                         const struct smear_segment *segment, uint32_t color,
+                                         const struct smear_segment *segment, uint32_t color, uint32_t triangle,
                                          const int32_t *const v[3], bool *moved)
 {
-    struct setup s;
-    s.frame = frame;
-    s.target = target;
-    s.segment = segment;
-    s.draw = &frame->draw[s.segment->draw];
-    s.color = color;
-    for (int i = 0; i < 3; i++)
-        s.v[i] = v[i];
-
-    int32_t left = min_i32(s.v[0][VERTEX_X], min_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
-    int32_t right = max_i32(s.v[0][VERTEX_X], max_i32(s.v[1][VERTEX_X], s.v[2][VERTEX_X]));
-    int32_t top = min_i32(s.v[0][VERTEX_Y], min_i32(s.v[1][VERTEX_Y], s.v[2][VERTEX_Y]));
-    int32_t bottom = max_i32(s.v[0][VERTEX_Y], max_i32(s.v[1][VERTEX_Y], s.v[2][VERTEX_Y]));
+    int32_t left = min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
+    int32_t right = max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
+    int32_t top = min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
+    int32_t bottom = max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
     left = (left + 127) >> 8;
     right = (right + 127) >> 8;
     top = (top + 127) >> 8;
     bottom = (bottom + 127) >> 8;
-    int32_t width = right - left, height = bottom - top;
+    const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
+    const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
         return;
+    const bool resumes = top < target->y0, goes_on = bottom > target->y1;
     top = max_i32(top, target->y0);
     bottom = min_i32(bottom, target->y1);
     if (top >= bottom)
         return;
 
-    uint64_t area = setup_edges(&s);
+    struct setup here, *s = &here;
+    struct slot *slot = NULL;
+    bool known = false;
+    if (SMEAR_RASTER_CACHE && target->cache.slots != 0 && (resumes || goes_on)) {
+        slot = (struct slot *)target->cache.slot + triangle % target->cache.slots;
+        known = resumes && slot->triangle == triangle;
+        if (known || goes_on)
+            s = &slot->s;
+    }
+    s->target = target;
+    if (!known) {
+        s->frame = frame;
+        s->segment = segment;
+        s->draw = &frame->draw[segment->draw];
+        s->color = color;
+        for (int i = 0; i < 3; i++)
+            s->v[i] = v[i];
+    }
     /* The planes start with that of the background: still triangles need to write it only over others. */
-    s.writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
-                     && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || s.draw->fixed || *moved);
-    s.velocity_unknown = frame->velocity_from_depth && !s.draw->fixed;
-    if (s.segment->moves != 0 || s.draw->fixed)
+    s->writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
+                      && s->draw->alpha != SMEAR_BLEND && (segment->moves != 0 || s->draw->fixed || *moved);
+    s->velocity_unknown = frame->velocity_from_depth && !s->draw->fixed;
+    if (segment->moves != 0 || s->draw->fixed)
         *moved = true;
-    if (is_tiny(&s, width, height)) {
-        draw_tiny(&s, (int32_t)area, left, right, top, bottom);
-        return;
+    if (!known) {
+        uint64_t area = setup_edges(s);
+        if (is_tiny(s, pixels)) {
+            if (s != &here)
+                slot->triangle = SMEAR_NO_TRIANGLE;
+            draw_tiny(s, (int32_t)area, left, right, top, bottom);
+            return;
+        }
+        setup_all(s, area);
+        if (s != &here)
+            slot->triangle = triangle;
     }
-    smear_setup_area(&s, area);
-    smear_setup_depth(&s);
-    const bool flat = is_flat(&s);
-#if SMEAR_SPAN_ROWS
-    const bool small = width <= SMALL_PX && height <= SMALL_PX;
-    if (flat && !s.writes_velocity && !small) {
-        cover_flat(&s, s.slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
-        return;
-    }
-#endif
-    if (!flat)
-        smear_setup_color(&s);
-    if (s.segment->uv != 0)
-        smear_setup_texture(&s);
-    if (s.writes_velocity)
-        smear_setup_velocity(&s);
-#if SMEAR_SPAN_ROWS
-    smear_rows_fn *rows = smear_rows_choose(&s);
-    if (rows != NULL && !small) {
-        cover_rows(&s, rows);
-        return;
-    }
-#endif
-    smear_span_fn *write = flat ? smear_span_flat : smear_span_general;
-    if (width <= SMALL_PX && height <= SMALL_PX)
-        cover_small(&s, (int32_t)area, left, right, top, bottom, write);
-    else
-        cover_large(&s, write);
+    cover(s, left, right, top, bottom, small);
 }
 
 /* A finished pixel. */
@@ -642,7 +729,7 @@ static inline void draw_point(const struct smear_raster_frame *frame, const stru
     if (t->depth <= target->depth[at])
         return;
     target->depth[at] = t->depth;
-    target->color[at] = t->color & 0xffffffu;
+    target_put(target, at, t->color);
     if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
         smear_velocity_still(target, at, frame->velocity_from_depth);
 }
@@ -652,7 +739,8 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
 {
     bool moved = false;
     while (head != SMEAR_NO_TRIANGLE) {
-        const struct smear_triangle *t = geometry_triangle(frame->geometry, head);
+        const uint32_t number = head;
+        const struct smear_triangle *t = geometry_triangle(frame->geometry, number);
         head = t->next;
         if (t->segment == SMEAR_POINT) {
             draw_point(frame, target, t, moved);
@@ -662,7 +750,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
-        draw_triangle(frame, target, segment, t->color, v, &moved);
+        draw_triangle(frame, target, segment, t->color, number, v, &moved);
     }
 }
 
@@ -670,5 +758,5 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
 {
     bool moved = false;
-    draw_triangle(frame, target, segment, color, v, &moved);
+    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, &moved);
 }

@@ -5,6 +5,11 @@
 
 #include "target.h"
 
+/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other; they are empty. Returns the
+ * first; and which is that of target i. */
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count);
+struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i);
+
 /* Draws the list that starts with triangle `head`, in order. */
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);

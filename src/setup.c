@@ -17,6 +17,33 @@ static inline int64_t product(int32_t a, int32_t b)
 #endif
 }
 
+/* a b / 2^down, which fits; b often has 16 bits. */
+static inline int32_t times_down(int32_t a, int32_t b, int down)
+{
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    if ((uint32_t)b + 32768u < 65536u) {
+        int32_t high = (a >> 16) * b, low = (int32_t)((uint32_t)a & 0xffffu) * b;      /* a b = high 2^16 + low */
+        high += low >> 16;
+        return down >= 16 ? high >> (down - 16)
+                          : (int32_t)((uint32_t)high << (16 - down) | ((uint32_t)low & 0xffffu) >> down);
+    }
+#endif
+    return (int32_t)(product(a, b) >> down);
+}
+
+/* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
+static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
+        int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
+        int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
+        return ((int64_t)low1 - low2) + (int64_t)((uint64_t)(int64_t)high << 16);
+    }
+#endif
+    return product(a, b) - product(c, d);
+}
+
 static inline uint64_t product_u32(uint32_t a, uint32_t b)
 {
 #if SMEAR_HAS_MUL64
@@ -26,6 +53,12 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 #endif
 }
 
+/* a b below 2^64; a is seldom above 2^32. */
+static inline uint64_t times(uint64_t a, uint32_t b)
+{
+    return !SMEAR_ONE_COPY && a >> 32 == 0 ? product_u32((uint32_t)a, b) : a * b;
+}
+
 /* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1
  * and a2 along the two edges; to nearest, clamped. recip: 1 / area, or that times a mantissa. */
 static int32_t gradient(int64_t n, uint32_t recip, int shift)
@@ -33,8 +66,22 @@ static int32_t gradient(int64_t n, uint32_t recip, int shift)
     if (n == 0)
         return 0;
     uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
-    int zeros = count_leading_zeros_64(size);
-    int32_t top = (int32_t)(size << zeros >> 33);           /* n = top 2^(33 - zeros) */
+    int zeros;                                              /* n = top 2^(33 - zeros) */
+#if UINTPTR_MAX > 0xffffffffu || SMEAR_ONE_COPY
+    zeros = count_leading_zeros_64(size);
+    uint32_t high = (uint32_t)(size << zeros >> 32);
+#else
+    uint32_t high = (uint32_t)(size >> 32), low = (uint32_t)size;
+    if (high != 0) {
+        zeros = count_leading_zeros(high);
+        high = high << zeros | low >> 1 >> (31 - zeros);
+    } else {
+        zeros = count_leading_zeros(low);
+        high = low << zeros;
+        zeros += 32;
+    }
+#endif
+    int32_t top = (int32_t)(high >> 1);
     int32_t g = mulh_i32(top, (int32_t)recip);
     g = scale_sat(g, clamp_i32(shift - zeros - 20, -31, 31));
     return n < 0 ? -g : g;
@@ -48,8 +95,8 @@ static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int
     p->dx = p->dy = 0;
     if ((d1 | d2) == 0)
         return;
-    int32_t dx = gradient(product(d1, s->y2) - product(d2, s->y1), recip, s->area_zeros + shift);
-    int32_t dy = gradient(product(d2, s->x1) - product(d1, s->x2), recip, s->area_zeros + shift);
+    int32_t dx = gradient(cross(d1, s->y2, d2, s->y1), recip, s->area_zeros + shift);
+    int32_t dy = gradient(cross(d2, s->x1, d1, s->x2), recip, s->area_zeros + shift);
     if (dx <= steep && dx >= -steep && dy <= steep && dy >= -steep) {
         p->dx = dx;
         p->dy = dy;
@@ -324,7 +371,7 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     uint32_t k = recip_norm(~(n2 << 16));                                   /* q29 */
     uint32_t recip_u = mulh_u32(k << 2, r << 1);                            /* k/middle = recip_u 2^(zeros - 61) */
     uint32_t texels = t->turns ? (uint32_t)max_i32(m->width, m->height) : 1;
-    uint64_t off = ((uint64_t)texels << (bits + 6) >> m->uv_shift) * ((e * e >> 16) * e >> 16) >> 18;
+    uint64_t off = times((uint64_t)texels << (bits + 6) >> m->uv_shift, (e * e >> 16) * e >> 16) >> 18;
     if (off > QUADRATIC_OFF)
         return false;
     t->mode = TEXTURE_QUADRATIC;
@@ -333,8 +380,8 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     int down = max_i32(0, bits + bits_q - 30);              /* what brings c q into 31 bits */
     int32_t a[3], b[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = (int32_t)(product(cu[i], q[i]) >> down);
-        b[i] = (int32_t)(product(cv[i], q[i]) >> down);
+        a[i] = times_down(q[i], cu[i], down);
+        b[i] = times_down(q[i], cv[i], down);
     }
     int to_units = 45 - zeros - fine - down;                /* times recip_u, then right: U with 16 more bits */
     uint32_t slope_recip = mulh_u32(s->area_recip << 1, recip_u << 1);
@@ -359,8 +406,8 @@ static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v
     /* Per pixel u changes by at most |U'| + longest |w'|; its second derivative is twice that times w' = q'/q. */
     uint32_t change = magnitude_i32(t->q.dx);
     uint32_t rate = max_u32(magnitude_i32(t->u.dx), magnitude_i32(t->v.dx)) + (change >> 2 >> (14 - bits - fine));
-    off = (uint64_t)mulh_u32(change, rate) * texels >> (4 + fine + m->uv_shift);
-    off += off * (3 * e) >> 16;
+    off = times(mulh_u32(change, rate), texels) >> (4 + fine + m->uv_shift);
+    off += times(off, 3 * e) >> 16;
     t->slope = clamp_i32((int32_t)(product(-t->q.dx, (int32_t)(k >> 14)) >> 30), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX);
     choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen->width,
                   min_u32(change >> 16, 0xffffu) + (change >> 18));

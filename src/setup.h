@@ -78,6 +78,8 @@ struct setup {
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool writes_velocity;
     bool velocity_unknown;          /* with 0 poses: depth will tell it */
+    bool has_velocity;              /* its planes are made */
+    bool flat;                      /* one colour, opaque: `color` */
     bool velocity_affine;
     bool clamp_velocity;
     struct plane vx, vy;            /* affine: displacement q18 px */
@@ -127,6 +129,12 @@ static inline uint64_t setup_edges(struct setup *s)
     s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
     s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
     s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)s->x1 + small) | ((uint32_t)s->y1 + small) | ((uint32_t)s->x2 + small)
+         | ((uint32_t)s->y2 + small)) < 2 * small)
+        return (uint32_t)(s->x1 * s->y2) - (uint32_t)(s->x2 * s->y1);       /* positive: fits */
+#endif
     return (uint64_t)((int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1);
 }
 

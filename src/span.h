@@ -8,7 +8,7 @@
 /* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
 struct span {
     int32_t a, b, left, right, y;
-    uint32_t *color;            /* of pixel a */
+    void *color;                /* of pixel a: 16 bits where the target is direct, else 32 */
     uint16_t *depth;
     int32_t at;                 /* index of pixel a in the window's planes */
     uint32_t z;                 /* code 16.16 of pixel a */
@@ -21,31 +21,6 @@ typedef void smear_span_fn(const struct setup *s, const struct span *p);
 
 /* One colour, opaque; and everything. */
 smear_span_fn smear_span_flat, smear_span_general;
-
-/* Flat colours and plain texels in rows of their own: twice to four times as fast, of the same bits, and 3.4 kB larger. */
-#ifndef SMEAR_SPAN_ROWS
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_SPAN_ROWS 0
-#else
-#define SMEAR_SPAN_ROWS 1
-#endif
-#endif
-
-/* Whole spans of rows one below the other, from row y on. */
-enum { SPAN_ROWS = 16 };
-
-struct span_rows {
-    int32_t y, count;
-    int32_t at;                 /* index of column 0 of the first row in the planes: colour and depth lie alike */
-    struct {
-        int32_t left, right;    /* as the frame shows them; there may be none */
-        int32_t edge;           /* right, wherever that is */
-    } side[SPAN_ROWS];
-};
-
-/* Draws rows at once, velocities included. Null where there is no such loop for a triangle. */
-typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
-smear_rows_fn *smear_rows_choose(const struct setup *s);
 
 /* How many of n pixels come before the first one beyond the break of the depth code, which lies among them. */
 static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)

@@ -44,7 +44,7 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
 
 static int32_t texels_of(int32_t ratio, int32_t scale, int shift)
 {
-    int32_t t = mulh_i32(ratio, scale);
+    int32_t t = scale == 1 << 29 ? ratio >> 3 : mulh_i32(ratio, scale);     /* powers of two */
     return shift >= 0 ? shl_wrap(t, shift) : t >> -shift;
 }
 

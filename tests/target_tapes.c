@@ -41,7 +41,8 @@ static const uint8_t twin_shutter[SMEAR_SHUTTER_POINTS] = {
  * cut, a full triangle list; sizes that are no multiple of anything; one for 16 kB of RAM. Methods
  * that look at several instants: all settings, with and without the window, still and moving
  * cameras, textures, cutouts, blended draws, skins, the near plane, shutters of any form. Filters: velocity from depth,
- * passes, half size, other weights, streaks longer than a tile, scales, a fixed rate. */
+ * passes, half size, other weights, streaks longer than a tile, scales, a fixed rate.  Sharp
+ * frames that are drawn as the display's pixels. */
 static const struct spec golden[] = {
     { "none-xrgb", "peer/E", 0, 2, 1,
       { .width = 160, .height = 120, .format = SMEAR_XRGB8888, .max_triangles = 600 },
@@ -247,6 +248,13 @@ static const struct spec golden[] = {
       { .width = 64, .height = 48, .reach = 12, .format = SMEAR_RGB565, .max_triangles = 1500 },
       { .method = SMEAR_RECONSTRUCT, .turn_scale = 600, .way_scale = 100, .object_scale = SMEAR_SCALE_NONE,
         .frame_us = 33333, .shutter_us = 12000 }, .has_large_meshes = true },
+    { "direct-565", "peer/B64", 3, 2, 1,
+      { .width = 160, .height = 120, .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .sharp = 1, .band_rows = 16 },
+      { .method = SMEAR_NONE, .texels_565 = true }, .has_large_textures = true },
+    { "direct-swapped", "peer/E", 3, 1, 1,
+      { .width = 97, .height = 61, .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .sharp = 1,
+        .band_rows = 8, .max_triangles = 600 },
+      { .method = SMEAR_NONE } },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */
@@ -281,6 +289,7 @@ static const struct spec bench[] = {
 
 static void complete_bench(struct spec *spec)
 {
+    spec->present.texels_565 = spec->present.fit_grid = spec->present.method == SMEAR_NONE;     /* as tools/bench/peers.c */
     spec->desc.width = 320;
     spec->desc.height = 240;
     spec->desc.format = SMEAR_RGB565;

@@ -189,6 +189,7 @@ static bool each_frame(const struct judged_scene *judged, bool layers, struct ta
     struct take take = { .scene = judged->name, .width = WIDTH, .height = HEIGHT,
                          .band_rows = take_whole(HEIGHT), .method = SMEAR_NONE,
                          .format = layers ? SMEAR_XRGB8888 : SMEAR_RGB565,
+                         .texels_565 = !layers, .fit_grid = true,
                          .change = layers ? layers_scene : NULL };
     struct rig rig;
     if (!rig_open(&rig, &take, f))

@@ -38,6 +38,8 @@ struct take {
     bool shutter_poses;
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
+    bool texels_565;            /* textures as RGB565 */
+    bool fit_grid;              /* meshes on grids that fit them */
     int workers;                /* 0: one */
     bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
 };

@@ -42,6 +42,10 @@ struct present_options {
     bool shutter_poses;             /* give the poses at shutter open and close, not a frame ago */
     bool instant_only;              /* give no other pose: nothing moves */
     bool cut;                       /* no motion in this frame */
+    bool fit_grid;                  /* positions get the grid that fits them best, which takes a
+                                     * moment; of surfaces that are new in this frame */
+    bool texels_565;                /* textures without alpha are handed over as RGB565; of surfaces
+                                     * that are new in this frame */
     smear_method method;
     int samples;                    /* 0: the library's default */
     smear_light light;

@@ -14,7 +14,7 @@ enum { MAX_PART_VERTICES = 65535, POSITION_STEPS = 32766, OFFSET_LIMIT = 1 << 20
 struct stored_texture {
     const struct image *image;
     smear_texture texture;
-    uint32_t *texels;               /* null when another stored texture has them */
+    void *texels;                   /* null when another stored texture has them */
 };
 
 /* ------------------------------------------------------------------ small things */
@@ -103,7 +103,8 @@ void split_step(double step, int32_t *scale, int *shift)
     *shift = 30 - exponent;
 }
 
-struct grid grid_over(const struct bounds *b)
+/* Steps `coarser` than the finest. */
+static struct grid grid_of(const struct bounds *b, double coarser)
 {
     struct grid grid = { .step = 1.0 };
     double half = 0.0, centre[3];
@@ -115,7 +116,7 @@ struct grid grid_over(const struct bounds *b)
     if (half > 0.0) {
         int32_t scale;
         int shift;
-        split_step(half / POSITION_STEPS, &scale, &shift);
+        split_step(half * coarser / POSITION_STEPS, &scale, &shift);
         grid.step = ldexp(scale, -shift);
     }
     for (int axis = 0; axis < 3; axis++)
@@ -127,6 +128,53 @@ struct grid grid_over(const struct bounds *b)
             grid.fold[axis] = centre[axis];
     }
     return grid;
+}
+
+struct grid grid_over(const struct bounds *b)
+{
+    return grid_of(b, 1.0);
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sum of squares of what rounding to multiples of `step` changes; more than `enough` is not added up. */
+static double rounding_error(const double *x, int count, double step, double enough)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count && sum < enough; i++) {
+        double off = x[i] - step * floor(x[i] / step + 0.5);
+        sum += off * off;
+    }
+    return sum;
+}
+
+/* What people and programs build lies on grids of its own: steps a little coarser may fit it better. */
+struct grid grid_fit(const struct bounds *b, double *x, int count)
+{
+    enum { TRIES = 12000, MOST = 2048 };
+    const double widest = 1.06;
+    double step = grid_over(b).step, best = 1.0;
+    int distinct = 0;
+    qsort(x, (size_t)count, sizeof *x, compare_doubles);
+    for (int i = 0; i < count; i++)
+        if (i == 0 || x[i] > x[distinct - 1])
+            x[distinct++] = x[i];
+    if (distinct > MOST)
+        return grid_over(b);
+    double least = rounding_error(x, distinct, step, INFINITY);
+    for (int i = 1; i <= TRIES; i++) {
+        double coarser = 1.0 + (widest - 1.0) * i / TRIES;
+        double error = rounding_error(x, distinct, step * coarser, least);
+        if (error < least) {
+            least = error;
+            best = coarser;
+        }
+    }
+    return grid_of(b, best);
 }
 
 void quantise_positions(int16_t *out, const float *position, const struct part *part,
@@ -419,6 +467,34 @@ static uint8_t wrap_mode(enum model_wrap wrap)
                                        : SMEAR_REPEAT;
 }
 
+static bool is_opaque(const uint8_t *rgba, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (rgba[4 * i + 3] != 255)
+            return false;
+    return true;
+}
+
+static void *texels_8888(const uint8_t *rgba, size_t count)
+{
+    uint32_t *texels = malloc(count * sizeof *texels);
+    for (size_t i = 0; i < count && texels != NULL; i++, rgba += 4)
+        texels[i] = (uint32_t)rgba[3] << 24 | (uint32_t)rgba[0] << 16 | (uint32_t)rgba[1] << 8 | rgba[2];
+    return texels;
+}
+
+/* Nearest levels. */
+static void *texels_565(const uint8_t *rgba, size_t count)
+{
+    uint16_t *texels = malloc(count * sizeof *texels);
+    for (size_t i = 0; i < count && texels != NULL; i++, rgba += 4) {
+        int red = (rgba[0] * 62 + 255) / 510, green = (rgba[1] * 126 + 255) / 510;
+        int blue = (rgba[2] * 62 + 255) / 510;
+        texels[i] = (uint16_t)(red << 11 | green << 5 | blue);
+    }
+    return texels;
+}
+
 static const smear_texture *texture_for(struct texture_store *store, const struct scene_material *m,
                                         struct failure *f)
 {
@@ -449,19 +525,18 @@ static const smear_texture *texture_for(struct texture_store *store, const struc
     t->image = m->image;
     size_t count = (size_t)width * (size_t)height;
     if (same == NULL) {             /* else the other's texels are shared */
-        t->texels = malloc(count * sizeof *t->texels);
+        const uint8_t *rgba = m->image->rgba;
+        t->texture.format = store->narrow && is_opaque(rgba, count) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888;
+        t->texels = t->texture.format == SMEAR_TEXEL_565 ? texels_565(rgba, count) : texels_8888(rgba, count);
         if (t->texels == NULL) {
             out_of_memory(f);
             return NULL;
         }
-        const uint8_t *rgba = m->image->rgba;
-        for (size_t i = 0; i < count; i++, rgba += 4)
-            t->texels[i] = (uint32_t)rgba[3] << 24 | (uint32_t)rgba[0] << 16 |
-                           (uint32_t)rgba[1] << 8 | rgba[2];
     }
     t->texture = (smear_texture){ .texels = same != NULL ? same->texture.texels : t->texels,
                                   .width = (uint16_t)width, .height = (uint16_t)height,
-                                  .format = SMEAR_TEXEL_8888, .wrap_u = wrap_u, .wrap_v = wrap_v };
+                                  .format = same != NULL ? same->texture.format : t->texture.format,
+                                  .wrap_u = wrap_u, .wrap_v = wrap_v };
     return &t->texture;
 }
 

@@ -1,0 +1,777 @@
+/* SPDX-License-Identifier: MIT */
+/* rows.c - plain texels: nearest, opaque, unlit, sizes powers of two, repeated, in the target's own pixels. Rows of a triangle
+ * are drawn together, a block of pixels after the other. */
+#include "rows.h"
+
+#include "course.h"
+
+#if SMEAR_SPAN_ROWS
+
+/* ------------------------------------------------------------------ pixels */
+
+SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
+{
+    return (uint32_t)uv >> (32 - log2_height) << log2_width | (uint32_t)(uv >> 32) >> (32 - log2_width);
+}
+
+/* Pixel i becomes a texel. `narrow`: both have 16 bits, else 32. */
+SMEAR_INLINE void put_texel(void *color, int32_t i, const void *texels, uint32_t index, bool narrow)
+{
+    if (narrow)
+        ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
+    else
+        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
+}
+
+SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const void *texels, uint64_t uv,
+                              int log2_width, int log2_height, bool narrow)
+{
+    uint16_t code = (uint16_t)(z >> 16);
+    if (code > *depth) {
+        *depth = code;
+        put_texel(color, 0, texels, packed_index(uv, log2_width, log2_height), narrow);
+    }
+}
+
+/* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words have 64 bits,
+ * else each alone. Bends are negative: what steps gain every 2 pixels. */
+#if UINTPTR_MAX > 0xffffffffu
+struct texel_run {
+    uint64_t uv, step, bend;
+    void *color;
+    uint16_t *depth;
+    uint32_t z, dz;
+    const void *texels;
+};
+
+SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
+{
+    const struct smear_texture_run run = course_packed(c);
+    r->uv = run.at;
+    r->step = run.step;
+    r->bend = run.bend;
+}
+
+SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return r->uv; }
+
+SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
+{
+    return packed_index(r->uv, log2_width, log2_height);
+}
+
+SMEAR_INLINE void run_step(struct texel_run *r) { r->uv += r->step; }
+SMEAR_INLINE void run_bend(struct texel_run *r) { r->step += r->bend; }
+#else
+struct texel_run {              /* the order in which registers are filled by hand */
+    uint32_t dz, du, dv, bend_u, bend_v;
+    const uint16_t *end;
+    void *color;
+    uint16_t *depth;
+    uint32_t z, u, v;
+    const void *texels;
+    int32_t count;
+};
+
+SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
+{
+    r->u = c.u;
+    r->v = c.v;
+    r->du = c.du;
+    r->dv = c.dv;
+    r->bend_u = 0u - c.bend_u;
+    r->bend_v = 0u - c.bend_v;
+}
+
+SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return packed_uv(r->u, r->v); }
+
+SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
+{
+    return r->v >> (32 - log2_height) << log2_width | r->u >> (32 - log2_width);
+}
+
+SMEAR_INLINE void run_step(struct texel_run *r)
+{
+    r->u += r->du;
+    r->v += r->dv;
+}
+
+SMEAR_INLINE void run_bend(struct texel_run *r)
+{
+    r->du += r->bend_u;
+    r->dv += r->bend_v;
+}
+#endif
+
+#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#define TEXELS_BY_HAND 1
+
+/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as a power of two, where the next one is, two. */
+#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0}\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t" \
+        "mov lr, r6\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
+        "1:\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #0]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 2f\n\t" \
+        "strh r6, [r1, #0]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #0]\n" \
+        "2: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #2]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 3f\n\t" \
+        "strh r6, [r1, #2]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #" NEXT "]\n" \
+        "3: add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        "adds r0, #" STEP "\n\t" \
+        "adds r1, #4\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 1b\n\t" \
+        "ldr r6, [sp]\n\t" \
+        "ldr r6, [r6, #48]\n\t" \
+        "lsrs r6, r6, #1\n\t" \
+        "bcc 5f\n\t" \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #0]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs 4f\n\t" \
+        "strh r6, [r1, #0]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #0]\n" \
+        "4: adds r0, #" NEXT "\n\t" \
+        "adds r1, #2\n" \
+        "5: pop {r7}\n\t" \
+        "str r0, [r7, #24]\n\t" \
+        "str r1, [r7, #28]\n\t" \
+        "str r2, [r7, #32]" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), [from_u] "i"(32 - log2_width) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+/* run_texels on cores with eight registers that do everything and six that only add:
+ * compilers keep half of the values on the stack, which doubles the instructions. 17 a pixel. u and v are stepped each
+ * alone. */
+SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, bool narrow)
+{
+    register struct texel_run *r0 __asm__("r0") = p;
+    if (narrow)
+        PAIRS_BY_HAND("ldrh", "strh", "1", "2", "4");
+    else
+        PAIRS_BY_HAND("ldr", "str", "2", "4", "8");
+}
+#else
+#define TEXELS_BY_HAND 0
+#endif
+
+SMEAR_INLINE void texel_step(struct texel_run *r, int32_t i, int log2_width, int log2_height, bool narrow)
+{
+    uint16_t code = (uint16_t)(r->z >> 16);
+    if (code > r->depth[i]) {
+        __asm__ volatile ("");      /* nothing of this in advance: that takes more registers than there are */
+        r->depth[i] = code;
+        put_texel(r->color, i, r->texels, run_index(r, log2_width, log2_height), narrow);
+    }
+    r->z += r->dz;
+    __asm__("" : "+r"(r->z));       /* one sum, not one for every other pixel */
+    run_step(r);
+}
+
+SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
+{
+    r->depth += n;
+    r->color = pixel_after(r->color, n, narrow);
+}
+
+/* n > 1 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
+SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
+{
+#if TEXELS_BY_HAND
+    if (__builtin_constant_p(log2_width)) {
+        run->count = n;
+        run->end = run->depth + (n & ~1);
+        pairs_by_hand(run, log2_width, log2_height, narrow);
+        return;
+    }
+#endif
+    struct texel_run r = *run;      /* in registers */
+    for (; n >= 4; n -= 4) {
+        __asm__("" : "+r"(n));      /* else compilers multiply to know all values at the end in advance */
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        texel_step(&r, 1, log2_width, log2_height, narrow);
+        run_bend(&r);
+        texel_step(&r, 2, log2_width, log2_height, narrow);
+        texel_step(&r, 3, log2_width, log2_height, narrow);
+        run_bend(&r);
+        run_advance(&r, 4, narrow);
+    }
+    if (n & 2) {
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        texel_step(&r, 1, log2_width, log2_height, narrow);
+        run_bend(&r);
+        run_advance(&r, 2, narrow);
+    }
+    if (n & 1) {
+        texel_step(&r, 0, log2_width, log2_height, narrow);
+        run_advance(&r, 1, narrow);
+    }
+    run->color = r.color;
+    run->depth = r.depth;
+    run->z = r.z;
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+/* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
+static inline const struct texture_setup *texture_of(const struct setup *s)
+{
+    const struct texture_setup *t = &s->texture;
+#if defined(__ARM_ARCH_6M__)
+    __asm__("" : "+r"(t));
+#endif
+    return t;
+}
+
+/* A run, and planes and place where its block ends. */
+struct track {
+    struct texel_run run;
+    int32_t q, u, v;
+    struct place place;
+};
+
+SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
+{
+    const struct place from = k->place;
+    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->u.dx, n));
+    const int32_t v = add_wrap(k->v, mul_wrap(t->v.dx, n));
+    const struct place to = place_at(t, mode, NULL, q, u, v, true);
+    const struct course c = course_between(t, mode, from, to, n, true);
+    k->q = q;
+    k->u = u;
+    k->v = v;
+    k->place = to;
+    run_course(&k->run, c);
+}
+
+/* With few registers functions of their own: the loops over pixels take them all. */
+#if UINTPTR_MAX > 0xffffffffu
+#define TRACK_FUNCTION SMEAR_INLINE
+#else
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+#endif
+
+#if UINTPTR_MAX > 0xffffffffu
+/* The course of the next n pixels. */
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    track_go(k, t, t->mode, n);
+}
+#elif SMEAR_HAS_MUL64
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    if (t->mode == TEXTURE_QUADRATIC)
+        track_go(k, t, TEXTURE_QUADRATIC, n);
+    else if (t->mode == TEXTURE_DIVIDED)
+        track_go(k, t, TEXTURE_DIVIDED, n);
+    else
+        track_go(k, t, TEXTURE_AFFINE, n);
+}
+#else
+
+/* What both coordinates of a block have in common. */
+struct going {
+    enum texture_mode mode;
+    int32_t n, part;            /* 2^16 / n */
+    int32_t recip, rate;        /* place_at's k or r; change of q, q16 */
+    int up, recip_up;
+    bool bent;
+};
+
+/* track_go for one coordinate after the other: what both take at once is more than there are registers. */
+SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t base, int32_t *restrict value,
+                                int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
+                                uint32_t *restrict bend, uint32_t mask)
+{
+    const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
+    const int32_t to = g->mode == TEXTURE_QUADRATIC ? add_wrap((here >> 16) * g->recip, base)
+                     : g->mode == TEXTURE_DIVIDED ? mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip) : here;
+    int32_t change = part_by(sub_wrap(to, from), g->part);
+    *value = here;
+    *place = to;
+    *at = (uint32_t)from << g->up;
+    *bend = 0;
+    if (g->bent) {
+        const int32_t b = mul_wrap(change >> 13, g->rate) >> 1;
+        change = add_wrap(change, mul_wrap(b >> 2, g->n - 2));
+        *bend = 0u - ((uint32_t)b << g->up & mask);
+    }
+    *step = (uint32_t)change << g->up & mask;
+}
+
+SMEAR_INLINE void coordinates_go(struct track *restrict k, const struct texture_setup *restrict t, enum texture_mode mode,
+                                 int32_t n)
+{
+    struct going g = { .mode = mode, .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
+    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
+    int32_t nearness = 0;
+    k->q = q;
+    if (mode == TEXTURE_QUADRATIC) {
+        const uint32_t w = (uint32_t)q >> 16;
+        g.recip = nearness = (int32_t)(t->recip_base + (w * w >> 17));
+        g.rate = mul_wrap(t->slope, k->place.nearness + nearness) >> 17;
+    } else if (mode == TEXTURE_DIVIDED) {
+        const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
+        const int zeros = count_leading_zeros(d);
+        g.recip = (int32_t)recip_norm(d << zeros);
+        g.recip_up = zeros - 1;
+        if (g.bent)
+            nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
+        g.rate = (k->place.nearness + nearness) >> 1;
+    }
+    k->place.nearness = nearness;
+    coordinate_go(&g, &t->u, t->u_base, &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~255u);
+    k->run.u = turns_start(k->run.u);
+    coordinate_go(&g, &t->v, t->v_base, &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~0u);
+}
+
+static SMEAR_NOINLINE void quadratic_go(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    coordinates_go(k, t, TEXTURE_QUADRATIC, n);
+}
+
+static SMEAR_NOINLINE void divided_go(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    coordinates_go(k, t, TEXTURE_DIVIDED, n);
+}
+
+/* The course of the next n pixels. */
+TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+{
+    if (t->mode == TEXTURE_QUADRATIC)
+        quadratic_go(k, t, n);
+    else if (t->mode == TEXTURE_DIVIDED)
+        divided_go(k, t, n);
+    else
+        track_go(k, t, TEXTURE_AFFINE, n);
+}
+#endif
+
+/* At pixel (x, y). */
+TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, int32_t x, int32_t y)
+{
+    k->q = plane_at(&t->q, x, y);
+    k->u = plane_at(&t->u, x, y);
+    k->v = plane_at(&t->v, x, y);
+    k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
+}
+
+/* ------------------------------------------------------------------ quotients */
+
+/* A piece of a row whose blocks would be single pixels: a quotient for each pixel up to `end`. */
+struct quotients {
+    uint32_t dz;                /* in the order in which registers are filled by hand */
+    int32_t dq, du, dv;
+    const uint16_t *end;
+    uint32_t z;
+    int32_t q, u, v;
+    uint16_t *depth;
+    uintptr_t to_color;         /* from (twice, where pixels have 32 bits) a depth's address to its pixel's */
+    /* where 1/q is a parabola, shifted up: */
+    uint32_t recip_base, u_base, v_base;
+    int up;
+    const void *texels;
+};
+
+SMEAR_INLINE void *color_of(const struct quotients *k, const uint16_t *depth, bool narrow)
+{
+    return (void *)((narrow ? 1u : 2u) * (uintptr_t)depth + k->to_color);
+}
+
+#if TEXELS_BY_HAND
+/* quotients_parabola in 39 instructions a pixel: five of the values that change stay in registers, and their steps. */
+#define QUOTIENTS_BY_HAND(LOAD, STORE, SIZE, COLOR) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "mov lr, r0\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4}\n" \
+        "1:\n\t" \
+        "lsrs r5, r0, #16\n\t" \
+        "ldrh r6, [r4]\n\t" \
+        "cmp r6, r5\n\t" \
+        "bhs 2f\n\t" \
+        "strh r5, [r4]\n\t" \
+        "mov r7, lr\n\t" \
+        "lsrs r5, r1, #16\n\t" \
+        "muls r5, r5, r5\n\t" \
+        "lsrs r5, r5, #17\n\t" \
+        "ldr r6, [r7, #44]\n\t" \
+        "adds r5, r5, r6\n\t" \
+        "ldr r6, [r7, #56]\n\t" \
+        "lsls r5, r6\n\t" \
+        "asrs r6, r3, #16\n\t" \
+        "muls r6, r5, r6\n\t" \
+        "ldr r7, [r7, #52]\n\t" \
+        "adds r6, r6, r7\n\t" \
+        "lsrs r6, r6, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "asrs r7, r2, #16\n\t" \
+        "muls r5, r7, r5\n\t" \
+        "mov r7, lr\n\t" \
+        "ldr r7, [r7, #48]\n\t" \
+        "adds r5, r5, r7\n\t" \
+        "lsrs r5, r5, %[from_u]\n\t" \
+        "orrs r5, r6\n\t" \
+        "lsls r5, r5, #" SIZE "\n\t" \
+        "mov r7, lr\n\t" \
+        "ldr r6, [r7, #60]\n\t" \
+        LOAD " r5, [r6, r5]\n\t" \
+        "ldr r6, [r7, #40]\n\t" \
+        COLOR \
+        STORE "\n" \
+        "2: add r0, r8\n\t" \
+        "add r1, r9\n\t" \
+        "add r2, r10\n\t" \
+        "add r3, r11\n\t" \
+        "adds r4, #2\n\t" \
+        "cmp r4, r12\n\t" \
+        "bne 1b" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2), [to_v] "i"(log2), [from_u] "i"(32 - log2) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+SMEAR_INLINE void quotients_by_hand(struct quotients *k, int log2, bool narrow)
+{
+    register struct quotients *r0 __asm__("r0") = k;
+    if (narrow)
+        QUOTIENTS_BY_HAND("ldrh", "strh r5, [r6, r4]", "1", "");
+    else
+        QUOTIENTS_BY_HAND("ldr", "str r5, [r6, r7]", "2", "lsls r7, r4, #1\n\t");
+}
+#endif
+
+/* Quadratic, see place_at. At least a pixel. */
+SMEAR_INLINE void quotients_parabola(struct quotients *k, int log2_width, int log2_height, bool narrow)
+{
+#if TEXELS_BY_HAND
+    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
+        if (log2_width == 6)
+            quotients_by_hand(k, 6, narrow);
+        else if (log2_width == 7)
+            quotients_by_hand(k, 7, narrow);
+        else
+            quotients_by_hand(k, 8, narrow);
+        return;
+    }
+#endif
+    const struct quotients c = *k;      /* what is constant, in registers */
+    int32_t q = c.q, u = c.u, v = c.v;
+    uint16_t *depth = c.depth;
+    uint32_t z = c.z;
+    do {
+        if ((uint16_t)(z >> 16) > *depth) {
+            const uint32_t w = (uint32_t)q >> 16, r = (c.recip_base + (w * w >> 17)) << c.up;
+            const uint32_t at_u = (uint32_t)(u >> 16) * r + c.u_base, at_v = (uint32_t)(v >> 16) * r + c.v_base;
+            *depth = (uint16_t)(z >> 16);
+            put_texel(color_of(&c, depth, narrow), 0, c.texels,
+                      at_v >> (32 - log2_height) << log2_width | at_u >> (32 - log2_width), narrow);
+        }
+        z += c.dz;
+        q = add_wrap(q, c.dq);
+        u = add_wrap(u, c.du);
+        v = add_wrap(v, c.dv);
+    } while (++depth != c.end);
+}
+
+/* The same by place_at. */
+static SMEAR_NOINLINE void quotients_any(struct quotients *k, const struct setup *s, bool narrow)
+{
+    const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
+    const struct texture_setup *t = texture_of(s);
+    const struct smear_sampler *m = &s->draw->sampler;
+    do {
+        if ((uint16_t)(k->z >> 16) > *k->depth) {
+            const struct place p = place_at(t, mode, NULL, k->q, k->u, k->v, true);
+            *k->depth = (uint16_t)(k->z >> 16);
+            put_texel(color_of(k, k->depth, narrow), 0, k->texels,
+                      packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up), m->log2_width,
+                                   m->log2_height), narrow);
+        }
+        k->z += k->dz;
+        k->q = add_wrap(k->q, k->dq);
+        k->u = add_wrap(k->u, k->du);
+        k->v = add_wrap(k->v, k->dv);
+    } while (++k->depth != k->end);
+}
+
+/* ------------------------------------------------------------------ pieces */
+
+/* A part of a row: pixels [a, b), and depth codes 16.16 from pixel 0 on. */
+struct piece {
+    int32_t a, b;
+    uint32_t z, dz;
+};
+
+/* The next piece of a row [left, right) after pixel a: within the target's columns and one slope of the depth code. False
+ * when there is none. Writes its velocities. */
+static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, const struct span_rows *r, int32_t row,
+                                      int32_t a)
+{
+    int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
+    enum depth_slope slope = s->slope;
+    p->a = max_i32(a, s->target->x0);
+    p->b = min_i32(r->side[row].right, s->target->x1);
+    if (p->a >= p->b)
+        return false;
+    if (slope == SLOPE_BOTH) {
+        int32_t here = add_wrap(units, mul_wrap(dx, p->a)), last = add_wrap(units, mul_wrap(dx, p->b - 1));
+        slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+        if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK))
+            p->b = p->a + pixels_to_bend(here, dx, p->b - p->a);
+    }
+    p->z = code_from_units(units, slope);
+    p->dz = (uint32_t)step_from_units(dx, slope);
+    if (s->writes_velocity) {
+        const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
+        const struct span span = {
+            .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y, .depth = s->target->depth + at, .at = at,
+            .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
+        };
+        smear_span_velocity(s, &span);
+    }
+    return true;
+}
+
+/* Pixels [first, end) of a block of which the run has come to pixel i. */
+static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
+{
+    const bool narrow = target_is_direct(s->target);
+    const struct smear_sampler *m = &s->draw->sampler;
+    for (; i < end; i++, r->z += r->dz) {
+        if (i >= first)
+            texel_pixel(r->color, r->depth, r->z, m->texels, run_uv(r), m->log2_width, m->log2_height, narrow);
+        run_advance(r, 1, narrow);
+        run_step(r);
+        if (i & 1)
+            run_bend(r);
+    }
+}
+
+/* Pixels [from, end) of a row, which are a block; some may lie outside the piece. False when no more are to be drawn. */
+static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
+                                                struct texel_run *run, struct piece *p, int32_t from, int32_t end)
+{
+    for (int32_t x = from;; x = p->a) {
+        run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
+        if (p->b >= end)
+            return true;
+        if (!piece_next(p, s, r, row, p->b))
+            return false;
+        run->dz = p->dz;
+        run->z = p->z + p->dz * (uint32_t)p->a;
+    }
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static inline bool is_plain(const struct setup *s, const struct span_rows *r)
+{
+    return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
+}
+
+/* Numbers of rows. */
+struct row_list {
+    int32_t count;
+    uint8_t row[SPAN_ROWS];
+};
+
+/* Rows that are drawn by quotients. */
+SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list,
+                                 int log2_width, int log2_height, bool narrow)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    const bool plain = is_plain(s, r), quadratic = t->mode == TEXTURE_QUADRATIC;
+    struct quotients k;
+    k.texels = s->draw->sampler.texels;
+    k.to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
+                        : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
+    k.up = t->up;
+    k.recip_base = t->recip_base;
+    k.u_base = (uint32_t)t->u_base << t->up;
+    k.v_base = (uint32_t)t->v_base << t->up;
+    k.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    k.dq = t->q.dx;
+    k.du = t->u.dx;
+    k.dv = t->v.dx;
+    for (int32_t i = 0; i < list->count; i++) {
+        const int32_t row = list->row[i], y = r->y + row;
+        struct piece p;
+        p.a = r->side[row].left;
+        p.b = r->side[row].right;
+        if (!plain && !piece_next(&p, s, r, row, p.a))
+            continue;
+        do {
+            uint16_t *row_depth = target->depth + (r->at + row * target->window_rows.stride);
+            k.q = plane_at(&t->q, p.a, y);
+            k.u = plane_at(&t->u, p.a, y);
+            k.v = plane_at(&t->v, p.a, y);
+            if (plain) {
+                k.z = code_from_units(plane_at(&s->depth, p.a, y), s->slope);
+            } else {
+                k.dz = p.dz;
+                k.z = p.z + p.dz * (uint32_t)p.a;
+            }
+            k.depth = row_depth + p.a;
+            k.end = row_depth + p.b;
+            if (quadratic) {
+                quotients_parabola(&k, log2_width, log2_height, narrow);
+            } else {
+                struct quotients copy = k;              /* the other stays in registers */
+                quotients_any(&copy, s, narrow);
+            }
+        } while (!plain && piece_next(&p, s, r, row, p.b));
+    }
+}
+
+/* Lists the others in `quotients`. */
+SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients, int log2_width,
+                              int log2_height, bool narrow)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
+    const bool plain = is_plain(s, r);
+    struct track k;
+    uint8_t *next_quotient = quotients->row;
+    k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    k.run.texels = s->draw->sampler.texels;
+    const int32_t rows = r->count;
+    for (int32_t row = 0; row < rows; row++) {
+        const int32_t left = r->side[row].left, right = r->side[row].right;
+        struct piece p;
+        if (right - left <= least) {
+            *next_quotient = (uint8_t)row;
+            next_quotient += left < right;
+            continue;
+        }
+        int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the piece */
+        if (plain) {
+            k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
+        } else {
+            if (!piece_next(&p, s, r, row, left))
+                continue;
+            x = block_start(left, right - 1, p.a, block);
+            least_rest = x < p.a ? INT32_MAX : right - 1 - p.b;
+            k.run.dz = p.dz;
+            k.run.z = p.z + p.dz * (uint32_t)x;
+        }
+        const int32_t at = r->at + row * target->window_rows.stride + x;
+        k.run.depth = target->depth + at;
+        k.run.color = narrow ? (void *)(target->direct + at) : target->color + at;
+        track_start(&k, t, x, r->y + row);
+        int32_t rest = right - 1 - x;
+        do {
+            const int32_t n = min_i32(block, rest);
+            track_next(&k, t, n);
+            rest -= n;
+            const int32_t last = rest == 0, count = n + last;
+            if (rest - last >= least_rest) {
+                run_texels(&k.run, count, log2_width, log2_height, narrow);
+            } else {
+                const int32_t end = right - 1 - rest + last;
+                struct texel_run run = k.run;       /* that one stays in registers */
+                if (!run_texels_pieces(s, r, row, &run, &p, end - count, end))
+                    break;
+                least_rest = right - 1 - p.b;
+                k.run = run;
+            }
+        } while (rest > 0);
+    }
+    quotients->count = (int32_t)(next_quotient - quotients->row);
+}
+
+/* Blocks, then quotients: in functions of their own, of which the sizes that are drawn as working pixels share one. */
+#define QUOTIENTS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
+    static SMEAR_NOINLINE void NAME(const struct setup *s, const struct span_rows *r, const struct row_list *list) \
+    { \
+        draw_quotients(s, r, list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
+    }
+#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW, QUOTIENTS_NAME) \
+    static void NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        struct row_list list; \
+        draw_blocks(s, r, &list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
+        if (list.count != 0) \
+            QUOTIENTS_NAME(s, r, &list); \
+    }
+
+QUOTIENTS(quotients_wide, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
+ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false, quotients_wide)
+ROWS(rows_wide_64, 6, 6, false, quotients_wide)
+ROWS(rows_wide_128, 7, 7, false, quotients_wide)
+ROWS(rows_wide_256, 8, 8, false, quotients_wide)
+#if SMEAR_DIRECT
+QUOTIENTS(quotients_narrow, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
+QUOTIENTS(quotients_narrow_64, 6, 6, true)
+ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true, quotients_narrow)
+ROWS(rows_narrow_64, 6, 6, true, quotients_narrow_64)
+ROWS(rows_narrow_128, 7, 7, true, quotients_narrow)
+ROWS(rows_narrow_256, 8, 8, true, quotients_narrow)
+#endif
+
+#define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
+                         : (T)->width == 128 ? KIND##_128 : (T)->width == 256 ? KIND##_256 : KIND##_any)
+
+smear_rows_fn *smear_rows_choose(const struct setup *s)
+{
+    const struct smear_sampler *t = &s->draw->sampler;
+    const bool narrow = target_is_direct(s->target);
+    if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
+        || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888) || t->log2_width == 0 || t->log2_height == 0)
+        return NULL;
+#if SMEAR_DIRECT
+    if (narrow)
+        return CHOOSE(rows_narrow, t);
+#endif
+    return CHOOSE(rows_wide, t);
+}
+#endif
