@@ -147,7 +147,7 @@ clean:
 ## this list
 help:
 	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-10s %s\n",$$0,text;text=""}}' \
-	    $(firstword $(MAKEFILE_LIST))
+	    $(filter Makefile %.mk,$(MAKEFILE_LIST))
 	@echo "  SAN=1 CHECK=1 TARGET=cortex-m0plus|cortex-m3|cortex-m4|s390x"
 
 # ---------------------------------------------------------------------- tests

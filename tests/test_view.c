@@ -587,13 +587,15 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
     desc.max_triangles *= 4;
     desc.sharp = sharp;
-    desc.timed = o->method >= SMEAR_SUBFRAMES;
+    desc.timed = smear_method_is_timed(o->method);
+    desc.passes = o->method == SMEAR_PINGPONG ? 2 : 0;
+    desc.half = o->method == SMEAR_HALF;
     desc.accumulate = o->method == SMEAR_ACCUMULATE;
     desc.flush = note_band;
     desc.user = &n;
     size_t bytes = smear_memory_size(&desc);
     void *memory = malloc(bytes);
-    uint32_t count[TILES_TIMEMASK + 1] = { 0 };
+    uint32_t count[TILES_METHODS] = { 0 };
     smear_stats s;
     CHECK_EQ(smear_init(&n.ctx, &desc, memory, bytes), SMEAR_OK);
     CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
@@ -607,6 +609,9 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     CHECK_EQ(count[TILES_NONE], s.tiles_none);
     CHECK_EQ(count[TILES_ACCUMULATE], s.tiles_accumulate);
     CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles_reconstruct);
+    CHECK_EQ(count[TILES_CAMERA], s.tiles_camera);
+    CHECK_EQ(count[TILES_PINGPONG], s.tiles_pingpong);
+    CHECK_EQ(count[TILES_HALF], s.tiles_half);
     CHECK_EQ(count[TILES_SMOOTH], s.tiles_smooth);
     CHECK_EQ(count[TILES_SUBFRAMES], s.tiles_subframes);
     CHECK_EQ(count[TILES_TIMEMASK], s.tiles_timemask);
@@ -617,7 +622,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
 static void test_tiles_are_noted_as_they_are_counted(void)
 {
     static const smear_method methods[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES,
-                                            SMEAR_TIMEMASK, SMEAR_AUTO };
+                                            SMEAR_TIMEMASK, SMEAR_AUTO, SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF };
     static const char *const scenes[] = { "demo/drone", "suite/textured" };
     struct failure f = { "" };
     for (int k = 0; k < 2; k++) {
@@ -627,7 +632,7 @@ static void test_tiles_are_noted_as_they_are_counted(void)
         struct presenter *p = presenter_new(&scene, &f);
         for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
             struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = methods[i] };
-            check_tiles(p, &o, methods[i] != SMEAR_RECONSTRUCT && methods[i] != SMEAR_AUTO);
+            check_tiles(p, &o, !smear_method_is_filter(methods[i]) && methods[i] != SMEAR_AUTO);
         }
         presenter_free(p);
         scene_free(&scene);

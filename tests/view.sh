@@ -148,7 +148,7 @@ setting() {
 claim "b turns blur off" setting '1 key b\n' --method none
 claim "b turns it on again" setting '1 key b\n1 key b\n'
 claim "m: the method after auto" setting '1 key m\n' --method none
-claim "M: the method before auto" setting '1 key M\n' --method timemask
+claim "M: the method before auto" setting '1 key M\n' --method half
 claim "u: quality" setting '1 key u\n' --quality fine
 claim "U: quality" setting '1 key U\n' --quality draft
 claim "]: shutter" setting '1 key ]\n' --shutter 195
@@ -156,7 +156,7 @@ claim "[: shutter" setting '1 key [\n1 key [\n' --shutter 150
 claim "shutter ends at 360" setting "$(printf '1 key ]\\n%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13 14)" \
     --shutter 360
 claim "n: samples" setting '1 key m\n1 key m\n1 key n\n' --method accumulate --samples 12
-claim "N: samples" setting '1 key M\n1 key N\n' --method timemask --samples 16
+claim "N: samples" setting '1 key m\n1 key m\n1 key m\n1 key m\n1 key m\n1 key N\n' --method timemask --samples 16
 claim "l: light" setting '1 key l\n' --light encoded
 claim "f: format" setting '1 key f\n' --format rgb565
 claim "F: format" setting '1 key F\n' --format l1pages
@@ -368,7 +368,7 @@ wrong --pace --pace slow
 wrong --pace --pace board
 wrong --frames --frames 0
 wrong --frames --frames 3-1
-wrong --split --split half
+wrong --split --split halves
 wrong --see --see sounds
 wrong --colors --colors 16
 wrong --update --update

@@ -91,10 +91,11 @@ static void claim_close(const char *what, const struct tally *t)
 static void compare_functions(void)
 {
     struct tally t[12] = { { 0, 0 } };
-    static const char *const name[12] = { "sin", "cos", "tan", "large angles", "atan", "atan2", "exp", "log", "pow", "sRGB's pow",
-                                          "small angles", "atan2 of anything" };
+    static const char *const name[12] = { "sin", "cos", "tan", "large angles", "atan", "atan2", "exp", "log", "pow",
+                                          "sRGB's pow", "small angles", "atan2 of anything" };
     for (int i = 0; i < TRIALS; i++) {
-        double x = between(-20, 20), y = between(-3, 3), far = between(-1e5, 1e5), unit = between(0, 1), tiny = ldexp(y, -(i % 60));
+        double x = between(-20, 20), y = between(-3, 3), far = between(-1e5, 1e5);
+        double unit = between(0, 1), tiny = ldexp(y, -(i % 60));
         double a = wild(), b = wild();
         compare(&t[0], web_sin(x), sin(x));
         compare(&t[1], web_cos(x), cos(x));
@@ -115,8 +116,8 @@ static void compare_functions(void)
 
 static void compare_edges(void)
 {
-    static const double edge[] = { 0.0, -0.0, 1.0, -1.0, 0.5, -0.5, 1.5, 2.5, -2.5, 1e-300, 5e-324, 1e300, INFINITY, -INFINITY, NAN,
-                                   3.141592653589793, 1.5707963267948966, 0.7853981633974483 };
+    static const double edge[] = { 0.0, -0.0, 1.0, -1.0, 0.5, -0.5, 1.5, 2.5, -2.5, 1e-300, 5e-324, 1e300, INFINITY,
+                                   -INFINITY, NAN, 3.141592653589793, 1.5707963267948966, 0.7853981633974483 };
     enum { EDGES = sizeof edge / sizeof *edge };
     int bad = 0;
     for (int i = 0; i < EDGES; i++) {
@@ -157,10 +158,12 @@ static int reads_alike(const char *text)
 
 static void compare_reading(void)
 {
-    static const char *const odd[] = { "0", "-0", "1", ".5", "5.", "1e5", "1e", "1e+", "+7.25", "  3", "x", "", "-", ".", "1.7976931348623157e308",
-        "1.8e308", "1e400", "4.9e-324", "2.4e-324", "2.5e-324", "2.2250738585072011e-308", "9007199254740993", "9007199254740992.9999999999",
-        "0.1000000000000000055511151231257827021181583404541015625", "0.000000000000000000000000000000000000000000012345678901234567890123",
-        "123456789012345678901234567890", "8.5e-400", "00012.5000", "1e22", "1e23", "179769313486231580793728971405301e276", "1.5.5", "7e-2,3" };
+    static const char *const odd[] = {
+        "0", "-0", "1", ".5", "5.", "1e5", "1e", "1e+", "+7.25", "  3", "x", "", "-", ".", "1.7976931348623157e308",
+        "1.8e308", "1e400", "4.9e-324", "2.4e-324", "2.5e-324", "2.2250738585072011e-308", "9007199254740993",
+        "9007199254740992.9999999999", "0.1000000000000000055511151231257827021181583404541015625",
+        "0.000000000000000000000000000000000000000000012345678901234567890123", "123456789012345678901234567890",
+        "8.5e-400", "00012.5000", "1e22", "1e23", "179769313486231580793728971405301e276", "1.5.5", "7e-2,3" };
     char text[80];
     int bad = 0;
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
@@ -175,13 +178,14 @@ static void compare_reading(void)
 
 static void compare_writing(void)
 {
-    static const char *const format[] = { "%g", "%.6g", "%.17g", "%.9g", "%f", "%.3f", "%.0f", "%.2f", "%e", "%.0e", "%12.4g", "%-12.3f|", "%012.3f",
-                                          "%+.3g", "% .3g", "%.1g" };
+    static const char *const format[] = { "%g", "%.6g", "%.17g", "%.9g", "%f", "%.3f", "%.0f", "%.2f", "%e", "%.0e", "%12.4g",
+                                          "%-12.3f|", "%012.3f", "%+.3g", "% .3g", "%.1g" };
     static char want[1000], got[1000];
     int bad = 0;
     for (int i = 0; i < TRIALS; i++) {
         const char *how = format[(size_t)i % (sizeof format / sizeof *format)];
-        double x = i % 3 == 0 ? wild() : i % 3 == 1 ? between(-1000, 1000) : (double)((int)(random_bits() % 4001) - 2000) / 16;
+        double halves = (double)((int)(random_bits() % 4001) - 2000) / 16;
+        double x = i % 3 == 0 ? wild() : i % 3 == 1 ? between(-1000, 1000) : halves;
         int a = snprintf(want, sizeof want, how, x), b = web_snprintf(got, sizeof got, how, x);
         if (a != b || strcmp(want, got) != 0) {
             printf("    %s: \"%s\", not \"%s\"\n", how, got, want);
@@ -191,12 +195,13 @@ static void compare_writing(void)
     claim("doubles are written as the host writes them", bad == 0);
 
     static const char all[] = "%d|%5d|%-5d|%05d|%+d|%.4d|%u|%x|%X|%08lx|%llu|%lld|%o|%c|%s|%10s|%-10s|%.2s|%.*s|%*d|%%";
-    snprintf(want, sizeof want, all, -42, 42, 42, -42, 42, 42, 4294967295u, 48879u, 48879u, 0xabcul, 1ull << 63, -1ll, 8u, 'c', "text", "text",
-             "text", "text", 3, "text", 6, 7);
-    web_snprintf(got, sizeof got, all, -42, 42, 42, -42, 42, 42, 4294967295u, 48879u, 48879u, 0xabcul, 1ull << 63, -1ll, 8u, 'c', "text", "text",
-                 "text", "text", 3, "text", 6, 7);
+    snprintf(want, sizeof want, all, -42, 42, 42, -42, 42, 42, 4294967295u, 48879u, 48879u, 0xabcul, 1ull << 63, -1ll, 8u,
+             'c', "text", "text", "text", "text", 3, "text", 6, 7);
+    web_snprintf(got, sizeof got, all, -42, 42, 42, -42, 42, 42, 4294967295u, 48879u, 48879u, 0xabcul, 1ull << 63,
+                 -1ll, 8u, 'c', "text", "text", "text", "text", 3, "text", 6, 7);
     claim("so is everything else", strcmp(want, got) == 0);
-    claim("what is too long is cut, and told", web_snprintf(got, 6, "%s", "abcdefgh") == 8 && strcmp(got, "abcde") == 0);
+    claim("what is too long is cut, and told",
+          web_snprintf(got, 6, "%s", "abcdefgh") == 8 && strcmp(got, "abcde") == 0);
     claim("nothing is written where there is no room", web_snprintf(NULL, 0, "%d", 12345) == 5);
 }
 

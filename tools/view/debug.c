@@ -16,7 +16,7 @@ const char *const debug_legends[] = {
     [DEBUG_VELOCITY] = "colour: direction; bright: fast",
     [DEBUG_DEPTH] = "bright: near; blue: nothing",
     [DEBUG_TILES] = "green still, yellow to red streaks, violet beyond reach",
-    [DEBUG_METHODS] = "grey none, green smooth, blue subframes, violet timemask",
+    [DEBUG_METHODS] = "grey none, warm filters, green smooth, blue subframes, violet timemask",
     [DEBUG_SAMPLES] = "black 1 a pixel, blue to yellow to white 64",
     [DEBUG_BANDS] = NULL,
     [DEBUG_WIRE] = NULL,
@@ -218,17 +218,20 @@ static bool show_tiles(const struct debug *d, const struct lane *lane, uint32_t 
     return true;
 }
 
-/* Grey none, white accumulate, yellow reconstruct, green smooth, blue subframes, violet timemask. */
+/* Grey none, white accumulate, yellow reconstruct, orange, brown and red the other filters, green smooth, blue
+ * subframes, violet timemask. */
 static uint32_t method_color(const struct tile_note *tile)
 {
-    static const uint32_t color[] = { 0x505050, 0xffffff, 0xffe030, 0x30d060, 0x2080ff, 0xc040ff };
+    static const uint32_t color[] = { 0x505050, 0xffffff, 0xffe030, 0xff9020, 0xb07040, 0xff4020, 0x30d060,
+                                      0x2080ff, 0xc040ff };
     return color[tile->method];
 }
 
 static uint32_t samples_color(const struct tile_note *tile)
 {
     double share = tile->samples > 1 ? log2(tile->samples) / 6.0 : 0.0;
-    return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, share < 0.35 ? 2.2 * share : share < 0.8 ? 0.77 - share : 4.0 * share - 3.0);
+    double blue = share < 0.35 ? 2.2 * share : share < 0.8 ? 0.77 - share : 4.0 * share - 3.0;
+    return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, blue);
 }
 
 static void show_notes(const struct lane *lane, uint32_t (*color)(const struct tile_note *), uint32_t *picture)

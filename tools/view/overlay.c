@@ -87,6 +87,9 @@ static void add_counts(struct page *p, const struct view *v)
         (unsigned long)s->tiles_uniform, (unsigned long)s->tiles_complex);
     add(p, "  none %lu reconstruct %lu smooth %lu", (unsigned long)s->tiles_none,
         (unsigned long)s->tiles_reconstruct, (unsigned long)s->tiles_smooth);
+    if (s->tiles_camera + s->tiles_pingpong + s->tiles_half > 0)
+        add(p, "  camera %lu pingpong %lu half %lu", (unsigned long)s->tiles_camera,
+            (unsigned long)s->tiles_pingpong, (unsigned long)s->tiles_half);
     add(p, "  subframes %lu timemask %lu", (unsigned long)s->tiles_subframes,
         (unsigned long)s->tiles_timemask);
     add(p, "samples %lu, %.1f per pixel", (unsigned long)s->samples,

@@ -36,6 +36,18 @@ static struct tile_note timed_tile(const smear_context *c, const struct smear_ti
                                (uint16_t)choice.timemask.slots };
 }
 
+/* The window that the method filters knows which tiles motion reaches. */
+static struct tile_note filtered_tile(const smear_context *c, int row, int column)
+{
+    uint8_t method = c->frame.method == SMEAR_CAMERA     ? TILES_CAMERA
+                     : c->frame.method == SMEAR_PINGPONG ? TILES_PINGPONG
+                     : c->frame.method == SMEAR_HALF     ? TILES_HALF
+                                                         : TILES_RECONSTRUCT;
+    if (window_around(c->filtered, row)[column].kind == TILE_STILL)
+        return (struct tile_note){ TILES_NONE, 1 };
+    return (struct tile_note){ method, c->frame.samples > 1 ? c->frame.samples : 2 };
+}
+
 static struct tile_note tile_of(const smear_context *c, int row, int column)
 {
     const uint16_t samples = c->frame.samples > 0 ? c->frame.samples : 8;
@@ -43,9 +55,10 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     case SMEAR_ACCUMULATE:
         return (struct tile_note){ TILES_ACCUMULATE, samples };
     case SMEAR_RECONSTRUCT:
-        if (window_around(&c->window, row)[column].kind == TILE_STILL)
-            return (struct tile_note){ TILES_NONE, 1 };
-        return (struct tile_note){ TILES_RECONSTRUCT, samples };
+    case SMEAR_CAMERA:
+    case SMEAR_PINGPONG:
+    case SMEAR_HALF:
+        return filtered_tile(c, row, column);
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO:

@@ -9,7 +9,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum tile_method { TILES_NONE, TILES_ACCUMULATE, TILES_RECONSTRUCT, TILES_SMOOTH, TILES_SUBFRAMES, TILES_TIMEMASK };
+enum tile_method {
+    TILES_NONE, TILES_ACCUMULATE, TILES_RECONSTRUCT, TILES_CAMERA, TILES_PINGPONG, TILES_HALF, TILES_SMOOTH,
+    TILES_SUBFRAMES, TILES_TIMEMASK, TILES_METHODS
+};
 
 struct tile_note {
     uint8_t method;             /* enum tile_method */

@@ -456,9 +456,14 @@ const knobs = [
       hint: v => v === 0 ? "Closed at once: the sharp frame." : "Open for " + Math.round(v / 3.6) + " % of each frame" + (v === 180 ? ", as film cameras have it." : ".") },
     { key: "method", label: "Method", min: 0, max: METHODS.length - 1, step: 1, stops: METHODS.map((m, i) => i), text: v => METHODS[v].label, hint: v => METHODS[v].hint },
     { key: "quality", label: "Quality", min: 0, max: 2, step: 1, stops: [0, 1, 2], text: v => QUALITIES[v],
-      hint: v => { const m = METHODS[S.method]; return m.name === "auto" ? "Error aimed at: " + ["4", "1.5", "0.5"][v] + " of 255 codes." : m.samples[v] ? m.samples[v] + " samples." : "A sharp frame has none."; } },
+      hint: v => {
+          const m = METHODS[S.method];
+          if (m.name === "auto") return "Error aimed at: " + ["4", "1.5", "0.5"][v] + " of 255 codes.";
+          return m.samples[v] ? m.samples[v] + " samples." : "A sharp frame has none.";
+      } },
     { key: "fps", label: "Frame rate", min: 0, max: 3, step: 1, stops: RATES, text: v => v + " per second", list: RATES,
-      hint: v => v <= 15 ? "What small machines manage: the sharp side stutters." : v === 60 ? "More frames, shorter streaks." : "Each frame stands for " + Math.round(1000 / v) + " ms." },
+      hint: v => v <= 15 ? "What small machines manage: the sharp side stutters."
+          : v === 60 ? "More frames, shorter streaks." : "Each frame stands for " + Math.round(1000 / v) + " ms." },
 ];
 
 function buildKnobs() {
@@ -550,14 +555,13 @@ async function pose() {
     posing = true;
     do {
         poseAgain = false;
-        epoch++;
+        const wanted = ++epoch;
         forget();
-        for (const engine of engines) {
-            if (engine.openKey !== openKey()) continue;
-            const wanted = epoch;
-            await engine.ask("turn", { ...poses, spin: engine.spin, straight: true }, 30000);
-            engine.epoch = wanted;
-        }
+        // Told at once: what an engine draws from here on it draws after this.
+        await Promise.all(engines.filter(e => e.openKey === openKey()).map(e => {
+            e.epoch = wanted;
+            return e.ask("turn", { ...poses, spin: e.spin, straight: true }, 30000);
+        }));
     } while (poseAgain);
     posing = false;
     pump();
@@ -650,7 +654,8 @@ function bindControls() {
     document.addEventListener("keydown", e => {
         if (e.ctrlKey || e.altKey || e.metaKey || !KEYS[e.key]) return;
         const on = e.target.tagName;
-        if (on === "SELECT" || on === "TEXTAREA" || (on === "INPUT" && e.target.type !== "range" && e.target.type !== "checkbox") || (e.key === " " && (/^(BUTTON|A|SUMMARY|LABEL)$/.test(on) || e.target.type === "checkbox"))) return;
+        const isBox = e.target.type === "checkbox", presses = isBox || /^(BUTTON|A|SUMMARY|LABEL)$/.test(on);
+        if (on === "SELECT" || (on === "INPUT" && e.target.type !== "range" && !isBox) || (e.key === " " && presses)) return;
         e.preventDefault();
         KEYS[e.key]();
     });
@@ -691,7 +696,8 @@ function buildChart() {
     for (const v of [0.5, 1, 2, 5, 10])
         c.append(svg("line", { class: "axis", x1: LEFT, x2: RIGHT, y1: toY(v), y2: toY(v) }), svg("text", { x: LEFT - 7, y: toY(v) + 4, "text-anchor": "end" }, v));
     c.append(svg("text", { x: (LEFT + RIGHT) / 2, y: BOTTOM + 38, "text-anchor": "middle" }, "cost of a frame, relative to the sharp one"));
-    c.append(svg("text", { x: 14, y: (TOP + BOTTOM) / 2, "text-anchor": "middle", transform: "rotate(-90 14 " + (TOP + BOTTOM) / 2 + ")" }, "error against the truth, in codes of 255"));
+    const middle = (TOP + BOTTOM) / 2;
+    c.append(svg("text", { x: 14, y: middle, "text-anchor": "middle", transform: "rotate(-90 14 " + middle + ")" }, "error against the truth, in codes of 255"));
     CURVES.forEach(([method, label, color], i) => {
         const rows = chartRows.filter(r => r.method === method).sort((a, b) => a.cost - b.cost);
         c.append(svg("polyline", { points: rows.map(r => toX(r.cost) + "," + toY(r.rmse)).join(" "), fill: "none", stroke: color, "stroke-width": method === "auto" ? 3 : 1.6 }));
@@ -720,9 +726,9 @@ function addPoint(c, r, color) {
         point.onkeydown = e => { if (e.key === "Enter" || e.key === " ") { e.preventDefault(); e.stopPropagation(); pick(); } };
     }
     c.append(point);
-    const below = r.label === "fine" || r.label === "balanced";         // the two lie close to each other
+    const isLeft = r.label === "balanced", below = r.label === "fine" || r.label === "balanced";         // the two lie close to each other
     if (usable && (r.method === "accumulate" || r.method === "auto" || r.method === "none"))
-        c.append(svg("text", { x: r.label === "balanced" ? x - 14 : x + (below ? 14 : 10), y: below ? y + 20 : y - 8, "text-anchor": r.label === "balanced" ? "end" : "start" }, r.label));
+        c.append(svg("text", { x: isLeft ? x - 14 : x + (below ? 14 : 10), y: below ? y + 20 : y - 8, "text-anchor": isLeft ? "end" : "start" }, r.label));
 }
 
 function showChart() {
@@ -877,7 +883,8 @@ function fatal(text) {
 
 async function begin() {
     if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
-        fatal("This browser has no WebAssembly, or it is switched off. The page runs a C library, so it has nothing to show here. Any browser since 2018 has it; or run the library itself: make && build/smear view.");
+        fatal("This browser has no WebAssembly, or it is switched off. The page runs a C library, so it has nothing to show here. "
+            + "Any browser since 2018 has it; or run the library itself: make && build/smear view.");
         return;
     }
     hasSimd = WebAssembly.validate(new Uint8Array(SIMD_PROBE)) && !/[?&]simd=0/.test(location.search);

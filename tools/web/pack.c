@@ -9,9 +9,9 @@
  *     @text FILE...          becomes up to three files, each with its size in front, compressed
  *     @pack A.wasm B.wasm    becomes both modules: A, and how B differs from it, compressed
  *
- * Files of @include and @text lie beside PAGE unless they name a folder; they lose indentation and lines that are only a comment. What is
- * compressed is text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's basE91, with
- * characters that a script element may hold). */
+ * Files of @include and @text lie beside PAGE unless they name a folder; they lose indentation and lines that are only
+ * a comment. What is compressed is text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's
+ * basE91, with characters that a script element may hold). */
 #include "../image/deflate.h"
 #include "../image/image.h"
 

@@ -10,15 +10,16 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(filter-out $(addprefix tools/image/,apng.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
-    $(addprefix tools/cli/,arguments.c convert.c device.c options.c picture.c say.c setup.c source.c) \
+    $(filter-out $(addprefix tools/cli/,compare.c crew.c exact.c help.c info.c main.c measure.c memory.c planes.c render.c sink.c \
+        stats.c view.c),$(CLI_SRC)) \
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
-# Inner loops; everything else is to be small.
+# Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
 WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
-    src/texture.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
+    src/texture.c src/rows.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
-    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
 .PHONY: web web-chart web-bench
