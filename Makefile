@@ -208,12 +208,19 @@ test-readme: $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme.ppm
 
 FUZZ_CC := clang-14
-FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude -Isrc
+FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
+FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC))
 
-build/fuzz/%: tests/fuzz_%.c $(LIB_SRC) $(TOOL_SRC)
+build/fuzz/obj/%.o: %.c
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -DSMEAR_CHECK=1 -o $@ $< $(LIB_SRC) $(TOOL_SRC) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -MMD -MP -c -o $@ $<
+
+build/fuzz/%: tests/fuzz_%.c $(FUZZ_OBJ)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm
+
+-include $(FUZZ_OBJ:.o=.d)
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)

@@ -59,7 +59,8 @@ exr() {
 }
 
 suite layers $make -s layers
-suite build $make -s all
+jobs=-j$(getconf _NPROCESSORS_ONLN)
+suite build $make -s $jobs all build/host/run
 suite headers $make -s test-headers
 suite tables $make -s test-tables
 suite readme $make -s test-readme
@@ -91,17 +92,17 @@ fi
 suite golden-host $make -s TARGET=host target-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
+suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
+suite view-sanitized sh tests/view.sh build/host-san-check/smear
 if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
     suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
     suite demo-linux $make -s TARGET=linux demo-test
 fi
-suite build-sanitized $make -s SAN=1 all
-suite view-sanitized sh tests/view.sh build/host-san/smear
 if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
     for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
         suite "target-$target" $make -s TARGET=$target target-test
@@ -125,7 +126,7 @@ if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     suite demo-s390x $make -s TARGET=s390x demo-test
 fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
-    suite fuzz-corpus $make -s fuzz-corpus
+    suite fuzz-corpus $make -s $jobs fuzz-corpus
 fi
 
 echo "in $(($(date +%s) - started)) s"
