@@ -51,7 +51,7 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->inner = (1u << shift) - s->rest;
     s->length = ((2u * (uint32_t)s->half + 1u) << shift) + 2u * s->rest;
     s->over = (1u << 22) / s->length + 1u;
-    s->node = length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
+    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
     int32_t along = s->half + 1 + (1 << s->node);
     int32_t across = s->slope == 0 ? 0 : min_i32(1 + ((abs_i32(s->slope) * along + 0xffff) >> 16), reach);
     s->reach_x = s->upright ? across : s->half + 1;
@@ -162,6 +162,8 @@ struct merge {
         struct light *light;
     } sums;
     int32_t sums_base;
+    /* Of each row that lies along the lines: the steps that are reached. Between nodes means would go on beyond. */
+    int16_t first_of[64], end_of[64];
 };
 
 size_t smear_streak_work(int32_t tile)
@@ -318,7 +320,7 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
 
 /* ------------------------------------------------------------------ lines, all of them */
 
-static void add_line(const struct merge *base, int32_t start)
+static void add_line(struct merge *base, int32_t start)
 {
     struct merge m = *base;
     const struct smear_streak *s = m.s;
@@ -350,6 +352,11 @@ static void add_line(const struct merge *base, int32_t start)
     end = min_i32(end, to + s->half + 1);
     if (first >= end)
         return;
+    int32_t at = (passes(s, first) >> 16) + start - m.low, to_at = (passes(s, end - 1) >> 16) + start - m.low;
+    for (int32_t row = max_i32(min_i32(at, to_at), 0); !s->upright && row <= min_i32(max_i32(at, to_at) + (s->slope != 0), m.high - m.low - 1); row++) {
+        base->first_of[row] = (int16_t)min_i32(base->first_of[row], from - s->half - (s->rest != 0));
+        base->end_of[row] = (int16_t)max_i32(base->end_of[row], to + s->half + (s->rest != 0));
+    }
     m.sums_base = first - s->half - 1;
     int32_t count = end - first + 2 * s->half + 3;
     if (m.a->linear) {
@@ -572,9 +579,10 @@ static void finish_light(struct merge *m, const struct light *p, const struct li
 
 static void along_light(struct merge *m, int32_t y, int32_t row)
 {
-    const int32_t node = m->s->node, first = max_i32(m->first, m->a->left + m->a->margin);
+    const int32_t node = m->s->node;
+    const int32_t first = max_i32(max_i32(m->first, m->a->left + m->a->margin), m->first_of[y - m->low]);
     const struct light *l = m->node.light + (y - m->low) * m->nodes;
-    for (int32_t x = first; x < m->end; x++) {
+    for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
         int32_t k = (x - m->first) >> node;
         finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
     }
@@ -641,11 +649,12 @@ SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t
 
 SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t node)
 {
-    const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
+    const int32_t n = 1 << node, left = max_i32(m->a->left + m->a->margin, m->first_of[y - m->low]);
+    const int32_t last = m->end, end = min_i32(last, m->end_of[y - m->low]);
     const lanes *c = m->node.codes + (y - m->low) * m->nodes;
     lanes here = node_codes(*c);
     for (int32_t x = m->first; x < end; x += n) {
-        lanes next = node == 0 && x + n >= end ? 0 : node_codes(*++c);
+        lanes next = node == 0 && x + n >= last ? 0 : node_codes(*++c);
         if (((here | next) >> 48) != 0) {
             bool whole = x >= left && x + n <= end;
             if (whole && (x >= m->a->mixed1 || x + n <= m->a->mixed0))
@@ -706,6 +715,10 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     m->low = low;
     m->high = high;
     m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
+    for (int32_t i = 0; i < high - low && !s->upright; i++) {
+        m->first_of[i] = INT16_MAX;
+        m->end_of[i] = 0;
+    }
     m->along = s->upright ? high - low : 1;
     m->across = s->upright ? 1 : m->nodes;
     fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);

@@ -21,7 +21,7 @@
 /* ------------------------------------------------------------------ methods and rows */
 
 /* The columns, in the order of fail_method. */
-enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, CAMERA, PINGPONG, HALF_SIZE, JIMENEZ, METHODS };
+enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, CAMERA, PINGPONG, HALF_SIZE, JIMENEZ, OBJECT, LAYERED, METHODS };
 
 #define ONLY(method) (1u << (method))
 #define FILTERS (ONLY(PLAIN) | ONLY(MENDED))

@@ -65,7 +65,6 @@ static const char *const render_help[] = {
     "                                     lines, over the still scene\n"
     "                        layered      what moves by the velocities of its pixels, over the still\n"
     "                                     scene\n"
-    "                        not built yet: camera, pingpong, half\n"
     "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
     "                        at most, slots of timemask (8, 16 or 32) [32]\n"
     "  --exact               accumulate: every instant is posed and lit by the file itself; the\n"
