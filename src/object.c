@@ -424,7 +424,7 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, 
     }
     out->codes = mean_codes(sum, s->over);
     out->light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
-                                 mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
+                                 mulh_u32(light.b, s->over << 10), min_u32(mulh_u32(light.a, s->over << 10), 65536) };
 }
 
 /* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of five. */
@@ -497,8 +497,8 @@ static inline void merge_mixed(const struct merge *m, const struct mean *mean, u
     const struct smear_streak_area *a = m->a;
     lanes codes = mean->codes;
     if (a->linear)
-        codes = lanes_of(pixel_make(mean->light.a >> 8, smear_srgb_encode[mean->light.r >> 4],
-                                    smear_srgb_encode[mean->light.g >> 4], smear_srgb_encode[mean->light.b >> 4]));
+        codes = lanes_of(pixel_make(min_u32(mean->light.a >> 8, 255u), smear_srgb_encode[min_u32(mean->light.r >> 4, 4095u)],
+                                    smear_srgb_encode[min_u32(mean->light.g >> 4, 4095u)], smear_srgb_encode[min_u32(mean->light.b >> 4, 4095u)]));
     if (a->over[at] != 0) {
         merge_between(m, mean, codes, depth, at);
         return;
@@ -573,6 +573,7 @@ static void finish_light(struct merge *m, const struct light *p, const struct li
     const int down = 8 + m->s->node;
     struct mean mean = { 0, { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
                               (p->a * a + q->a * b) >> down } };
+    mean.light.a = min_u32(mean.light.a, 65536);        /* weights are rounded up */
     if (mean.light.a != 0)
         finish_pixel(m, &mean, x, y, at);
 }
