@@ -320,7 +320,7 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
 
 /* ------------------------------------------------------------------ lines, all of them */
 
-static void add_line(struct merge *base, int32_t start)
+static void add_line(const struct merge *base, int32_t start)
 {
     struct merge m = *base;
     const struct smear_streak *s = m.s;
@@ -352,11 +352,6 @@ static void add_line(struct merge *base, int32_t start)
     end = min_i32(end, to + s->half + 1);
     if (first >= end)
         return;
-    int32_t at = (passes(s, first) >> 16) + start - m.low, to_at = (passes(s, end - 1) >> 16) + start - m.low;
-    for (int32_t row = max_i32(min_i32(at, to_at), 0); !s->upright && row <= min_i32(max_i32(at, to_at) + (s->slope != 0), m.high - m.low - 1); row++) {
-        base->first_of[row] = (int16_t)min_i32(base->first_of[row], from - s->half - (s->rest != 0));
-        base->end_of[row] = (int16_t)max_i32(base->end_of[row], to + s->half + (s->rest != 0));
-    }
     m.sums_base = first - s->half - 1;
     int32_t count = end - first + 2 * s->half + 3;
     if (m.a->linear) {
@@ -717,8 +712,14 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     m->high = high;
     m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
     for (int32_t i = 0; i < high - low && !s->upright; i++) {
-        m->first_of[i] = INT16_MAX;
-        m->end_of[i] = 0;
+        const int32_t more = s->half + (s->rest != 0);
+        int32_t from = m->a->stride, to = 0;
+        for (int32_t row = max_i32(low + i - s->reach_y, 0); row <= min_i32(low + i + s->reach_y, m->a->rows - 1); row++) {
+            from = min_i32(from, m->a->row_first[row]);
+            to = max_i32(to, m->a->row_first[row] < m->a->row_end[row] ? m->a->row_end[row] : 0);
+        }
+        m->first_of[i] = (int16_t)(from - more);
+        m->end_of[i] = (int16_t)(to + more);
     }
     m->along = s->upright ? high - low : 1;
     m->across = s->upright ? 1 : m->nodes;
