@@ -491,12 +491,12 @@ static inline uint32_t smear_depth_units(uint16_t code)
  * for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One worker. */
 #define SMEAR_LAYER_DRAW_BYTES 96u
 #define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
-    (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 4u) \
-     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * 2u) \
-     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach)) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
+    (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 4u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 2u) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
-     + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach)) / (tile) + 1u) * 13u + 16u) \
-     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach)) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
+     + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach) + 6u) / (tile) + 1u) * 13u + 16u) \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach) + 6u) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
      + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u + SMEAR_LAYERS_MAX * 272u \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
 

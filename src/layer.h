@@ -27,6 +27,7 @@ struct smear_group {
     uint32_t end;               /* triangles of the store below this number are its own or those of groups before it */
     uint8_t layer;
     uint8_t rank;               /* 0: by depth. Else over all groups of lower ranks */
+    bool textured;              /* texels leave their alpha in the pixels */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: as it is now */
     /* In the tile row being drawn: its part of the movers' list, the columns and depth codes it keeps to. */
     uint32_t head, tail;

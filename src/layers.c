@@ -135,6 +135,8 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
             at = l->group_count - 1 - i;
     if (at == l->group_count)
         l->group[l->group_count++] = g;
+    const smear_material *material = c->submitted[draw].draw.material;
+    l->group[at].textured = l->group[at].textured || (material != NULL && material->texture != NULL);
     l->group_of[draw] = (uint16_t)at;
 }
 
@@ -316,6 +318,14 @@ static void draw_job(void *argument, int job, int worker)
     smear_raster_list(&r->frame, &t, r->group->head);
 }
 
+/* Pixels say whether they are covered by what is on top: texels have written something else there. */
+static void clear_tops(const struct smear_layer_rows *rows, const struct smear_raster_target *t)
+{
+    for (int32_t y = 0; y < t->y1 - t->y0; y++)
+        for (int32_t x = rows->row_first[y], at = y * rows->width + x; x < rows->row_end[y]; x++, at++)
+            rows->color[at] = rows->depth[at] != 0 ? rows->color[at] & 0xffffffu : SMEAR_UNCOVERED;
+}
+
 /* What is drawn in each row. */
 static void find_drawn(const struct smear_layer_rows *rows, const struct smear_raster_target *t)
 {
@@ -487,6 +497,8 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     smear_jobs_run(&c->jobs, draw_job, r, c->jobs.workers);
     tail->next = after;
     find_drawn(rows, &r->target);
+    if (group->textured)
+        clear_tops(rows, &r->target);
     if (group->method == SMEAR_LAYERED)
         smear_gather_cells(&r->gather);
     smear_jobs_run(&c->jobs, merge_job, r, c->jobs.workers);

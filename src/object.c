@@ -51,7 +51,7 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->inner = (1u << shift) - s->rest;
     s->length = ((2u * (uint32_t)s->half + 1u) << shift) + 2u * s->rest;
     s->over = (1u << 22) / s->length + 1u;
-    s->node = length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
+    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
     int32_t along = s->half + 1 + (1 << s->node);
     int32_t across = s->slope == 0 ? 0 : min_i32(1 + ((abs_i32(s->slope) * along + 0xffff) >> 16), reach);
     s->reach_x = s->upright ? across : s->half + 1;
@@ -162,6 +162,8 @@ struct merge {
         struct light *light;
     } sums;
     int32_t sums_base;
+    /* Of each row that lies along the lines: the steps that are reached. Between nodes means would go on beyond. */
+    int16_t first_of[64], end_of[64];
 };
 
 size_t smear_streak_work(int32_t tile)
@@ -417,7 +419,7 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, 
     }
     out->codes = mean_codes(sum, s->over);
     out->light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
-                                 mulh_u32(light.b, s->over << 10), mulh_u32(light.a, s->over << 10) };
+                                 mulh_u32(light.b, s->over << 10), min_u32(mulh_u32(light.a, s->over << 10), 65536) };
 }
 
 /* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of five. */
@@ -490,8 +492,8 @@ static inline void merge_mixed(const struct merge *m, const struct mean *mean, u
     const struct smear_streak_area *a = m->a;
     lanes codes = mean->codes;
     if (a->linear)
-        codes = lanes_of(pixel_make(mean->light.a >> 8, smear_srgb_encode[mean->light.r >> 4],
-                                    smear_srgb_encode[mean->light.g >> 4], smear_srgb_encode[mean->light.b >> 4]));
+        codes = lanes_of(pixel_make(min_u32(mean->light.a >> 8, 255u), smear_srgb_encode[min_u32(mean->light.r >> 4, 4095u)],
+                                    smear_srgb_encode[min_u32(mean->light.g >> 4, 4095u)], smear_srgb_encode[min_u32(mean->light.b >> 4, 4095u)]));
     if (a->over[at] != 0) {
         merge_between(m, mean, codes, depth, at);
         return;
@@ -566,15 +568,17 @@ static void finish_light(struct merge *m, const struct light *p, const struct li
     const int down = 8 + m->s->node;
     struct mean mean = { 0, { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
                               (p->a * a + q->a * b) >> down } };
+    mean.light.a = min_u32(mean.light.a, 65536);        /* weights are rounded up */
     if (mean.light.a != 0)
         finish_pixel(m, &mean, x, y, at);
 }
 
 static void along_light(struct merge *m, int32_t y, int32_t row)
 {
-    const int32_t node = m->s->node, first = max_i32(m->first, m->a->left + m->a->margin);
+    const int32_t node = m->s->node;
+    const int32_t first = max_i32(max_i32(m->first, m->a->left + m->a->margin), m->first_of[y - m->low]);
     const struct light *l = m->node.light + (y - m->low) * m->nodes;
-    for (int32_t x = first; x < m->end; x++) {
+    for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
         int32_t k = (x - m->first) >> node;
         finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
     }
@@ -641,11 +645,12 @@ SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t
 
 SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t node)
 {
-    const int32_t n = 1 << node, left = m->a->left + m->a->margin, end = m->end;
+    const int32_t n = 1 << node, left = max_i32(m->a->left + m->a->margin, m->first_of[y - m->low]);
+    const int32_t last = m->end, end = min_i32(last, m->end_of[y - m->low]);
     const lanes *c = m->node.codes + (y - m->low) * m->nodes;
     lanes here = node_codes(*c);
     for (int32_t x = m->first; x < end; x += n) {
-        lanes next = node == 0 && x + n >= end ? 0 : node_codes(*++c);
+        lanes next = node == 0 && x + n >= last ? 0 : node_codes(*++c);
         if (((here | next) >> 48) != 0) {
             bool whole = x >= left && x + n <= end;
             if (whole && (x >= m->a->mixed1 || x + n <= m->a->mixed0))
@@ -706,6 +711,16 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     m->low = low;
     m->high = high;
     m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
+    for (int32_t i = 0; i < high - low && !s->upright; i++) {
+        const int32_t more = s->half + (s->rest != 0);
+        int32_t from = m->a->stride, to = 0;
+        for (int32_t row = max_i32(low + i - s->reach_y, 0); row <= min_i32(low + i + s->reach_y, m->a->rows - 1); row++) {
+            from = min_i32(from, m->a->row_first[row]);
+            to = max_i32(to, m->a->row_first[row] < m->a->row_end[row] ? m->a->row_end[row] : 0);
+        }
+        m->first_of[i] = (int16_t)(from - more);
+        m->end_of[i] = (int16_t)(to + more);
+    }
     m->along = s->upright ? high - low : 1;
     m->across = s->upright ? 1 : m->nodes;
     fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);

@@ -150,7 +150,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             c->layers = l;
         *l = (struct smear_layers){ 0 };
         struct smear_layer_rows *r = &l->rows;
-        *r = (struct smear_layer_rows){ .margin = d->reach, .width = d->width + 2 * d->reach,
+        int32_t margin = (d->reach + 3) & ~3;       /* nodes of streaks lie 4 px apart, from the frame's side on */
+        *r = (struct smear_layer_rows){ .margin = margin, .width = d->width + 2 * margin,
                                         .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
         size_t layer = (size_t)r->width * (size_t)r->rows;
         r->color = arena_take(a, layer, 4);

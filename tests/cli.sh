@@ -265,6 +265,21 @@ claim "are the default" same timemask.ppm slots.ppm
 claim "32 slots of a turn" render $turn --method timemask -o turn32.ppm
 claim "8 slots" render $turn --method timemask --samples 8 -o turn8.ppm
 claim "are fewer" differ turn32.ppm turn8.ppm
+for method in object layered; do
+    claim "--method $method" render $moving --method $method --stats $method.json -o $method.ppm
+    claim "it blurs" differ none.ppm $method.ppm
+    claim "tiles are told" is_true "$(sed -n "s/.*\"$method\":\([0-9]*\).*/\1/p" $method.json) > 0"
+    claim "with 3 threads" render $moving --method $method --threads 3 -o threads.ppm
+    claim "the same" same threads.ppm $method.ppm
+    claim "of a masked node" render $moving --method $method --mask plate -o masked.ppm
+    claim "the same, for nothing else moves" same masked.ppm $method.ppm
+    claim "by its root's index" render $moving --method $method --mask 0 -o masked.ppm
+    claim "the same again" same masked.ppm $method.ppm
+    claim "of one that opts out" render $moving --method $method --motion plate=none -o calm.ppm
+    claim "is the sharp frame" same calm.ppm none.ppm
+    claim "with a shutter of 0" render $moving --method $method --shutter 0 -o calm.ppm
+    claim "too" same calm.ppm none.ppm
+done
 claim "--method accumulate" render $moving --method accumulate -o accumulate.ppm
 claim "it blurs, too" differ none.ppm accumulate.ppm
 claim "8 instants" render $moving --method accumulate --samples 8 -o eight.ppm
@@ -777,6 +792,11 @@ for method in camera "camera --camera-step 4 --inside reconstruct --reconstruct 
     claim "draws with --method $method" render builtin:suite/pan --size 64x48 --method $method -o filter.png
 done
 usage --mask render "$plate" --mask plate
+claim "says where it belongs" err_has "object and layered"
+for mask in '' , plate, ,plate nosuch 99 -1 plate=none; do
+    usage --mask render "$plate" --method object --mask "$mask"
+done
+usage --mask render builtin:suite/still --method layered --mask plate
 usage --shutter-mode render "$plate" --shutter-mode frob
 usage --shutter-mode render "$plate" --shutter-mode fixed:
 usage --shutter-mode render "$plate" --shutter-mode capped:30

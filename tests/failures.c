@@ -23,6 +23,8 @@ const struct fail_method fail_method[METHODS] = {
     [PINGPONG] = {"pingpong", SMEAR_PINGPONG, 0, 0, 0, .spread = true},
     [HALF_SIZE] = {"half 8", SMEAR_HALF, 8, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
     [JIMENEZ] = {"jimenez 8", SMEAR_RECONSTRUCT, 8, 0, 0, .weights = SMEAR_WEIGHTS_JIMENEZ},
+    [OBJECT] = {"object", SMEAR_OBJECT, 8, 0, 0},
+    [LAYERED] = {"layered 8", SMEAR_LAYERED, 8, 0, 0},
 };
 
 static bool broken(const struct subject *s, const char *why)
@@ -73,6 +75,7 @@ static smear_context *context_for(const struct presented *p, int width, int heig
     desc.format = SMEAR_XRGB8888;
     desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
     desc.timed = smear_method_is_timed(p->frame.method);
+    desc.layers = p->frame.method == SMEAR_OBJECT || p->frame.method == SMEAR_LAYERED;
     desc.max_triangles *= 5;
     desc.max_draws += 4;        /* more may come in later frames */
     desc.flush = take_band;

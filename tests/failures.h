@@ -21,7 +21,7 @@
 /* ------------------------------------------------------------------ methods and rows */
 
 /* The columns, in the order of fail_method. */
-enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, CAMERA, PINGPONG, HALF_SIZE, JIMENEZ, METHODS };
+enum { NONE, ACCUMULATE, PLAIN, MENDED, SUBFRAMES, TIMEMASK, AUTO, FINE, CAMERA, PINGPONG, HALF_SIZE, JIMENEZ, OBJECT, LAYERED, METHODS };
 
 #define ONLY(method) (1u << (method))
 #define FILTERS (ONLY(PLAIN) | ONLY(MENDED))
@@ -63,6 +63,9 @@ struct fail_row {
 
 /* At most: what a filter of failures_filters.c is known to fail measure `measure` of a row with; 0: must pass. */
 double fail_filter_known(const struct fail_row *row, int measure, int method);
+
+/* The same of failures_layers.c. */
+double fail_layer_known(const struct fail_row *row, int measure, int method);
 
 extern const struct fail_row fail_picture_rows[], fail_time_rows[], fail_other_rows[];
 extern const int fail_picture_count, fail_time_count, fail_other_count;

@@ -84,6 +84,8 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
     static const smear_material red = {.color = {220, 60, 40, 255}, .unlit = 1};
     smear_desc desc = {.width = QUAD_EDGE, .height = QUAD_EDGE, .reach = FAIL_REACH,
                        .accumulate = method->method == SMEAR_ACCUMULATE,
+                       
+                       .layers = method->method == SMEAR_OBJECT || method->method == SMEAR_LAYERED,
                        .timed = smear_method_is_timed(method->method), .max_triangles = 16,
                        .passes = method->method == SMEAR_PINGPONG ? 2 : 0,
                        .half = method->method == SMEAR_HALF,
@@ -452,7 +454,7 @@ const struct fail_row fail_other_rows[] = {
     {34, "behind and in front, in one layer", layers, {
         {"beyond the colours of the sources", "codes", 1.0, .known = {0}},
         {"still bar in front", "codes", 1.0, .known = {[PLAIN] = 140}},
-    }, "layers of their own, methods `object` and `layered`, are not offered"},
+    }, NULL},
     {36, "large coordinates", far_away, {
         {"10000 units away", "codes", 1.0, .hard = true},
     }, NULL},

@@ -43,7 +43,8 @@ static bool is_taken(const struct fail_measure *m, int method)
 /* The bound of a known failure; 0: there is none. */
 static double known_of(const struct fail_row *row, int i, int method)
 {
-    return fmax(row->measure[i].known[method], fail_filter_known(row, i, method));
+    return fmax(row->measure[i].known[method],
+                fmax(fail_filter_known(row, i, method), fail_layer_known(row, i, method)));
 }
 
 static enum outcome outcome_of(const struct fail_row *row, int i, int method, double number)

