@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* smear_config.h - what is decided when the library is compiled. Each choice can be given with -D, or a
- * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel: it only leaves code out. */
+ * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel: it leaves code out. */
 #ifndef SMEAR_CONFIG_H
 #define SMEAR_CONFIG_H
 
@@ -13,6 +13,83 @@
 #ifndef SMEAR_CHECK
 #define SMEAR_CHECK 0
 #endif
+
+/* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses what was left
+ * out (SMEAR_ERR_ARG); SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything that is not named. Link
+ * with --gc-sections, or the library as an archive. */
+#ifndef SMEAR_WITH_ALL
+#define SMEAR_WITH_ALL 1
+#endif
+
+/* Methods. SMEAR_NONE is always there. */
+#ifndef SMEAR_WITH_ACCUMULATE
+#define SMEAR_WITH_ACCUMULATE SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, smear_filter_begin and velocities */
+#define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at several instants: no desc.timed */
+#define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
+#define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#endif
+#ifndef SMEAR_WITH_SMOOTH               /* smooth tiles of SMEAR_AUTO; needs SMEAR_WITH_SUBFRAMES */
+#define SMEAR_WITH_SMOOTH (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#endif
+
+/* Surfaces. */
+#ifndef SMEAR_WITH_TEXTURE
+#define SMEAR_WITH_TEXTURE SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_BILINEAR
+#define SMEAR_WITH_BILINEAR (SMEAR_WITH_ALL && SMEAR_WITH_TEXTURE)
+#endif
+
+/* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
+ * SMEAR_DITHER_NONE only. */
+#ifndef SMEAR_WITH_XRGB8888
+#define SMEAR_WITH_XRGB8888 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB565               /* in both byte orders */
+#define SMEAR_WITH_RGB565 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB555
+#define SMEAR_WITH_RGB555 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB332
+#define SMEAR_WITH_RGB332 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L8
+#define SMEAR_WITH_L8 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L4
+#define SMEAR_WITH_L4 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L1                   /* in both packings */
+#define SMEAR_WITH_L1 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_DITHER               /* ordered */
+#define SMEAR_WITH_DITHER SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_BLUE_DITHER
+#define SMEAR_WITH_BLUE_DITHER (SMEAR_WITH_ALL && SMEAR_WITH_DITHER)
+#endif
+
+/* The module of smear_model.h. */
+#ifndef SMEAR_WITH_MODEL
+#define SMEAR_WITH_MODEL SMEAR_WITH_ALL
+#endif
+
+#if !SMEAR_WITH_SUBFRAMES && (SMEAR_WITH_TIMEMASK || SMEAR_WITH_SMOOTH)
+#error "SMEAR_WITH_TIMEMASK and SMEAR_WITH_SMOOTH need SMEAR_WITH_SUBFRAMES"
+#endif
+#if (SMEAR_WITH_BILINEAR && !SMEAR_WITH_TEXTURE) || (SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER)
+#error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
+#endif
+
+/* What follows: with neither, every context is `sharp`. */
+#define SMEAR_WITH_WINDOW (SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SMOOTH)
 
 /* 1 when the core multiplies 32 x 32 to 64 bits in an instruction. 0 builds high products from 16-bit
  * halves instead of calling the compiler's 64-bit multiply; the bits are the same. */

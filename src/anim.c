@@ -12,6 +12,8 @@
 #include "fixmath.h"
 #include "skin.h"
 
+#if SMEAR_WITH_MODEL
+
 enum { POSES = 3, FACTOR_LIMIT = (1 << 27) - 1 };
 
 struct actor_pose {
@@ -472,3 +474,5 @@ int smear_actor_submit(smear_actor *a, smear_context *ctx)
     }
     return result;
 }
+
+#endif

@@ -140,14 +140,14 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             offset[k] = (uint16_t)(a->geometry->vertex_words - s->base);
             a->geometry->vertex_words += s->stride;
             store_place(record, place[k]);
-            if (s->uv != 0)
+            if (segment_textured(s))
                 store_uv(record + s->uv, v->uv[0], v->uv[1]);
             if (s->color != 0) {
                 const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1],
                                               (uint16_t)v->color[2], (uint16_t)v->color[3] };
                 store_color(record + s->color, channel);
             }
-            for (int pose = 0; pose < s->moves; pose++)
+            for (int pose = 0; pose < segment_moves(s); pose++)
                 store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
                              &v->now, place[k], &a->viewport);
         }
@@ -238,7 +238,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_place(record, &v->screen);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
     if (b->vertex_color != NULL) {      /* as smear_shade has it */
         const uint8_t *c = b->vertex_color + 4 * index;
@@ -250,7 +250,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
         smear_record_shade(&color, d, index, face.color, face.cosine, back);
         store_color(record + s->color, color.channel);
     }
-    for (int pose = 0; pose < s->moves; pose++) {
+    for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h;
         smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
         store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
@@ -384,7 +384,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     }
     b.shares = shares_vertices(d, b.segment);
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0;
+    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment) && segment_moves(b.segment) == 0;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
     if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)

@@ -118,7 +118,7 @@ static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, 
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_path(record, s, v->screen);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
     if (s->color != 0) {
         struct smear_color color;
@@ -243,7 +243,7 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     g->vertex_words = word + s->stride;
     p->stored[i] = word + 1;
     store_path(record, s, p->screen[i]);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
     if (s->color != 0) {
         const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],

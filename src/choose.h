@@ -32,6 +32,8 @@ struct smear_chooser {
     bool has_window;            /* TILE_SMOOTH can be had */
 };
 
+static inline bool chooser_has_window(const struct smear_chooser *c) { return SMEAR_WITH_SMOOTH && c->has_window; }
+
 /* The method of a tile. TILE_SMOOTH is a wish: where it cannot be had, ask again with a chooser without a window. */
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);

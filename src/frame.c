@@ -179,13 +179,13 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
     if (!moves)
         return;
-    if (c->assembler.keep_paths) {
+    if (SMEAR_WITH_SUBFRAMES && c->assembler.keep_paths) {
         struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
         a->path = true;
         place(&a->key[0], c, &poses, a->mesh, &open);
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
-    if (!c->assembler.keep_motion)
+    if (!SMEAR_WITH_RECONSTRUCT || !c->assembler.keep_motion)
         return;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
      * itself, one further pose is enough. */
@@ -211,7 +211,7 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     for (uint32_t i = 0; i < c->draw_count; i++) {
         struct smear_assembly a;
         make_assembly(c, i, instant, &a);
-        if (!(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
+        if (!(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -275,7 +275,7 @@ static void raster_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
-    if (c->assembler.keep_motion) {
+    if (SMEAR_WITH_RECONSTRUCT && c->assembler.keep_motion) {
         t.velocity8 = w->velocity8;
         t.velocity16 = w->velocity16;
         t.inspect = c->inspect;
@@ -506,7 +506,7 @@ static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     /* With smooth tiles the row above waits, and looks at the one above it. */
-    bool waits = c->chooser.has_window;
+    bool waits = chooser_has_window(&c->chooser);
     for (int row = 0, end; row < c->window.rows; row = end) {
         int top = waits ? max_i32(row - 2, 0) : row;
         end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, &middle);
@@ -627,14 +627,14 @@ static void prepare(struct smear_context *c)
         const smear_material *m = d->material;
         r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
         r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-        if (m != NULL && m->texture != NULL)
+        if (SMEAR_WITH_TEXTURE && m != NULL && m->texture != NULL)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || r->alpha == SMEAR_BLEND;
         textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }
-    c->chooser.has_window = c->frame.method == SMEAR_AUTO && !c->desc.sharp
+    c->chooser.has_window = SMEAR_WITH_SMOOTH && c->frame.method == SMEAR_AUTO && !c->desc.sharp
                          && c->frame.target >= (textured ? SMEAR_BALANCED : SMEAR_DRAFT);
 }
 
@@ -657,9 +657,16 @@ int smear_frame_render(struct smear_context *c)
 {
     uint32_t start = stage_start(c);
     prepare(c);
-    int result = c->frame.method == SMEAR_NONE ? render_none(c)
-               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : c->frame.method == SMEAR_RECONSTRUCT ? render_reconstruct(c) : render_timed(c);
+    /* What was not compiled in has been refused by smear_begin. */
+    int result;
+    if (SMEAR_WITH_ACCUMULATE && c->frame.method == SMEAR_ACCUMULATE)
+        result = render_accumulate(c);
+    else if (SMEAR_WITH_RECONSTRUCT && c->frame.method == SMEAR_RECONSTRUCT)
+        result = render_reconstruct(c);
+    else if (SMEAR_WITH_SUBFRAMES && c->frame.method >= SMEAR_SUBFRAMES)
+        result = render_timed(c);
+    else
+        result = render_none(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

@@ -72,6 +72,10 @@ struct smear_segment {
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in place of motion words; moves is 0 */
 };
 
+/* As they are, where the methods and surfaces that need them were compiled in. */
+static inline bool segment_textured(const struct smear_segment *s) { return SMEAR_WITH_TEXTURE && s->uv != 0; }
+static inline int segment_moves(const struct smear_segment *s) { return SMEAR_WITH_RECONSTRUCT ? s->moves : 0; }
+
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
 

@@ -6,6 +6,8 @@
 #include "blob.h"
 #include "convert.h"
 
+#if SMEAR_WITH_MODEL
+
 /* A blob whose head is good. */
 struct blob {
     const uint8_t *bytes;
@@ -450,3 +452,5 @@ int smear_model_find_clip(const smear_model *model, const char *name)
     }
     return -1;
 }
+
+#endif

@@ -79,7 +79,7 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     p->z = code_from_units(units, slope);
     p->dz = step_from_units(s->depth.dx, slope);
     p->mask = NULL;
-    if (s->writes_velocity) {
+    if (setup_writes_velocity(s)) {
         if (s->draw->alpha == SMEAR_CUTOUT) {
             draw_cutout(s, p, write);
             return;
@@ -463,7 +463,7 @@ enum { TINY_PIXELS = 32 };
 static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
 {
     return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
-        && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
+        && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && s->draw->alpha == SMEAR_OPAQUE
         && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -525,7 +525,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
                 t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
-                if (s->writes_velocity)
+                if (setup_writes_velocity(s))
                     smear_velocity_zero(t, at);
             }
             e0 += e.right0;
@@ -541,7 +541,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
-    if (s->segment->uv != 0 || s->draw->alpha != SMEAR_OPAQUE)
+    if (segment_textured(s->segment) || s->draw->alpha != SMEAR_OPAQUE)
         return false;
     if (s->segment->shade != SHADE_GOURAUD)
         return true;
@@ -589,9 +589,9 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 
     uint64_t area = setup_edges(&s);
     /* The planes start with zero velocity: still triangles need to write it only over moving ones. */
-    s.writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
-                     && s.draw->alpha != SMEAR_BLEND && (s.segment->moves != 0 || *moved);
-    if (s.segment->moves != 0)
+    s.writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
+                     && s.draw->alpha != SMEAR_BLEND && (segment_moves(s.segment) != 0 || *moved);
+    if (segment_moves(s.segment) != 0)
         *moved = true;
     if (is_tiny(&s, width, height)) {
         draw_tiny(&s, (int32_t)area, left, right, top, bottom);
@@ -609,9 +609,9 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 #endif
     if (!flat)
         smear_setup_color(&s);
-    if (s.segment->uv != 0)
+    if (segment_textured(s.segment))
         smear_setup_texture(&s);
-    if (s.writes_velocity)
+    if (setup_writes_velocity(&s))
         smear_setup_velocity(&s);
 #if SMEAR_SPAN_ROWS
     smear_rows_fn *rows = smear_rows_choose(&s);
@@ -641,7 +641,7 @@ static inline void draw_point(const struct smear_raster_target *target, const st
         return;
     target->depth[at] = t->depth;
     target->color[at] = t->color & 0xffffffu;
-    if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
+    if (SMEAR_WITH_RECONSTRUCT && moved && (target->velocity8 != NULL || target->velocity16 != NULL))
         smear_velocity_zero(target, at);
 }
 

@@ -10,7 +10,7 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
     if (s == NULL)
         return NULL;
     const smear_mesh *mesh = d->mesh;
-    bool textured = d->material->texture != NULL && mesh->uv != NULL;
+    bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
     bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
@@ -21,13 +21,13 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         s->color = (uint8_t)at;
         at += 2;
     }
-    s->moves = a->keep_motion && !is_blend(d) ? d->moves : 0;
-    if (s->moves != 0) {
+    s->moves = SMEAR_WITH_RECONSTRUCT && a->keep_motion && !is_blend(d) ? d->moves : 0;
+    if (segment_moves(s) != 0) {
         s->motion = (uint8_t)at;
         at += s->moves * MOTION_WORDS;
     }
     s->path = 0;
-    if (d->path) {
+    if (SMEAR_WITH_SUBFRAMES && d->path) {
         s->path = 1;
         s->motion = (uint8_t)at;
         at += PATH_WORDS;

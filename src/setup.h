@@ -119,6 +119,11 @@ static inline uint32_t magnitude_i32(int32_t a)
     return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
 }
 
+static inline bool setup_writes_velocity(const struct setup *s)
+{
+    return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
+}
+
 /* Twice the area, q16. */
 static inline uint64_t setup_edges(struct setup *s)
 {

@@ -12,9 +12,23 @@ static bool is_power_of_two(uint32_t x)
     return x != 0 && (x & (x - 1)) == 0;
 }
 
+/* What was compiled in (smear_config.h). */
+static bool has_method(int method)
+{
+    return method == SMEAR_ACCUMULATE ? SMEAR_WITH_ACCUMULATE : method == SMEAR_RECONSTRUCT ? SMEAR_WITH_RECONSTRUCT
+         : method == SMEAR_TIMEMASK ? SMEAR_WITH_TIMEMASK : method >= SMEAR_SUBFRAMES ? SMEAR_WITH_SUBFRAMES : true;
+}
+
+static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_WINDOW && !d->sharp; }
+static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
+
 /* Fills in defaults; false when something is out of range. */
 static bool resolve(smear_desc *d)
 {
+    if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE))
+        return false;
+    if (!SMEAR_WITH_WINDOW)
+        d->sharp = 1;
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
         return false;
     if (d->reach == 0)
@@ -27,7 +41,7 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((!d->sharp || d->timed) && d->band_rows != d->tile))
+    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((has_window(d) || is_timed(d)) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -39,8 +53,8 @@ static bool resolve(smear_desc *d)
         d->max_triangles = 1024;
     if (d->vertex_cache == 0)
         d->vertex_cache = 64;
-    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && d->format <= SMEAR_L1_PAGES
-        && d->dither <= SMEAR_DITHER_BLUE && d->max_triangles <= 16u << 20
+    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_convert_has(d->format, d->dither)
+        && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
 
@@ -48,7 +62,7 @@ static bool resolve(smear_desc *d)
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
-    return max_u32(d->max_triangles * ((d->timed ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
+    return max_u32(d->max_triangles * ((is_timed(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
 }
 
 _Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
@@ -68,39 +82,43 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + d->band_rows - 1) / d->band_rows;
-    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : 2 * d->tile + d->reach;
+    w->ring = has_window(d) ? 2 * d->tile + d->reach : min_i32(d->band_rows, d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     w->color = arena_take(a, plane, 4);
     w->depth = arena_take(a, plane, 2);
     w->moving = arena_take(a, columns, 1);
     w->velocity8 = NULL;
     w->velocity16 = NULL;
-    if (!d->sharp) {
-        if (d->reach <= 15)
-            w->velocity8 = arena_take(a, plane, 2);
-        else
-            w->velocity16 = arena_take(a, plane, 4);
-        w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
-        w->around = arena_take(a, 3 * columns, sizeof *w->around);
+    if (has_window(d)) {
+        if (SMEAR_WITH_RECONSTRUCT) {
+            if (d->reach <= 15)
+                w->velocity8 = arena_take(a, plane, 2);
+            else
+                w->velocity16 = arena_take(a, plane, 4);
+            w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
+            w->around = arena_take(a, 3 * columns, sizeof *w->around);
+        }
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
-    if (!d->sharp || d->timed)
+    if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
-    if (d->timed) {
+    if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
-        for (int i = 0; i < (d->sharp ? 1 : ROWS_LISTED); i++) {
+        for (int i = 0; i < (has_window(d) ? ROWS_LISTED : 1); i++) {
             c->row_movers[i].mover = arena_take(a, d->max_triangles, sizeof *c->row_movers[i].mover);
             c->row_movers[i].load = arena_take(a, columns, sizeof *c->row_movers[i].load);
         }
-        size_t still = d->sharp ? 0 : 2 * (size_t)d->width * (size_t)d->tile;
+        size_t still = has_window(d) ? 2 * (size_t)d->width * (size_t)d->tile : 0;
         c->still_color = arena_take(a, still, 4);
         c->still_depth = arena_take(a, still, 2);
-        c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
+        c->work_bytes = (uint32_t)smear_subframes_work(d->tile);
+        if (SMEAR_WITH_TIMEMASK)
+            c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
-    c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
-    c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
+    c->inspect = d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
+    c->sums = SMEAR_WITH_ACCUMULATE && d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
@@ -119,7 +137,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
-    g->mover_last = d->timed ? arena_take(a, (size_t)w->rows, sizeof *g->mover_last) : NULL;
+    g->mover_last = is_timed(d) ? arena_take(a, (size_t)w->rows, sizeof *g->mover_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
@@ -186,14 +204,14 @@ static bool is_camera(const smear_camera *c)
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
     if (f->method == SMEAR_DEFAULT_METHOD)
-        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT;
+        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE : SMEAR_RECONSTRUCT;
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
     if (f->target == 0)
         f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method > SMEAR_AUTO || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method > SMEAR_AUTO || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
@@ -215,7 +233,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !smear_shutter_make(&c->shutter, f.shutter))
+    if (!resolve_frame(c, &f) || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->shutter, f.shutter)))
         return SMEAR_ERR_ARG;
     c->camera = *frame->camera;
     c->camera_moves = true;
@@ -246,7 +264,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
 
 static bool is_texture(const smear_texture *t)
 {
-    return t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
+    return SMEAR_WITH_TEXTURE && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
         && t->format <= SMEAR_TEXEL_PALETTE8 && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL)
         && t->wrap_u <= SMEAR_MIRROR && t->wrap_v <= SMEAR_MIRROR;
 }
@@ -304,7 +322,8 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
-    if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))))
+    if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))
+                      || (m->bilinear && !SMEAR_WITH_BILINEAR)))
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
@@ -348,7 +367,7 @@ void smear_get_stats(const smear_context *c, smear_stats *stats)
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
     if (!resolve_frame(c, &f) || f.method != SMEAR_RECONSTRUCT || c->desc.workers > 1)
@@ -366,7 +385,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
 int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth,
                      const int16_t *velocity)
 {
-    if (c == NULL || color == NULL || depth == NULL || velocity == NULL)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || color == NULL || depth == NULL || velocity == NULL)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_FILTER)
         return SMEAR_ERR_ORDER;

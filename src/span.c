@@ -455,7 +455,7 @@ static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, co
     }
     p->z = code_from_units(units, slope);
     p->dz = (uint32_t)step_from_units(dx, slope);
-    if (s->writes_velocity) {
+    if (setup_writes_velocity(s)) {
         const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
         const struct span span = {
             .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y, .depth = s->target->depth + at, .at = at,
@@ -546,7 +546,7 @@ static void rows_texel_256(const struct setup *s, const struct span_rows *r) { r
 smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
     const struct smear_sampler *t = &s->draw->sampler;
-    if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
+    if (!segment_textured(s->segment) || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
         || t->format != SMEAR_TEXEL_8888 || t->log2_width == 0 || t->log2_height == 0)
         return NULL;
 #if !TEXELS_BY_HAND
@@ -701,7 +701,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
     uint32_t *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
-    bool textured = s->segment->uv != 0;
+    bool textured = segment_textured(s->segment);
     struct walk w;
     struct block k;
     k.x = p->a;

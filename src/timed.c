@@ -15,7 +15,7 @@
 
 static struct smear_row_movers *movers_of(struct smear_context *c, int row)
 {
-    return &c->row_movers[c->chooser.has_window ? row % ROWS_LISTED : 0];
+    return &c->row_movers[chooser_has_window(&c->chooser) ? row % ROWS_LISTED : 0];
 }
 
 /* What columns [x0, x1) of pixels hold; with bounds, of one mover. */
@@ -97,7 +97,7 @@ static void list_blended(struct smear_context *c, int row)
 static void still_target(const struct smear_context *c, int row, struct smear_raster_target *t)
 {
     smear_row_target(c, row, t);
-    if (!c->chooser.has_window)
+    if (!chooser_has_window(&c->chooser))
         return;
     int32_t rows = 2 * c->window.tile;
     t->color = c->still_color;
@@ -238,12 +238,12 @@ static void finish_job(void *argument, int column, int worker)
     t.still.x1 = tile_right(c, column);
     struct smear_tile_choice choice;
     smear_choose(&choice, &c->chooser, load);
-    if (choice.method == TILE_SMOOTH && !try_smooth(f, &t, &choice, column, worker)) {
+    if (SMEAR_WITH_SMOOTH && choice.method == TILE_SMOOTH && !try_smooth(f, &t, &choice, column, worker)) {
         struct smear_chooser closed = c->chooser;
         closed.has_window = false;
         smear_choose(&choice, &closed, load);
     }
-    if (choice.method == TILE_TIMEMASK)
+    if (SMEAR_WITH_TIMEMASK && choice.method == TILE_TIMEMASK)
         c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask);
     else if (choice.method == TILE_SUBFRAMES)
         c->worker_samples[worker] += smear_subframes_tile(&t, choice.instants);
@@ -277,7 +277,7 @@ static int finish_row(struct smear_context *c, int row, int first, int last)
     struct finish finish = { .row = { c, row, smear_band_begin(c) }, .first = first, .last = last };
     still_target(c, row, &finish.still);
     list_blended(c, row);
-    if (c->chooser.has_window) {
+    if (chooser_has_window(&c->chooser)) {
         int32_t top = row_top(c, row) - w->reach;
         for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
             c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(top + i, 0, w->height - 1)) * w->width);
@@ -301,15 +301,15 @@ int smear_timed_rows(struct smear_context *c, int top, int first, int end)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
         smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
         list_movers(c, row);
-        if (c->chooser.has_window)
+        if (chooser_has_window(&c->chooser))
             smear_jobs_run(&c->jobs, movers_job, &job, c->jobs.workers);
         stage_end(c, &c->stats.time_raster, start);
         int result = SMEAR_OK;
-        if (!c->chooser.has_window)
+        if (!chooser_has_window(&c->chooser))
             result = finish_row(c, row, row, row);
         else if (row > 0)
             result = finish_row(c, row - 1, top, row);
-        if (result == SMEAR_OK && c->chooser.has_window && row == c->window.rows - 1)
+        if (result == SMEAR_OK && chooser_has_window(&c->chooser) && row == c->window.rows - 1)
             result = finish_row(c, row, top, row);
         if (result != SMEAR_OK)
             return result;

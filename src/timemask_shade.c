@@ -348,7 +348,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->slots_log2 = slots_log2;
     s->tap = tap;
     s->color = color & 0xffffffu;
-    s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
+    s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
     s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
     const bool is_plain = !s->gouraud && s->sampler == NULL;
     shade_depth(s, &course, pose, is_plain);
@@ -356,7 +356,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
         return;
     if (!course.started)
         course_start(&course, pose, false);
-    if (s->sampler != NULL)
+    if (SMEAR_WITH_TEXTURE && s->sampler != NULL)
         shade_texture(s, &course, pose, record);
     else
         shade_gouraud(s, &course, pose, record);
@@ -468,7 +468,7 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     int32_t x = timemask_run_x(run), light[3];
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
-        if (s->sampler == NULL)
+        if (!SMEAR_WITH_TEXTURE || s->sampler == NULL)
             return channels_pixel(light[0], light[1], light[2], s->frame->linear);
     } else if (s->segment->shade == SHADE_FLAT) {
         for (int c = 0; c < 3; c++) {
