@@ -65,6 +65,11 @@ $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+# Each switch of smear_config.h off, and sets of them: golden frames of this machine.
+.PHONY: switches-test
+switches-test: $(TAPES)/golden.c
+	sh tests/target_switches.sh build/switches
+
 # ---------------------------------------------------------------------- template
 
 # platform/template with one core and with two, on a board of threads; and for a real core.

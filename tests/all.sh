@@ -84,6 +84,7 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
 fi
 suite golden-host $make -s TARGET=host target-test
+suite switches $make -s switches-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
@@ -108,7 +109,9 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test
     fi
-    suite objects-cortex-m0plus env CODE_LIMIT=90000 sh tests/target_objects.sh build/objects
+    suite objects-cortex-m0plus sh tests/target_objects.sh build/objects
+    suite objects-without-timed env CODE_LIMIT=40960 \
+        SWITCHES="-DSMEAR_WITH_SUBFRAMES=0 -DSMEAR_WITH_MODEL=0" sh tests/target_objects.sh build/objects-without-timed
 fi
 if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
     suite target-rv32imc $make -s TARGET=rv32imc target-test
