@@ -245,9 +245,10 @@ typedef struct smear_desc {
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint8_t sharp;              /* 1: no filter: no window is kept */
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
-    uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
+    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose rows are
+                                 * assembled anew at every instant: small and slow. 6 bytes without SMEAR_WITH_LINEAR */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
-    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
+    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
                                  * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in

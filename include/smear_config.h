@@ -46,6 +46,19 @@
 #define SMEAR_WITH_BILINEAR (SMEAR_WITH_ALL && SMEAR_WITH_TEXTURE)
 #endif
 
+#ifndef SMEAR_WITH_GOURAUD              /* colours and normals of vertices; else those of faces only */
+#define SMEAR_WITH_GOURAUD SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_ALPHA                /* cutouts and blended draws */
+#define SMEAR_WITH_ALPHA SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_DEFORM               /* draws whose positions differ from pose to pose */
+#define SMEAR_WITH_DEFORM SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_LINEAR               /* linear light, and its table of 4 kB */
+#define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
+#endif
+
 /* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
  * SMEAR_DITHER_NONE only. */
 #ifndef SMEAR_WITH_XRGB8888

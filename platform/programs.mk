@@ -138,9 +138,26 @@ demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 print-run:
 	@echo $(RUN)
 
-## flash, RAM and worst stack of the library on every target
+## flash, RAM and worst stack of the library on every target, and what each switch saves
 footprint:
 	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
+	MAKE="$(MAKE)" sh platform/footprint_switches.sh $(FOOTPRINT)
+
+## writes these tables into platform/README.md
+footprint-readme:
+	@mkdir -p build
+	MAKE="$(MAKE)" sh platform/footprint.sh > build/footprint.txt
+	MAKE="$(MAKE)" sh platform/footprint_switches.sh > build/switches.txt
+	awk -f platform/footprint_readme.awk platform/README.md > build/platform-readme.md
+	mv build/platform-readme.md platform/README.md
+
+# Of the switches' part: what a program that only asks for sizes is linked from, and how.
+.PHONY: footprint-readme footprint-arena print-footprint
+footprint-arena: $(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o $(RUN_NEEDS)
+
+print-footprint:
+	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
+	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
 ## what its frames cost on TARGET
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)

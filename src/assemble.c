@@ -101,7 +101,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         *segment = smear_record_segment(a, d);
     if (*segment == NULL)
         return false;
-    if ((*segment)->color != 0) {
+    if (segment_colored(*segment)) {
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
             smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
@@ -142,7 +142,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             store_place(record, place[k]);
             if (segment_textured(s))
                 store_uv(record + s->uv, v->uv[0], v->uv[1]);
-            if (s->color != 0) {
+            if (segment_colored(s)) {
                 const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1],
                                               (uint16_t)v->color[2], (uint16_t)v->color[3] };
                 store_color(record + s->color, channel);
@@ -240,11 +240,11 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     store_place(record, &v->screen);
     if (segment_textured(s))
         store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
-    if (b->vertex_color != NULL) {      /* as smear_shade has it */
+    if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
         const uint8_t *c = b->vertex_color + 4 * index;
         record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
         record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
-    } else if (s->color != 0) {
+    } else if (segment_colored(s)) {
         struct smear_color color;
         struct smear_face face = smear_face_of(d, triangle, back);
         smear_record_shade(&color, d, index, face.color, face.cosine, back);
@@ -264,7 +264,7 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
                                      bool back)
 {
     /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || b->segment->color == 0);
+    bool shares = b->shares && (!back || !segment_colored(b->segment));
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
     uint32_t word = store_vertex(b, v, triangle, back);
@@ -280,7 +280,7 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
     const struct smear_segment *s = b->segment;
     const uint32_t *channels[3] = { NULL, NULL, NULL };
     uint32_t color = 0;
-    if (s->color == 0)
+    if (!segment_colored(s))
         color = color_of_face(b, triangle, back);
     else
         for (int i = 0; i < 3; i++)
@@ -295,8 +295,8 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
         t->y = (uint16_t)p->y;
         t->depth = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
         t->segment = SMEAR_POINT;
-        t->color = s->color == 0 ? color
-                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.linear);
+        t->color = !segment_colored(s) ? color
+                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
     }
 }
 
@@ -331,7 +331,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     b->segment = s;
     b->a->triangles_drawn++;
     if (count <= POINTS_MAX && b->points
-        && (s->color == 0 || s->flat_depth
+        && (!segment_colored(s) || s->flat_depth
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, covered, count, area);
@@ -387,7 +387,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment) && segment_moves(b.segment) == 0;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
-    if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)
+    if (!d->shading.lit && d->shading.white && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
         b.vertex_color = mesh->color;
     if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);

@@ -84,7 +84,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         .travel = sixteenths(travel), .bend = sixteenths(bend),
         .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
         .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
-                            | (d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
+                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
     };
     return true;
 }
@@ -110,7 +110,7 @@ static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, 
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    bool shares = b->shares && (!back || s->color == 0);
+    bool shares = b->shares && (!back || !segment_colored(s));
     if (shares && v->stored > s->base)
         return v->stored - 1;
     struct smear_geometry *g = b->a->geometry;
@@ -120,7 +120,7 @@ static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, 
     store_path(record, s, v->screen);
     if (segment_textured(s))
         store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
-    if (s->color != 0) {
+    if (segment_colored(s)) {
         struct smear_color color;
         struct smear_face face = smear_face_of(d, triangle, back);
         smear_record_shade(&color, d, index, face.color, face.cosine, back);
@@ -245,7 +245,7 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     store_path(record, s, p->screen[i]);
     if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
-    if (s->color != 0) {
+    if (segment_colored(s)) {
         const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
                                       (uint16_t)v->color[3] };
         store_color(record + s->color, channel);
@@ -409,7 +409,7 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         v->uv[0] = d->mesh->uv != NULL ? d->mesh->uv[2 * index] : 0;
         v->uv[1] = d->mesh->uv != NULL ? d->mesh->uv[2 * index + 1] : 0;
         struct smear_color color = { { 0, 0, 0, 0 } };
-        if (b->segment->color != 0)
+        if (segment_colored(b->segment))
             smear_record_shade(&color, d, index, face.color, face.cosine, back);
         for (int c = 0; c < 4; c++)
             v->color[c] = color.channel[c];

@@ -17,6 +17,15 @@
 #include "subframes.h"
 #include "window.h"
 
+/* Sums of linear light or codes; of codes alone, 16 bits do. */
+#if SMEAR_WITH_LINEAR
+typedef uint32_t smear_sum;
+enum { SUM_SAMPLES_MAX = 1024 };
+#else
+typedef uint16_t smear_sum;
+enum { SUM_SAMPLES_MAX = 257 };
+#endif
+
 /* The pose a draw had, kept under its id. */
 struct smear_kept_pose {
     uint32_t id;                    /* 0: free */
@@ -68,7 +77,8 @@ struct smear_context {
     uint32_t opaque, blend;         /* lists of the rows being drawn and blended */
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
-    uint32_t *sums;                 /* accumulate: r g b per pixel */
+    smear_sum *sums;                /* accumulate: r g b per pixel of the frame, or of a band */
+    int32_t sums_top;               /* first row they are of */
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;

@@ -100,14 +100,14 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
     }
     if (d->cut || d->motion == SMEAR_MOTION_CAMERA)
         return;
-    if (d->open_position != NULL)
+    if (SMEAR_WITH_DEFORM && d->open_position != NULL)
         p->position[1] = d->open_position;
     if (d->open != NULL)
         p->object[1] = d->open;
     else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
         p->object[1] = &c->kept[s->kept].before;
     if (c->frame.shutter_poses) {
-        if (d->close_position != NULL)
+        if (SMEAR_WITH_DEFORM && d->close_position != NULL)
             p->position[2] = d->close_position;
         if (d->close != NULL)
             p->object[2] = d->close;
@@ -116,7 +116,7 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
 
 static bool pose_differs(const struct draw_poses *p, int i)
 {
-    return p->position[i] != p->position[0] || !same_transform(p->object[i], p->object[0])
+    return (SMEAR_WITH_DEFORM && p->position[i] != p->position[0]) || !same_transform(p->object[i], p->object[0])
         || !same_camera(p->camera[i], p->camera[0]);
 }
 
@@ -149,7 +149,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
-        if (position[k] == out->position) {
+        if (!SMEAR_WITH_DEFORM || position[k] == out->position) {
             smear_projection_add(&out->now, &sum[k]);
         } else {
             out->extra[out->extra_count] = sum[k];
@@ -173,7 +173,7 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->moves = 0;
     a->path = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
-                       c->frame.light == SMEAR_LIGHT_LINEAR);
+                       SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
 
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
@@ -217,12 +217,11 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
     return true;
 }
 
-/* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
+/* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included for what is
  * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
  * dropped and counted. */
-static int assemble_part(struct smear_context *c, int *top, int least, int first, const struct instant *instant)
+static int assemble_part(struct smear_context *c, int *top, int least, int first, int end, const struct instant *instant)
 {
-    int end = c->window.rows;
     uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
@@ -321,7 +320,7 @@ static void draw_row(struct smear_context *c, int row)
 
 static void blend_row(struct smear_context *c, int row)
 {
-    if (!c->blends)
+    if (!SMEAR_WITH_ALPHA || !c->blends)
         return;
     struct row_job job = { .c = c, .row = row };
     c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
@@ -341,7 +340,6 @@ static void convert_job(void *argument, int job, int worker)
 
 static int finish_sharp(struct smear_context *c, int row)
 {
-    blend_row(c, row);
     uint32_t start = stage_start(c);
     struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
@@ -459,9 +457,10 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 static int render_none(struct smear_context *c)
 {
     for (int row = 0; row < c->window.rows;) {
-        int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
+        int top = row, end = assemble_part(c, &top, row, row, c->window.rows, &sharp_instant);
         for (; row < end; row++) {
             draw_row(c, row);
+            blend_row(c, row);
             int result = finish_sharp(c, row);
             if (result != SMEAR_OK)
                 return result;
@@ -491,7 +490,7 @@ static int render_reconstruct(struct smear_context *c)
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     for (int row = 0; row < c->window.rows;) {
-        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, &middle);
+        int top = max_i32(row - (c->blends ? 1 : 0), 0), end = assemble_part(c, &top, top, row, c->window.rows, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -509,7 +508,7 @@ static int render_timed(struct smear_context *c)
     bool waits = chooser_has_window(&c->chooser);
     for (int row = 0, end; row < c->window.rows; row = end) {
         int top = waits ? max_i32(row - 2, 0) : row;
-        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, &middle);
+        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, c->window.rows, &middle);
         int result = smear_timed_rows(c, top, row, end);
         if (result != SMEAR_OK)
             return result;
@@ -517,19 +516,31 @@ static int render_timed(struct smear_context *c)
     return SMEAR_OK;
 }
 
-/* Adds the row's pixels to the sums: linear light, or codes in the same 16 bits. */
+/* Row y of the sums. */
+static smear_sum *sums_at(const struct smear_context *c, int32_t y)
+{
+    return c->sums + 3 * (size_t)(y - c->sums_top) * (size_t)c->window.width;
+}
+
+static void clear_sums(struct smear_context *c, int32_t top, int32_t bottom)
+{
+    c->sums_top = top;
+    __builtin_memset(c->sums, 0, 3 * (size_t)(bottom - top) * (size_t)c->window.width * sizeof *c->sums);
+}
+
+/* Adds the row's pixels to the sums: linear light, or codes in the same bits. */
 static void add_row(struct smear_context *c, int row)
 {
     const struct smear_window *w = &c->window;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
         const uint32_t *in = w->color + window_slot(w, y) * w->width;
-        uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t p = in[x];
-            sum[0] += linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p);
-            sum[1] += linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p);
-            sum[2] += linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p);
+            sum[0] = (smear_sum)(sum[0] + (linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p)));
+            sum[1] = (smear_sum)(sum[1] + (linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p)));
+            sum[2] = (smear_sum)(sum[2] + (linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p)));
         }
     }
 }
@@ -543,10 +554,10 @@ static uint32_t mean_of(uint32_t sum, uint32_t n)
 static void average_row(struct smear_context *c, int row, uint32_t n)
 {
     const struct smear_window *w = &c->window;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
         uint32_t *out = w->color + window_slot(w, y) * w->width;
-        const uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        const smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t r = mean_of(sum[0], n), g = mean_of(sum[1], n), b = mean_of(sum[2], n);
             out[x] = linear ? pixel_make(0, smear_srgb_encode[r >> 4], smear_srgb_encode[g >> 4],
@@ -556,27 +567,37 @@ static void average_row(struct smear_context *c, int row, uint32_t n)
     }
 }
 
-static int render_accumulate(struct smear_context *c)
+/* Draws tile rows [first, end) at every instant and adds them up. */
+static void accumulate_rows(struct smear_context *c, int first, int end)
 {
     uint32_t n = c->frame.samples;
-    size_t words = 3 * (size_t)c->window.width * (size_t)c->window.height;
-    for (size_t i = 0; i < words; i++)
-        c->sums[i] = 0;
     for (uint32_t k = 0; k < n; k++) {
         struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
-        for (int row = 0; row < c->window.rows;) {
-            int top = row, end = assemble_part(c, &top, row, row, &instant);
-            for (; row < end; row++) {
+        for (int row = first; row < end;) {
+            int top = row, part = assemble_part(c, &top, row, row, end, &instant);
+            for (; row < part; row++) {
                 draw_row(c, row);
                 blend_row(c, row);
                 add_row(c, row);
             }
         }
     }
-    c->stats.samples = n * c->stats.pixels;
-    c->blends = false;          /* they are in the sums */
+}
+
+static int render_accumulate(struct smear_context *c)
+{
+    const bool whole = c->desc.accumulate == 1;
+    c->stats.samples = c->frame.samples * c->stats.pixels;
+    if (whole) {
+        clear_sums(c, 0, c->window.height);
+        accumulate_rows(c, 0, c->window.rows);
+    }
     for (int row = 0; row < c->window.rows; row++) {
-        average_row(c, row, n);
+        if (!whole) {
+            clear_sums(c, row_top(c, row), row_bottom(c, row));
+            accumulate_rows(c, row, row + 1);
+        }
+        average_row(c, row, c->frame.samples);
         int result = finish_sharp(c, row);
         if (result != SMEAR_OK)
             return result;
@@ -594,7 +615,7 @@ static void prepare(struct smear_context *c)
     s->pixels = (uint32_t)(w->width * w->height);
     for (int i = 0; i < c->jobs.workers; i++)
         c->worker_samples[i] = 0;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     uint32_t degrees = c->frame.shutter_degrees;
 
     c->raster.linear = linear;
@@ -630,7 +651,7 @@ static void prepare(struct smear_context *c)
         if (SMEAR_WITH_TEXTURE && m != NULL && m->texture != NULL)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
-        c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        c->blends = c->blends || (SMEAR_WITH_ALPHA && r->alpha == SMEAR_BLEND);
         textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }

@@ -74,6 +74,11 @@ struct smear_segment {
 
 /* As they are, where the methods and surfaces that need them were compiled in. */
 static inline bool segment_textured(const struct smear_segment *s) { return SMEAR_WITH_TEXTURE && s->uv != 0; }
+static inline bool segment_gouraud(const struct smear_segment *s)
+{
+    return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
+}
+static inline bool segment_colored(const struct smear_segment *s) { return SMEAR_WITH_GOURAUD && s->color != 0; }
 static inline int segment_moves(const struct smear_segment *s) { return SMEAR_WITH_RECONSTRUCT ? s->moves : 0; }
 
 /* Words of a vertex record. */

@@ -80,7 +80,7 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     p->dz = step_from_units(s->depth.dx, slope);
     p->mask = NULL;
     if (setup_writes_velocity(s)) {
-        if (s->draw->alpha == SMEAR_CUTOUT) {
+        if (draw_is_cutout(s->draw)) {
             draw_cutout(s, p, write);
             return;
         }
@@ -463,8 +463,8 @@ enum { TINY_PIXELS = 32 };
 static inline bool is_tiny(const struct setup *s, int32_t width, int32_t height)
 {
     return width <= SMALL_PX && height <= SMALL_PX && width * height <= TINY_PIXELS
-        && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && s->draw->alpha == SMEAR_OPAQUE
-        && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
+        && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && draw_is_opaque(s->draw)
+        && (!segment_gouraud(s->segment) || s->segment->flat_depth
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 
@@ -497,7 +497,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
                       int32_t bottom)
 {
     const struct smear_raster_target *t = s->target;
-    const bool gouraud = s->segment->shade == SHADE_GOURAUD;
+    const bool gouraud = segment_gouraud(s->segment);
     const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
     const int32_t x0 = max_i32(left, t->x0), x1 = min_i32(right, t->x1);
     const struct tiny_scale scale = tiny_scale_make(area);
@@ -524,7 +524,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
-                t->color[at] = gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color & 0xffffffu;
+                t->color[at] = gouraud ? channels_mix(&channels, w1, w2, frame_is_linear(s->frame)) : s->color & 0xffffffu;
                 if (setup_writes_velocity(s))
                     smear_velocity_zero(t, at);
             }
@@ -541,9 +541,9 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
-    if (segment_textured(s->segment) || s->draw->alpha != SMEAR_OPAQUE)
+    if (segment_textured(s->segment) || !draw_is_opaque(s->draw))
         return false;
-    if (s->segment->shade != SHADE_GOURAUD)
+    if (!segment_gouraud(s->segment))
         return true;
     if (s->v[0][at] != s->v[1][at] || s->v[0][at] != s->v[2][at]
         || (((s->v[0][at + 1] ^ s->v[1][at + 1]) | (s->v[0][at + 1] ^ s->v[2][at + 1])) & 0xffff) != 0)
@@ -551,7 +551,7 @@ static bool is_flat(struct setup *s)
     uint32_t code[3];
     for (int c = 0; c < 3; c++) {
         uint32_t value = (uint32_t)channel_value(s, 0, c);
-        code[c] = s->frame->linear ? smear_srgb_encode[value >> 12] : value >> 16;
+        code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
     return true;
@@ -590,7 +590,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     uint64_t area = setup_edges(&s);
     /* The planes start with zero velocity: still triangles need to write it only over moving ones. */
     s.writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
-                     && s.draw->alpha != SMEAR_BLEND && (segment_moves(s.segment) != 0 || *moved);
+                     && !draw_is_blended(s.draw) && (segment_moves(s.segment) != 0 || *moved);
     if (segment_moves(s.segment) != 0)
         *moved = true;
     if (is_tiny(&s, width, height)) {

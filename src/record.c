@@ -11,7 +11,8 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         return NULL;
     const smear_mesh *mesh = d->mesh;
     bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
-    bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
+    bool per_vertex = SMEAR_WITH_GOURAUD
+                   && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
     s->uv = s->color = s->motion = 0;
@@ -44,7 +45,7 @@ void smear_record_shade(struct smear_color *color, const struct smear_assembly *
 {
     const smear_mesh *mesh = d->mesh;
     uint32_t cosine = face_cosine;
-    if (d->shading.lit && mesh->normal != NULL) {
+    if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL) {
         const int8_t *n = mesh->normal + 3 * index;
         if (flip) {
             const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
@@ -65,7 +66,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
         return 0xffffffffu;
     struct smear_color color;
     smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
-    return smear_color_pack(&color, d->shading.linear);
+    return smear_color_pack(&color, shading_is_linear(&d->shading));
 }
 
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)

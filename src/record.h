@@ -60,7 +60,7 @@ struct smear_assembly {
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
     smear_transform_vertex(h, &p->now, p->position + 3 * index);
-    for (int i = 0; i < p->extra_count; i++) {
+    for (int i = 0; SMEAR_WITH_DEFORM && i < p->extra_count; i++) {
         struct smear_homogeneous term;
         smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
         h->x += term.x;
@@ -178,13 +178,13 @@ static inline bool box_is_empty(const struct box *box)
 
 static inline bool is_blend(const struct smear_assembly *d)
 {
-    return d->material->alpha == SMEAR_BLEND;
+    return SMEAR_WITH_ALPHA && d->material->alpha == SMEAR_BLEND;
 }
 
 /* Vertices cannot be shared when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
-    return s->color == 0
+    return !segment_colored(s)
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 

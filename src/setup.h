@@ -101,7 +101,7 @@ static inline int32_t channel_value(const struct setup *s, int vertex, int c)
 {
     uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
     int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return s->frame->linear && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+    return frame_is_linear(s->frame) && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
 }
 
 static inline int32_t setup_mesh_u(const struct setup *s, int i)

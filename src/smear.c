@@ -25,7 +25,7 @@ static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES &
 /* Fills in defaults; false when something is out of range. */
 static bool resolve(smear_desc *d)
 {
-    if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE))
+    if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2)
         return false;
     if (!SMEAR_WITH_WINDOW)
         d->sharp = 1;
@@ -41,7 +41,7 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0 || ((has_window(d) || is_timed(d)) && d->band_rows != d->tile))
+    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0) || ((has_window(d) || is_timed(d)) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -118,7 +118,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
     c->inspect = d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
-    c->sums = SMEAR_WITH_ACCUMULATE && d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
+    c->sums = NULL;
+    if (SMEAR_WITH_ACCUMULATE && d->accumulate)
+        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : d->band_rows), 3 * sizeof *c->sums);
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
@@ -212,13 +214,14 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
     if (f->method > SMEAR_AUTO || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+        || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (f->method == SMEAR_RECONSTRUCT && c->desc.sharp)
         return false;
     if (f->method >= SMEAR_SUBFRAMES && !c->desc.timed)
         return false;
-    return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
+    return f->method != SMEAR_ACCUMULATE || (c->desc.accumulate != 0 && f->samples <= SUM_SAMPLES_MAX);
 }
 
 static bool same_kind(const smear_camera *a, const smear_camera *b)
@@ -322,7 +325,10 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
-    if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))
+    if ((!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+        || (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL)))
+        return SMEAR_ERR_ARG;
+    if (m != NULL && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) || (m->texture != NULL && !is_texture(m->texture))
                       || (m->bilinear && !SMEAR_WITH_BILINEAR)))
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)

@@ -364,7 +364,7 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
     const int log2 = height_log2(t->work_bytes), height = 1 << log2;
     struct job j = { .tile = t, .settings = settings, .list = t->work };
     smear_timemask_slots_place(&j.slots, j.list + LISTED, WIDTH_LOG2 + log2,
-                               31 - count_leading_zeros((uint32_t)settings->slots), t->frame->linear);
+                               31 - count_leading_zeros((uint32_t)settings->slots), frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     list_movers(&j);

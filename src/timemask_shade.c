@@ -259,10 +259,10 @@ static bool shade_level(struct timemask_shade *s, const int32_t *const record[3]
                        | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
                        | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
     struct channels k;
-    channels_read(&k, s->segment, record, s->frame->linear);
+    channels_read(&k, s->segment, record, frame_is_linear(s->frame));
     uint32_t code[3], sum = 0;
     for (int i = 0; i < (same ? 1 : 3); i++)
-        code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], s->frame->linear);
+        code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], frame_is_linear(s->frame));
     if (same) {
         s->color = code[0];
         return true;
@@ -295,7 +295,7 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c, cons
 {
     struct channels k;
     struct over_w w;
-    channels_read(&k, s->segment, record, s->frame->linear);
+    channels_read(&k, s->segment, record, frame_is_linear(s->frame));
     uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
     if (s->over_w)
@@ -320,7 +320,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     if (s->over_w)
         over_w_make(s, &w, c, pose);
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear);
+        channels_read(&k, s->segment, record, frame_is_linear(s->frame));
         shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
@@ -349,7 +349,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment->shade == SHADE_GOURAUD && (s->sampler != NULL || !shade_level(s, record));
+    s->gouraud = segment_gouraud(segment) && (s->sampler != NULL || !shade_level(s, record));
     const bool is_plain = !s->gouraud && s->sampler == NULL;
     shade_depth(s, &course, pose, is_plain);
     if (is_plain)
@@ -426,7 +426,7 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
                              int32_t light[3])
 {
     uint32_t texel[TAPS_MAX];
-    const bool linear = s->frame->linear;
+    const bool linear = frame_is_linear(s->frame);
     const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
     int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
     int log2 = 0;
@@ -469,11 +469,11 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
         if (!SMEAR_WITH_TEXTURE || s->sampler == NULL)
-            return channels_pixel(light[0], light[1], light[2], s->frame->linear);
+            return channels_pixel(light[0], light[1], light[2], frame_is_linear(s->frame));
     } else if (s->segment->shade == SHADE_FLAT) {
         for (int c = 0; c < 3; c++) {
             uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            light[c] = (int32_t)(s->frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
+            light[c] = (int32_t)(frame_is_linear(s->frame) ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
         }
     } else {
         return texture_mean(s, x, y, run, NULL);

@@ -39,14 +39,21 @@ static enum outcome outcome_of(const struct tape *tape)
         uint8_t method = f->frame->method;
         if ((method == SMEAR_RECONSTRUCT && !SMEAR_WITH_RECONSTRUCT) || (method == SMEAR_TIMEMASK && !SMEAR_WITH_TIMEMASK))
             return REFUSED;
+        if (f->frame->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
+            return REFUSED;
         if (method == SMEAR_DEFAULT_METHOD && !d->timed && !d->sharp && !SMEAR_WITH_RECONSTRUCT)
             outcome = OTHER_METHODS;
         if (d->timed && (method == SMEAR_DEFAULT_METHOD || method == SMEAR_AUTO)
             && (!SMEAR_WITH_TIMEMASK || (!SMEAR_WITH_SMOOTH && !d->sharp)))
             outcome = OTHER_METHODS;
         for (int k = 0; k < f->draw_count; k++) {
-            const smear_material *m = f->draw[k].material;
-            if (m != NULL && ((m->texture != NULL && !SMEAR_WITH_TEXTURE) || (m->bilinear && !SMEAR_WITH_BILINEAR)))
+            const smear_draw *draw = &f->draw[k];
+            const smear_material *m = draw->material;
+            if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
+                || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))
+                return REFUSED;
+            if (m != NULL && ((m->texture != NULL && !SMEAR_WITH_TEXTURE) || (m->bilinear && !SMEAR_WITH_BILINEAR)
+                              || (m->alpha != SMEAR_OPAQUE && !SMEAR_WITH_ALPHA)))
                 return REFUSED;
         }
     }
