@@ -71,20 +71,21 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         uint32_t index = index_of(corner[i]);
         codes |= corner[i]->outcode;
         v->now = corner[i]->now;
-        for (int pose = 0; pose < 2; pose++)
+        for (int pose = 0; pose < CLIP_POSES; pose++)
             v->pose[pose] = v->now;
-        for (int pose = 0; pose < d->moves; pose++)
+        for (int pose = 0; SMEAR_WITH_RECONSTRUCT && pose < d->moves; pose++)
             smear_transform_vertex(&v->pose[pose], &d->pose[pose],
                                    d->pose_position[pose] + 3 * index);
         v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
         v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < CLIP_COLORS; c++)
             v->color[c] = 0;
     }
 
-    /* Which side is seen decides the light, and only the cut polygon can tell: clip places first. */
-    struct smear_clip_vertex probe[SMEAR_CLIP_MAX];
-    for (int i = 0; i < 3; i++)
+    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: clip places first. */
+    struct smear_clip_vertex copy[SMEAR_WITH_GOURAUD ? SMEAR_CLIP_MAX : 1];
+    struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
+    for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
         probe[i] = polygon[i];
     int count = smear_clip_polygon(probe, 3, &d->at.now, codes);
     int64_t area = 0;
@@ -105,11 +106,12 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
             smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
-            for (int c = 0; c < 4; c++)
+            for (int c = 0; c < CLIP_COLORS; c++)
                 polygon[i].color[c] = color.channel[c];
         }
     }
-    count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
+    if (SMEAR_WITH_GOURAUD)
+        count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
@@ -143,8 +145,9 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             if (segment_textured(s))
                 store_uv(record + s->uv, v->uv[0], v->uv[1]);
             if (segment_colored(s)) {
-                const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1],
-                                              (uint16_t)v->color[2], (uint16_t)v->color[3] };
+                uint16_t channel[4] = { 0, 0, 0, 0 };
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    channel[c] = (uint16_t)v->color[c];
                 store_color(record + s->color, channel);
             }
             for (int pose = 0; pose < segment_moves(s); pose++)

@@ -8,6 +8,8 @@
 #include "clip.h"
 #include "path.h"
 
+#if SMEAR_WITH_SUBFRAMES
+
 enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
 
 /* A vertex at all three instants, remembered under its index: direct mapped, in the memory of the other cache. */
@@ -246,8 +248,9 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
     if (segment_colored(s)) {
-        const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
-                                      (uint16_t)v->color[3] };
+        uint16_t channel[4] = { 0, 0, 0, 0 };
+        for (int c = 0; c < CLIP_COLORS; c++)
+            channel[c] = (uint16_t)v->color[c];
         store_color(record + s->color, channel);
     }
     return word;
@@ -411,7 +414,7 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         struct smear_color color = { { 0, 0, 0, 0 } };
         if (segment_colored(b->segment))
             smear_record_shade(&color, d, index, face.color, face.cosine, back);
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < CLIP_COLORS; c++)
             v->color[c] = color.channel[c];
     }
     int near_codes = 0;
@@ -514,3 +517,5 @@ bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly 
     }
     return added;
 }
+
+#endif

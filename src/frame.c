@@ -159,7 +159,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
 }
 
 /* Everything the assembler needs of draw `i`, for the given instant. */
-static void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
+static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
                           struct smear_assembly *a)
 {
     static const smear_material plain = { 0 };

@@ -38,8 +38,8 @@ struct smear_placement {
     struct smear_projection now;
     const int16_t *position;
     int extra_count;                    /* further terms */
-    struct smear_projection extra[2];
-    const int16_t *extra_position[2];
+    struct smear_projection extra[SMEAR_WITH_DEFORM ? 2 : 1];
+    const int16_t *extra_position[SMEAR_WITH_DEFORM ? 2 : 1];
 };
 
 /* One draw with everything that does not change from triangle to triangle. */
@@ -51,9 +51,9 @@ struct smear_assembly {
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
-    struct smear_projection pose[2];    /* velocity is measured between these (one: and the drawn instant) */
-    const int16_t *pose_position[2];
-    struct smear_placement key[2];      /* shutter open and close */
+    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];   /* velocity is measured between these (one: and the drawn instant) */
+    const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
 
