@@ -59,6 +59,13 @@
 #define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
 #endif
 
+#ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */
+#define SMEAR_WITH_IDS SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
+#define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
+#endif
+
 /* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
  * SMEAR_DITHER_NONE only. */
 #ifndef SMEAR_WITH_XRGB8888

@@ -90,6 +90,13 @@ static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
     return swapped ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
 }
 
+#ifdef __OPTIMIZE_SIZE__
+static void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+{
+    while (n-- > 0)
+        *out++ = (uint16_t)rgb565_bytes(*in++, swapped);
+}
+#else
 /* Two pixels of 16 bits as they lie in memory. */
 static inline uint32_t pair_of(uint32_t first, uint32_t second)
 {
@@ -139,6 +146,7 @@ SMEAR_INLINE void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool 
     if (in < end)
         *out = (uint16_t)rgb565_bytes(*in, swapped);
 }
+#endif
 
 /* `swapped` as the display has it. */
 static void row_rgb565_any(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)

@@ -104,7 +104,7 @@ static void poses_of(const struct smear_context *c, const struct smear_submitted
         p->position[1] = d->open_position;
     if (d->open != NULL)
         p->object[1] = d->open;
-    else if (!c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
+    else if (SMEAR_WITH_IDS && !c->frame.shutter_poses && s->kept >= 0 && c->kept[s->kept].has_before)
         p->object[1] = &c->kept[s->kept].before;
     if (c->frame.shutter_poses) {
         if (SMEAR_WITH_DEFORM && d->close_position != NULL)

@@ -30,7 +30,7 @@ static void announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument,
 
 void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count)
 {
-    if (jobs->workers > 1) {
+    if (SMEAR_WITH_WORKERS && jobs->workers > 1) {
         announce(jobs, job, argument, count);
         return;
     }
@@ -40,7 +40,7 @@ void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, 
 
 void smear_jobs_end_frame(struct smear_jobs *jobs)
 {
-    if (jobs->workers > 1)
+    if (SMEAR_WITH_WORKERS && jobs->workers > 1)
         announce(jobs, NULL, NULL, 0);
 }
 

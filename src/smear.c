@@ -53,7 +53,7 @@ static bool resolve(smear_desc *d)
         d->max_triangles = 1024;
     if (d->vertex_cache == 0)
         d->vertex_cache = 64;
-    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_convert_has(d->format, d->dither)
+    return d->bands <= 2 && d->workers <= (SMEAR_WITH_WORKERS ? SMEAR_WORKERS_MAX : 1) && smear_convert_has(d->format, d->dither)
         && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
@@ -127,7 +127,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->band[i] = arena_take(a, c->band_bytes, 1);
 
     c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
-    c->kept = arena_take(a, d->max_draws, sizeof *c->kept);
+    c->kept = SMEAR_WITH_IDS ? arena_take(a, d->max_draws, sizeof *c->kept) : NULL;
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 
     struct smear_geometry *g = &c->geometry;
@@ -184,7 +184,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     c->jobs.workers = d.workers;
     c->jobs.idle = d.idle;
     c->jobs.user = d.user;
-    for (uint32_t i = 0; i < d.max_draws; i++)
+    for (uint32_t i = 0; SMEAR_WITH_IDS && i < d.max_draws; i++)
         c->kept[i].id = 0;
     *ctx = c;
     return SMEAR_OK;
@@ -304,7 +304,7 @@ static int32_t find_kept(struct smear_context *c, uint32_t id)
 static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
-    if (draw->id == 0)
+    if (!SMEAR_WITH_IDS || draw->id == 0)
         return -1;
     int32_t at = find_kept(c, draw->id);
     if (at < 0)
@@ -325,7 +325,7 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
-    if ((!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+    if ((!SMEAR_WITH_IDS && draw->id != 0) || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
         || (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL)))
         return SMEAR_ERR_ARG;
     if (m != NULL && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) || (m->texture != NULL && !is_texture(m->texture))
@@ -360,7 +360,7 @@ void smear_band_done(smear_context *c)
 
 void smear_work(smear_context *c, int worker)
 {
-    if (c != NULL && worker > 0 && worker < c->jobs.workers)
+    if (SMEAR_WITH_WORKERS && c != NULL && worker > 0 && worker < c->jobs.workers)
         smear_jobs_work(&c->jobs, worker);
 }
 

@@ -103,6 +103,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
+    suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then

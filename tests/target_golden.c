@@ -31,7 +31,7 @@ static bool has_format(const smear_desc *d)
 static enum outcome outcome_of(const struct tape *tape)
 {
     const smear_desc *d = tape->desc;
-    if (!has_format(d) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || (d->timed && !SMEAR_WITH_SUBFRAMES))
+    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || (d->timed && !SMEAR_WITH_SUBFRAMES))
         return REFUSED;
     enum outcome outcome = SAME_BITS;
     for (int i = 0; i < tape->frame_count; i++) {
@@ -49,6 +49,8 @@ static enum outcome outcome_of(const struct tape *tape)
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;
+            if (draw->id != 0 && !SMEAR_WITH_IDS)
+                return REFUSED;
             if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
                 || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))
                 return REFUSED;
