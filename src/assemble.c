@@ -294,9 +294,9 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
         const struct covered *p = &covered[i];
         uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
         struct smear_triangle *t = geometry_add(g, &g->opaque_last[geometry_row(g, p->y)]);
-        t->x = (uint16_t)p->x;
-        t->y = (uint16_t)p->y;
-        t->depth = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->vertex[POINT_X] = (uint16_t)p->x;
+        t->vertex[POINT_Y] = (uint16_t)p->y;
+        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
         t->segment = SMEAR_POINT;
         t->color = !segment_colored(s) ? color
                  : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));

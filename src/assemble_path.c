@@ -19,7 +19,7 @@ struct path_vertex {
     uint8_t outcode[KEYS];
 };
 
-_Static_assert(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
+SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
 static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
 {

@@ -53,7 +53,7 @@ static bool wants_smooth(const struct smear_chooser *chooser, const struct smear
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
-    bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0;
+    bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
     if (load->count == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
     } else if (chooser->method == SMEAR_SUBFRAMES) {
@@ -66,7 +66,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
         }
-    } else if (chooser_has_window(chooser) && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0
+    } else if (chooser_has_window(chooser) && (load->flags & PATH_WITHOUT_MASK) == 0
                && load->travel >= 8 * 16 && wants_smooth(chooser, load)) {
         choice->method = TILE_SMOOTH;
         choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);

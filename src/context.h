@@ -96,7 +96,7 @@ struct smear_context {
     uint8_t *band[2];
     uint32_t band_bytes;
     uint32_t bands_handed;
-    atomic_uint bands_sent;
+    unsigned bands_sent;
 
     int32_t filter_row;             /* rows taken by smear_filter_row */
     uint32_t worker_samples[SMEAR_WORKERS_MAX];

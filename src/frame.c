@@ -264,7 +264,7 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
 
 static void raster_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_context *c = r->c;
     struct smear_window *w = &c->window;
     struct smear_raster_target t;
@@ -285,7 +285,7 @@ static void raster_job(void *argument, int job, int worker)
 /* Blended draws straight over the window's rows: where no filter will read them. */
 static void blend_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->c, r->row, &t);
@@ -331,7 +331,7 @@ static void blend_row(struct smear_context *c, int row)
 
 static void convert_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->c, job, &x0, &x1);
@@ -351,7 +351,7 @@ static int finish_sharp(struct smear_context *c, int row)
 
 static void reduce_job(void *argument, int column, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     const struct smear_window *w = &r->c->window;
     (void)worker;
     if (w->moving[column])
@@ -392,7 +392,7 @@ static void convert_still(const struct row_job *r, int column)
 
 static void tile_job(void *argument, int column, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = &c->window;
     if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
@@ -646,7 +646,7 @@ static void prepare(struct smear_context *c)
         const smear_draw *d = &c->submitted[i].draw;
         struct smear_raster_draw *r = &c->raster_draw[i];
         const smear_material *m = d->material;
-        r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
+        r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
         r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
         if (SMEAR_WITH_TEXTURE && m != NULL && m->texture != NULL)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,

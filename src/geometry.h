@@ -20,16 +20,13 @@
 #define SMEAR_NO_TRIANGLE UINT32_MAX
 
 struct smear_triangle {
-    union {
-        uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen */
-        struct {
-            uint16_t x, y, depth;       /* a point: pixel and depth code */
-        };
-    };
+    uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen. A point: POINT_X ... */
     uint16_t segment;       /* SMEAR_POINT: a point */
     uint32_t next;          /* in its row's ring, later in the row's list */
     uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */
 };
+
+enum { POINT_X, POINT_Y, POINT_DEPTH };      /* pixel and depth code of a point */
 
 /* In place of a segment: opaque, without motion. */
 #define SMEAR_POINT 0xffffu

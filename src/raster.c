@@ -630,16 +630,16 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 /* A finished pixel. */
 static inline void draw_point(const struct smear_raster_target *target, const struct smear_triangle *t, bool moved)
 {
-    int32_t x = t->x, y = t->y - target->y0;
+    int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
     if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
         return;
     int32_t slot = target->window_rows.slot0 + y;
     if (slot >= target->window_rows.ring)
         slot -= target->window_rows.ring;
     int32_t at = slot * target->window_rows.stride + x - target->window_rows.x0;
-    if (t->depth <= target->depth[at])
+    if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
-    target->depth[at] = t->depth;
+    target->depth[at] = t->vertex[POINT_DEPTH];
     target->color[at] = t->color & 0xffffffu;
     if (SMEAR_WITH_RECONSTRUCT && moved && (target->velocity8 != NULL || target->velocity16 != NULL))
         smear_velocity_zero(target, at);

@@ -65,12 +65,12 @@ static uint32_t pool_words(const smear_desc *d)
     return max_u32(d->max_triangles * ((is_timed(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
 }
 
-_Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
-_Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
+SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
-_Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
-_Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
-_Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
 
 /* Measures or cuts all that a context needs; `c` receives the pieces. d is resolved. */
 static void layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
@@ -169,7 +169,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_memory_size(desc))
         return SMEAR_ERR_MEMORY;
 
-    struct smear_arena a = { memory, 0 };
+    struct smear_arena a = { (uint8_t *)memory, 0 };
     struct smear_context *c = arena_take(&a, 1, sizeof *c);
     *c = (struct smear_context){ 0 };
     layout(c, &a, &d);
@@ -354,8 +354,8 @@ int smear_render(smear_context *c)
 void smear_band_done(smear_context *c)
 {
     /* Only this function writes the word, so a plain increment is enough. */
-    unsigned sent = atomic_load_explicit(&c->bands_sent, memory_order_relaxed);
-    atomic_store_explicit(&c->bands_sent, sent + 1u, memory_order_release);
+    unsigned sent = word_own(&c->bands_sent);
+    word_write(&c->bands_sent, sent + 1u);
 }
 
 void smear_work(smear_context *c, int worker)

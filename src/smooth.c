@@ -300,7 +300,7 @@ bool smear_smooth_fit(struct smear_smooth_field *field, const struct smear_smoot
 {
     struct way w = { .ox = area->x0 * 256 + area->tile * 128, .oy = area->y0 * 256 + area->tile * 128 };
     struct sums sums = { 0 };
-    struct sample *sample = work;
+    struct sample *sample = (struct sample *)work;
     const uint32_t limit = work_bytes / sizeof *sample;
     const int32_t half = area->tile * 128 + (travel >> 1) + 256;    /* what is farther in the middle does not come here */
     const int32_t left = max_i32(w.ox - half, 0) >> 8 >> area->tile_shift, right = (w.ox + half) >> 8 >> area->tile_shift;

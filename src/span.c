@@ -402,7 +402,7 @@ static SMEAR_NOINLINE void run_texels_cut(const struct setup *s, uint32_t *color
     const struct smear_sampler *m = &s->draw->sampler;
     for (int32_t i = 0; i < n; i++, z += dz) {
         if (i >= first)
-            texel_pixel(color + i, depth + i, z, m->texels, run.at, m->log2_width, m->log2_height);
+            texel_pixel(color + i, depth + i, z, (const uint32_t *)m->texels, run.at, m->log2_width, m->log2_height);
         run.at += run.step;
         if (i & 1)
             run.step += run.bend;
@@ -415,7 +415,7 @@ static SMEAR_NOINLINE void row_exact(const struct setup *s, uint32_t *color, uin
 {
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
-    const uint32_t *texels = m->texels;
+    const uint32_t *texels = (const uint32_t *)m->texels;
     const int log2_width = m->log2_width, log2_height = m->log2_height, up = t->up;
     for (; n > 0; n--, color++, depth++) {
         if ((uint16_t)(z >> 16) > *depth) {
@@ -471,7 +471,7 @@ SMEAR_INLINE void rows_texel(const struct setup *s, const struct span_rows *r, i
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const uint32_t *texels = s->draw->sampler.texels;
+    const uint32_t *texels = (const uint32_t *)s->draw->sampler.texels;
     const bool in_pieces = s->slope == SLOPE_BOTH || s->writes_velocity || target->x0 > 0
                         || target->x1 < s->frame->width;
     int32_t row_q = plane_at(&t->q, 0, r->y), row_u = plane_at(&t->u, 0, r->y), row_v = plane_at(&t->v, 0, r->y);

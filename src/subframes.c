@@ -415,7 +415,7 @@ uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instant
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
     int32_t pixels = t->tile * t->tile;
     struct subframes f = { .t = t, .packed = !frame_is_linear(t->frame) && instants <= PACKED_MAX };
-    f.sum = t->work;
+    f.sum = (uint32_t *)t->work;
     f.listed = f.sum + 3 * pixels;
     f.times = (uint16_t *)(void *)(f.listed + LISTED);
     f.work = *s;

@@ -119,7 +119,7 @@ static void clear(const struct smear_raster_target *t, uint32_t color)
 
 static void still_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
     still_target(r->c, r->row, &t);
@@ -132,7 +132,7 @@ static void still_job(void *argument, int job, int worker)
 
 static void movers_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->c, r->row, &t);
@@ -154,7 +154,7 @@ struct finish {
 
 static bool is_still(const struct smear_tile_load *load)
 {
-    return load->count == 0 && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0;
+    return load->count == 0 && (load->flags & PATH_WITHOUT_MASK) == 0;
 }
 
 /* Still tiles go to the display as they lie, a run of them at once: the job of the run's first tile. */
@@ -219,7 +219,7 @@ static bool try_smooth(const struct finish *f, const struct smear_moving_tile *t
 
 static void finish_job(void *argument, int column, int worker)
 {
-    const struct finish *f = argument;
+    const struct finish *f = (const struct finish *)argument;
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
     struct smear_row_movers *m = movers_of(c, f->row.row);

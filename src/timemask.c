@@ -256,8 +256,8 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, m->record, pose, slots_log2,
                          j->settings->tap);
-    struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
-                         .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
+    struct painter p = { .shade = &s, .first = first, .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first,
+                         .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2 };
     for (int i = 0; i < 2; i++) {
         struct code_slope *k = &p.code[i];
         k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
@@ -362,7 +362,7 @@ size_t smear_timemask_work(int32_t tile)
 uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
 {
     const int log2 = height_log2(t->work_bytes), height = 1 << log2;
-    struct job j = { .tile = t, .settings = settings, .list = t->work };
+    struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
     smear_timemask_slots_place(&j.slots, j.list + LISTED, WIDTH_LOG2 + log2,
                                31 - count_leading_zeros((uint32_t)settings->slots), frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
