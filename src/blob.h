@@ -69,6 +69,7 @@ SMEAR_STATIC_ASSERT(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) =
                && sizeof(smear_model_target) == 16 && sizeof(smear_model_delta) == 8
                && sizeof(smear_model_clip) == 16 && sizeof(smear_model_channel) == 36, "no padding");
 
+#if SMEAR_WITH_MODEL
 /* Bytes of an element of each table. */
 static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(struct smear_blob_texture), sizeof(struct smear_blob_material), sizeof(struct smear_blob_mesh),
@@ -76,5 +77,6 @@ static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(smear_model_target), sizeof(smear_model_delta), 1, 2, sizeof(smear_model_clip),
     sizeof(smear_model_channel), 2, 2, 1
 };
+#endif
 
 #endif

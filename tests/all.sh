@@ -85,6 +85,7 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
 fi
 suite golden-host $make -s TARGET=host target-test
 suite switches $make -s switches-test
+suite dist $make -s dist-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 for name in $($make -s print-san-suites); do
