@@ -91,6 +91,7 @@ template-test: $(BUILD)/template-1 $(BUILD)/template-2
 # ---------------------------------------------------------------------- demo
 
 DISPLAY_SRC ?= platform/host/display.c
+SYMBOLS_PROGRAMS ?= $(BUILD)/demo$(EXE)
 DEMO_SCREEN ?= pico
 DEMO_LOOPS  ?= oled:6 gba:6
 
@@ -210,6 +211,12 @@ model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 ## what its frames cost on TARGET
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+
+# No floating point, no 64-bit division, no C library: of the library and the demo as they are linked.
+.PHONY: symbols-test
+## what the firmware calls, from its symbols
+symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
+	sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

@@ -13,6 +13,9 @@ SCRIPTS += platform/microbit/tiny.ld
 
 # Golden frames want all that was left out: `make switches-test`, and the frames of tiny-test.
 TARGET_TESTS :=
+# An archive to be optimized when it is linked has no symbols of its own yet.
+SYMBOLS_LIB      := -
+SYMBOLS_PROGRAMS = $(BUILD)/tiny$(EXE)
 FILE_SRC     := platform/microbit/file.c
 $(BUILD)/platform/tiny.o: CFLAGS += -DTINY_MEMORY=$(TINY_MEMORY)
 # smear_memory_size() of its desc, exactly.
@@ -20,5 +23,6 @@ TINY_MEMORY := 9108
 
 # The library is optimized as a whole: 1 kB less.
 AR      := arm-none-eabi-gcc-ar
+
 LDFLAGS += -Os -flto
 $(BUILD)/src/%.o: CFLAGS += -flto
