@@ -158,22 +158,59 @@ static void row_rgb565_any(uint16_t *out, const uint32_t *in, int32_t n, bool sw
         row_rgb565(out, in, n, false);
 }
 
-static void row_16bit(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
-                      smear_format format, smear_dither dither)
+/* Thresholds of row y in 1/256 of a level: threshold[x & mask]. */
+static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32_t *mask)
 {
-    static const uint32_t levels565[3] = { 31, 63, 31 }, levels555[3] = { 31, 31, 31 };
-    for (int32_t i = 0; i < n; i++, out += 2) {
-        uint32_t c[3], packed;
-        if (format == SMEAR_RGB555) {
-            rgb_levels(in[i], x + i, y, dither, c, levels555);
-            packed = c[2] << 10 | c[1] << 5 | c[0];
-        } else {
-            rgb_levels(in[i], x + i, y, dither, c, levels565);
-            packed = c[0] << 11 | c[1] << 5 | c[2];
+    if (SMEAR_WITH_BLUE_DITHER && dither == SMEAR_DITHER_BLUE) {
+        *mask = 31;
+        return smear_dither_blue + ((y & 31) << 5);
+    }
+    *mask = 7;
+    return smear_dither_ordered + ((y & 7) << 3);
+}
+
+/* A code's level in q16, without a threshold: level_dithered adds it. */
+static inline uint32_t level_q16(uint32_t code, uint32_t levels)
+{
+    return code * (257u * levels) + (code >> 7) * levels;
+}
+
+/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Neighbours often are of one
+ * colour: only thresholds differ then. */
+SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
+                                     smear_dither dither, bool is_555, bool swapped)
+{
+    int32_t mask;
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
+    uint32_t last = ~*in, high = 0, green = 0, low = 0;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t p = in[i], t = (uint32_t)threshold[(x + i) & mask] << 8;
+        if (p != last) {
+            last = p;
+            high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
+            green = level_q16(pixel_green(p), is_555 ? 31 : 63);
+            low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
         }
-        int low = format == SMEAR_RGB565_SWAPPED ? 1 : 0;
-        out[low] = (uint8_t)packed;
-        out[1 - low] = (uint8_t)(packed >> 8);
+        uint32_t packed = (is_555 ? (high + t) >> 6 & 0x7c00u : (high + t) >> 5 & 0xf800u) | ((green + t) >> 11 & 0x7e0u)
+                        | (low + t) >> 16;
+        out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
+    }
+}
+
+static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
+                      smear_dither dither)
+{
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, swapped = (format == SMEAR_RGB565_SWAPPED) != big;
+    if (!is_dithered(dither)) {
+        for (int32_t i = 0; SMEAR_WITH_RGB555 && i < n; i++) {
+            uint32_t p = in[i], packed = level_nearest(pixel_blue(p), 31) << 10 | level_nearest(pixel_green(p), 31) << 5
+                                       | level_nearest(pixel_red(p), 31);
+            out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
+        }
+    } else if (SMEAR_WITH_RGB555 && format == SMEAR_RGB555) {
+        row_16bit_dithered(out, in, n, x, y, dither, true, swapped);
+    } else {
+        row_16bit_dithered(out, in, n, x, y, dither, false, swapped);
     }
 }
 
@@ -207,10 +244,23 @@ static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
 
 static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
 {
+    int32_t mask;
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
+    const bool dithered = is_dithered(dither);
+    uint32_t last = ~*in, grey = 0, left = 0;
+    uint8_t *pair = row + x / 2;
     for (int32_t i = 0; i < n; i++) {
-        uint32_t level = grey_level(in[i], x + i, y, 15, dither);
-        uint8_t *pair = row + (x + i) / 2;
-        *pair = (x + i) & 1 ? (uint8_t)(*pair | level) : (uint8_t)(level << 4);
+        if (in[i] != last) {
+            last = in[i];
+            grey = dithered ? level_q16(luma(last), 15) : level_nearest(luma(last), 15) << 16;
+        }
+        uint32_t level = (grey + (dithered ? (uint32_t)threshold[(x + i) & mask] << 8 : 0u)) >> 16;
+        if (((x + i) & 1) != 0) {
+            *pair++ = (uint8_t)(left | level);
+        } else {
+            left = level << 4;
+            *pair = (uint8_t)left;
+        }
     }
 }
 
@@ -242,7 +292,7 @@ void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32
         row_rgb565_any((uint16_t *)(void *)row + x, in, n, format == SMEAR_RGB565_SWAPPED);
     else if ((SMEAR_WITH_RGB565 && SMEAR_WITH_DITHER && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
              || (SMEAR_WITH_RGB555 && format == SMEAR_RGB555))
-        row_16bit(row + 2 * x, in, n, x, y, format, dither);
+        row_16bit((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
     else if (SMEAR_WITH_RGB332 && format == SMEAR_RGB332)
         row_rgb332(row + x, in, n, x, y, dither);
     else if (SMEAR_WITH_L8 && format == SMEAR_L8)
