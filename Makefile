@@ -31,7 +31,7 @@ include platform/$(TARGET)/target.mk
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
 LAYERS := base fixed tables fixmath pixel arena matrix arc transform light clip geometry path shutter record tiny assemble \
           assemble_path texture target mover setup span velocity raster subframes timemask_cover timemask_shade \
-          timemask_slots timemask smooth choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
+          timemask_slots timemask_spread timemask choose window tilemax blur blur_uniform blur_reconstruct convert jobs context \
           band timed frame smear
 # The optional module that opens and plays models; a firmware that does not call it does not link it.
 LAYERS += blob model skin anim

@@ -353,16 +353,15 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_TIMED_WORK_BYTES(tile) \
     (SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) > 8192u ? SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) + 512u : 8192u)
 
-/* With `timed`, beyond what is there without: movers and tile loads of `rows` rows, work, longer triangles. */
-#define SMEAR_TIMED_BYTES(width, height, triangles, tile, rows) \
-    ((rows) * (SMEAR_ALIGN8((size_t)(triangles) * 8u) \
-               + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 10u)) \
+/* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
+#define SMEAR_TIMED_BYTES(width, height, triangles, tile) \
+    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 10u) \
      + SMEAR_TIMED_WORK_BYTES(tile) \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
      + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \
      + SMEAR_ALIGN8(((size_t)(triangles) * SMEAR_TIMED_TRIANGLE_BYTES / 200000u + 1u) * SMEAR_SEGMENT_BYTES))
 
-/* Of a desc with `timed` and with `sharp`: no window, so tiles are never smooth. Give the tile, not 0. */
+/* Of a desc with `timed` and with `sharp`: no window. Give the tile, not 0. */
 #define SMEAR_MEMORY_SIZE_TIMED(width, height, triangles, draws, tile) \
     (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
@@ -375,13 +374,12 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
      + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
                     * SMEAR_SEGMENT_BYTES) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile, 1u))
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile))
 
-/* Of a desc with `timed` and a window: as SMEAR_MEMORY_SIZE, and two tile rows of the still scene. */
+/* Of a desc with `timed` and a window for SMEAR_RECONSTRUCT. */
 #define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \
     (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-     + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * 2u * (tile) * 2u) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile, 3u))
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile))
 
 /* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
  * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */

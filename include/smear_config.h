@@ -25,7 +25,7 @@
 #ifndef SMEAR_WITH_ACCUMULATE
 #define SMEAR_WITH_ACCUMULATE SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, smear_filter_begin and velocities */
+#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, smear_filter_begin, velocities; without it every desc is `sharp` */
 #define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at several instants: no desc.timed */
@@ -33,9 +33,6 @@
 #endif
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
 #define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
-#endif
-#ifndef SMEAR_WITH_SMOOTH               /* smooth tiles of SMEAR_AUTO; needs SMEAR_WITH_SUBFRAMES */
-#define SMEAR_WITH_SMOOTH (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
 
 /* Surfaces. */
@@ -101,15 +98,12 @@
 #define SMEAR_WITH_MODEL SMEAR_WITH_ALL
 #endif
 
-#if !SMEAR_WITH_SUBFRAMES && (SMEAR_WITH_TIMEMASK || SMEAR_WITH_SMOOTH)
-#error "SMEAR_WITH_TIMEMASK and SMEAR_WITH_SMOOTH need SMEAR_WITH_SUBFRAMES"
+#if SMEAR_WITH_TIMEMASK && !SMEAR_WITH_SUBFRAMES
+#error "SMEAR_WITH_TIMEMASK needs SMEAR_WITH_SUBFRAMES"
 #endif
 #if (SMEAR_WITH_BILINEAR && !SMEAR_WITH_TEXTURE) || (SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER)
 #error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
-
-/* What follows: with neither, every context is `sharp`. */
-#define SMEAR_WITH_WINDOW (SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SMOOTH)
 
 /* 1 when the core multiplies 32 x 32 to 64 bits in an instruction. 0 builds high products from 16-bit
  * halves instead of calling the compiler's 64-bit multiply; the bits are the same. */

@@ -4,6 +4,7 @@
 /^<!-- [a-z]+ -->$/ {
     print
     name = $2
+    found[name] = 1
     print "```"
     while ((getline line < ("build/" name ".txt")) > 0)
         print line

@@ -53,21 +53,20 @@ for pair in "$@"; do
     printf '%-34s %7d %s\n' everything "$flash" "$line"
     for switch in $(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_config.h | grep -v _ALL); do
         case $switch in
-        SMEAR_WITH_SUBFRAMES) measure $switch -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_SMOOTH=0 ;;
+        SMEAR_WITH_SUBFRAMES) measure $switch -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 ;;
         *) measure $switch -D$switch=0 ;;
         esac
         printf '%-34s %7d %s\n' "  $switch=0" $((flash - everything)) "$line"
     done
     one="-DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -DSMEAR_WITH_DITHER=1"
     # shellcheck disable=SC2086
-    for set in sharp accumulate reconstruct subframes timemask auto; do
+    for set in sharp accumulate reconstruct subframes auto; do
         case $set in
         sharp) measure $set $one ;;
         accumulate) measure $set $one -DSMEAR_WITH_ACCUMULATE=1 ;;
         reconstruct) measure $set $one -DSMEAR_WITH_RECONSTRUCT=1 ;;
         subframes) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 ;;
-        timemask) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1 ;;
-        auto) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1 -DSMEAR_WITH_SMOOTH=1 ;;
+        auto) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1 ;;
         esac
         printf '%-34s %7d %s\n' "only RGB565, $set" "$flash" "$line"
     done

@@ -151,6 +151,26 @@ static bool has_room(struct path_batch *b)
     return true;
 }
 
+/* There must be room. */
+static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds, const uint16_t vertex[3],
+                          const struct smear_face *face)
+{
+    struct smear_geometry *g = b->a->geometry;
+    const int32_t *record[3];
+    for (int i = 0; i < 3; i++)
+        record[i] = geometry_vertex(g, b->segment, vertex[i]);
+    uint32_t color = smear_face_color(b->d, b->segment, face);
+    if (smear_record_level(&color, b->segment, record, b->d->shading.linear))
+        bounds->flags |= PATH_LEVEL;
+    struct smear_triangle *t = geometry_add_path(g, list_of(b, bounds), bounds);
+    for (int i = 0; i < 3; i++)
+        t->vertex[i] = vertex[i];
+    t->segment = (uint16_t)(b->segment - g->segment);
+    t->color = color;
+    b->a->path_count++;
+    b->a->triangles_drawn++;
+}
+
 /* Three vertices, clockwise on the screen where the triangle is seen from the side that is drawn. */
 static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1, struct path_vertex *v2,
                          uint32_t triangle, bool back)
@@ -165,15 +185,9 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
     uint16_t offset0 = (uint16_t)(store_vertex(b, v0, triangle, back) - base);
     uint16_t offset1 = (uint16_t)(store_vertex(b, v1, triangle, back) - base);
     uint16_t offset2 = (uint16_t)(store_vertex(b, v2, triangle, back) - base);
-    struct smear_triangle *t = geometry_add_path(b->a->geometry, list_of(b, &bounds), &bounds);
     struct smear_face face = smear_face_of(b->d, triangle, back);
-    t->vertex[0] = offset0;
-    t->vertex[1] = offset1;
-    t->vertex[2] = offset2;
-    t->segment = (uint16_t)(b->segment - b->a->geometry->segment);
-    t->color = smear_face_color(b->d, b->segment, &face);
-    b->a->path_count++;
-    b->a->triangles_drawn++;
+    const uint16_t offset[3] = { offset0, offset1, offset2 };
+    list_triangle(b, &bounds, offset, &face);
     return true;
 }
 
@@ -274,13 +288,7 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     uint16_t offset[3];
     for (int k = 0; k < 3; k++)
         offset[k] = (uint16_t)(store_corner(b, p, fan[k]) - s->base);
-    struct smear_triangle *t = geometry_add_path(b->a->geometry, list_of(b, &bounds), &bounds);
-    b->a->path_count++;
-    b->a->triangles_drawn++;
-    t->segment = (uint16_t)(s - b->a->geometry->segment);
-    t->color = smear_face_color(b->d, s, face);
-    for (int k = 0; k < 3; k++)
-        t->vertex[k] = offset[k];
+    list_triangle(b, &bounds, offset, face);
     return true;
 }
 

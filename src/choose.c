@@ -12,7 +12,7 @@ struct preset {
     int32_t target;             /* from this error on, 1/64 codes */
     int32_t step;               /* travel from one instant to the next, 1/16 px */
     int32_t least, most;        /* instants, however short the way; and up to which they are taken */
-    int32_t slots, edge, tap;   /* as in struct smear_timemask_settings */
+    int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
 enum { INSTANTS_MAX = 64 };
@@ -20,9 +20,9 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768 },
-        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512 },
-        { 0, 8, 6, 0, 32, 8, 256 }
+        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768, 2 },
+        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512, 3 },
+        { 0, 8, 6, 0, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -36,18 +36,12 @@ static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
     return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
 }
 
-static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap)
+static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
+                            int32_t sparse)
 {
     choice->method = TILE_TIMEMASK;
-    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap };
-}
-
-/* Means along the ways of pixels of the sharp picture take over its aliasing: edges and thin things come out a fraction of
- * a pixel wrong. Over texels that is nothing new, and taps along the way of a texture are dear for every other method. */
-static bool wants_smooth(const struct smear_chooser *chooser, const struct smear_tile_load *load)
-{
-    return chooser->target >= SMEAR_DRAFT
-        || (chooser->target >= SMEAR_BALANCED && (load->flags & PATH_TEXTURED) != 0);
+    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, bend, edge, tap,
+                                                            sparse };
 }
 
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
@@ -61,23 +55,18 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choice->instants = instants_for(load, chooser->samples);
     } else if (chooser->method == SMEAR_TIMEMASK) {
         if (closed_form) {
-            choose_timemask(choice, chooser->samples, 16, 6, 256);
+            choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = instants_for(load, chooser->samples);
         }
-    } else if (chooser_has_window(chooser) && (load->flags & PATH_WITHOUT_MASK) == 0
-               && load->travel >= 8 * 16 && wants_smooth(chooser, load)) {
-        choice->method = TILE_SMOOTH;
-        choice->tolerance = max_i32(min_i32(chooser->target * 2, 256), load->travel * 16 / 24);
-        choice->taps = max_i32(load->travel >> 4, 8);
     } else {
         const struct preset *p = preset_of(chooser->target);
         int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
         if (closed_form && instants > p->most) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
-                            p->tap);
+                            p->tap, p->sparse);
         } else {
             choice->method = TILE_SUBFRAMES;
             choice->instants = min_i32(instants, INSTANTS_MAX);

@@ -3,7 +3,6 @@
 #ifndef SMEAR_CHOOSE_H
 #define SMEAR_CHOOSE_H
 
-#include "smooth.h"
 #include "timemask.h"
 
 /* The movers of a tile: all that may be seen there during the exposure. */
@@ -19,11 +18,11 @@ enum {
     PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
 };
 
+/* TILE_SMOOTH: a time mask whose samples lie apart. */
 enum smear_tile_method { TILE_COPY, TILE_SMOOTH, TILE_SUBFRAMES, TILE_TIMEMASK };
 
 struct smear_tile_choice {
     enum smear_tile_method method;
-    int32_t tolerance, taps;                    /* TILE_SMOOTH: if the field fits to this, q8 px */
     int32_t instants;                           /* TILE_SUBFRAMES */
     struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
@@ -32,12 +31,9 @@ struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
     int32_t target;             /* 1/64 codes */
-    bool has_window;            /* TILE_SMOOTH can be had */
 };
 
-static inline bool chooser_has_window(const struct smear_chooser *c) { return SMEAR_WITH_SMOOTH && c->has_window; }
-
-/* The method of a tile. TILE_SMOOTH is a wish: where it cannot be had, ask again with a chooser without a window. */
+/* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);
 

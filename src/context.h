@@ -48,9 +48,6 @@ struct smear_row_movers {
     struct smear_tile_load *load;               /* per tile */
 };
 
-/* Smooth tiles look at the movers of their own row and of its neighbours. */
-enum { ROWS_LISTED = 3 };
-
 struct smear_context {
     smear_desc desc;                /* defaults filled in */
     enum smear_state state;
@@ -78,19 +75,16 @@ struct smear_context {
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     smear_sum *sums;                /* accumulate: r g b per pixel of the frame, or of a band */
-    int32_t sums_top;               /* first row they are of */
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
-    struct smear_row_movers row_movers[ROWS_LISTED];    /* with smooth tiles row r at r % 3, else the first */
+    struct smear_row_movers row_movers;     /* of the row being drawn */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     uint32_t moving;                /* list of the row being drawn */
-    uint32_t *still_color;          /* with smooth tiles: two tile rows without movers */
-    uint16_t *still_depth;
-
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
+    int32_t sums_top;               /* first row of the sums */
 
     /* bands */
     uint8_t *band[2];

@@ -504,12 +504,10 @@ static int render_reconstruct(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    /* With smooth tiles the row above waits, and looks at the one above it. */
-    bool waits = chooser_has_window(&c->chooser);
     for (int row = 0, end; row < c->window.rows; row = end) {
-        int top = waits ? max_i32(row - 2, 0) : row;
-        end = assemble_part(c, &top, waits ? max_i32(row - 1, 0) : row, row, c->window.rows, &middle);
-        int result = smear_timed_rows(c, top, row, end);
+        int top = row;
+        end = assemble_part(c, &top, row, row, c->window.rows, &middle);
+        int result = smear_timed_rows(c, row, end);
         if (result != SMEAR_OK)
             return result;
     }
@@ -624,9 +622,7 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = c->frame.method == SMEAR_RECONSTRUCT;
     c->assembler.keep_paths = c->frame.method >= SMEAR_SUBFRAMES;
-    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
-                                         false };
-    bool textured = false;
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
@@ -652,11 +648,8 @@ static void prepare(struct smear_context *c)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
         c->blends = c->blends || (SMEAR_WITH_ALPHA && r->alpha == SMEAR_BLEND);
-        textured = textured || (m != NULL && m->texture != NULL);
         s->triangles_in += d->mesh->triangle_count;
     }
-    c->chooser.has_window = SMEAR_WITH_SMOOTH && c->frame.method == SMEAR_AUTO && !c->desc.sharp
-                         && c->frame.target >= (textured ? SMEAR_BALANCED : SMEAR_DRAFT);
 }
 
 static void sum_up(struct smear_context *c)

@@ -45,7 +45,8 @@ struct smear_path_bounds {
 enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
-    PATH_PIECE = 4          /* there for a piece of the exposure only */
+    PATH_PIECE = 4,         /* there for a piece of the exposure only */
+    PATH_LEVEL = 8          /* vertices of (nearly) one colour, which is the triangle's `color` */
 };
 
 enum { PATH_PIECES = 16 };

@@ -2,6 +2,10 @@
 /* record.c - layouts of vertex records, and the colours of vertices and faces. */
 #include "record.h"
 
+#include "pixel.h"
+
+enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
+
 #include "path.h"
 
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d)
@@ -67,6 +71,34 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
     struct smear_color color;
     smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
     return smear_color_pack(&color, shading_is_linear(&d->shading));
+}
+
+/* The code of channel c (r g b) of a vertex, as pixels get it (see channel_value in setup.h). */
+static uint32_t channel_code(const struct smear_segment *s, const int32_t *record, int c, bool linear)
+{
+    uint32_t word = (uint32_t)record[s->color + (c >> 1)];
+    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
+    return linear ? smear_srgb_encode[clamp_i32(a, 0x400, 0xffe000) >> 12] : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
+}
+
+bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], bool linear)
+{
+    if (s->shade != SHADE_GOURAUD || s->uv != 0)
+        return false;
+    uint32_t mean = 0;
+    for (int c = 0; c < 3; c++) {
+        uint32_t least = 255, most = 0;
+        for (int i = 0; i < 3; i++) {
+            uint32_t code = channel_code(s, record[i], c, linear);
+            least = min_u32(least, code);
+            most = max_u32(most, code);
+        }
+        if (most - least > LEVEL_CODES)
+            return false;
+        mean = mean << 8 | (least + most) >> 1;
+    }
+    *color = mean;
+    return true;
 }
 
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)

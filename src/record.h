@@ -111,6 +111,9 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
 void smear_record_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
                         const uint8_t *face_color, uint32_t face_cosine, bool flip);
 
+/* Whether three stored vertices have one colour, or nearly, and there is no texture. */
+bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], bool linear);
+
 /* ------------------------------------------------------------------ faces */
 
 /* What a triangle has in common. */

@@ -19,7 +19,7 @@ static bool has_method(int method)
          : method == SMEAR_TIMEMASK ? SMEAR_WITH_TIMEMASK : method >= SMEAR_SUBFRAMES ? SMEAR_WITH_SUBFRAMES : true;
 }
 
-static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_WINDOW && !d->sharp; }
+static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
 
 /* Fills in defaults; false when something is out of range. */
@@ -27,7 +27,7 @@ static bool resolve(smear_desc *d)
 {
     if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2)
         return false;
-    if (!SMEAR_WITH_WINDOW)
+    if (!SMEAR_WITH_RECONSTRUCT)
         d->sharp = 1;
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
         return false;
@@ -90,27 +90,20 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     w->velocity8 = NULL;
     w->velocity16 = NULL;
     if (has_window(d)) {
-        if (SMEAR_WITH_RECONSTRUCT) {
-            if (d->reach <= 15)
-                w->velocity8 = arena_take(a, plane, 2);
-            else
-                w->velocity16 = arena_take(a, plane, 4);
-            w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
-            w->around = arena_take(a, 3 * columns, sizeof *w->around);
-        }
+        if (d->reach <= 15)
+            w->velocity8 = arena_take(a, plane, 2);
+        else
+            w->velocity16 = arena_take(a, plane, 4);
+        w->motion = arena_take(a, 3 * columns, sizeof *w->motion);
+        w->around = arena_take(a, 3 * columns, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
     if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
-        for (int i = 0; i < (has_window(d) ? ROWS_LISTED : 1); i++) {
-            c->row_movers[i].mover = arena_take(a, d->max_triangles, sizeof *c->row_movers[i].mover);
-            c->row_movers[i].load = arena_take(a, columns, sizeof *c->row_movers[i].load);
-        }
-        size_t still = has_window(d) ? 2 * (size_t)d->width * (size_t)d->tile : 0;
-        c->still_color = arena_take(a, still, 4);
-        c->still_depth = arena_take(a, still, 2);
+        c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
+        c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
         c->work_bytes = (uint32_t)smear_subframes_work(d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));

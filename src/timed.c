@@ -1,22 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* timed.c - tile rows by methods that look at several instants.
  *
- *     still       triangles that do not move, into the window; with smooth tiles (smooth.h) into rows of their own
+ *     still       triangles that do not move, into the row's pixels
  *     list        movers of the row, and what they mean for its tiles
- *     movers      with smooth tiles: as they are in the middle of the exposure, into the window
- *     finish      each tile by its method (choose.h): a copy, a smooth field, a time mask, or subframes; then flush
- *
- * Smooth tiles take pixels from their neighbours, so a row is finished when the one below it has been drawn. */
+ *     finish      each tile by its method (choose.h): a copy, a time mask, or subframes; then flush
+ */
 #include "timed.h"
 
 #include "pixel.h"
 
 /* ------------------------------------------------------------------ lists */
-
-static struct smear_row_movers *movers_of(struct smear_context *c, int row)
-{
-    return &c->row_movers[chooser_has_window(&c->chooser) ? row % ROWS_LISTED : 0];
-}
 
 /* What columns [x0, x1) of pixels hold; with bounds, of one mover. */
 static void load_tiles(const struct smear_context *c, struct smear_row_movers *r, int32_t x0, int32_t x1,
@@ -68,7 +61,7 @@ static void load_list(const struct smear_context *c, struct smear_row_movers *r,
 static void list_movers(struct smear_context *c, int row)
 {
     const struct smear_geometry *g = &c->geometry;
-    struct smear_row_movers *r = movers_of(c, row);
+    struct smear_row_movers *r = &c->row_movers;
     int shift = c->window.tile_shift;
     for (int32_t i = 0; i < c->window.columns; i++)
         r->load[i] = (struct smear_tile_load){ 0, 0, 0, 0, 0 };
@@ -88,22 +81,10 @@ static void list_blended(struct smear_context *c, int row)
     if (!c->blends)
         return;
     c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
-    load_list(c, movers_of(c, row), c->blend);
+    load_list(c, &c->row_movers, c->blend);
 }
 
 /* ------------------------------------------------------------------ drawing */
-
-/* Rows of the still scene. */
-static void still_target(const struct smear_context *c, int row, struct smear_raster_target *t)
-{
-    smear_row_target(c, row, t);
-    if (!chooser_has_window(&c->chooser))
-        return;
-    int32_t rows = 2 * c->window.tile;
-    t->color = c->still_color;
-    t->depth = c->still_depth;
-    t->color_rows = t->window_rows = (struct smear_plane_rows){ c->window.width, (row & 1) * c->window.tile, rows, 0 };
-}
 
 static void clear(const struct smear_raster_target *t, uint32_t color)
 {
@@ -122,25 +103,12 @@ static void still_job(void *argument, int job, int worker)
     const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
-    still_target(r->c, r->row, &t);
+    smear_row_target(r->c, r->row, &t);
     smear_job_columns(r->c, job, &t.x0, &t.x1);
     if (t.x0 >= t.x1)
         return;
     clear(&t, r->c->frame.clear & 0xffffffu);
     smear_raster_list(&r->c->raster, &t, r->c->opaque);
-}
-
-static void movers_job(void *argument, int job, int worker)
-{
-    const struct row_job *r = (const struct row_job *)argument;
-    struct smear_raster_target t;
-    (void)worker;
-    smear_row_target(r->c, r->row, &t);
-    smear_job_columns(r->c, job, &t.x0, &t.x1);
-    if (t.x0 >= t.x1)
-        return;
-    clear(&t, 0);
-    smear_raster_list(&r->c->raster, &t, r->c->moving);
 }
 
 /* ------------------------------------------------------------------ tiles */
@@ -149,7 +117,6 @@ static void movers_job(void *argument, int job, int worker)
 struct finish {
     struct row_job row;
     struct smear_raster_target still;
-    int first, last;            /* rows whose lists and pixels are there */
 };
 
 static bool is_still(const struct smear_tile_load *load)
@@ -184,45 +151,12 @@ static void blend_still(const struct smear_moving_tile *t, const struct smear_co
     smear_raster_list(&c->raster, &over, t->blend);
 }
 
-/* A tile whose movers move as one. False when they do not, or when pixels are needed that are not there. */
-static bool try_smooth(const struct finish *f, const struct smear_moving_tile *t, const struct smear_tile_choice *choice,
-                       int column, int worker)
-{
-    struct smear_context *c = f->row.c;
-    const struct smear_window *w = &c->window;
-    const struct smear_smooth_area area = { t->still.x0, t->still.y0, t->still.x1, t->still.y1, w->tile, w->tile_shift };
-    struct smear_smooth_list list[ROWS_LISTED];
-    struct smear_smooth_field field;
-    int lists = 0, row = f->row.row;
-    list[lists++] = (struct smear_smooth_list){ t->mover, t->mover_count };
-    for (int k = row - 1; k <= row + 1; k += 2)
-        if (k >= f->first && k <= f->last)
-            list[lists++] = (struct smear_smooth_list){ movers_of(c, k)->mover, movers_of(c, k)->count };
-    if (!smear_smooth_fit(&field, &area, &c->geometry, list, lists, movers_of(c, row)->load[column].travel * 16,
-                          choice->tolerance, t->work, t->work_bytes))
-        return false;
-    /* The frame's outermost row may stand for the one beyond it. */
-    int32_t top = max_i32(area.y0 - field.reach_y, -1), bottom = min_i32(area.y1 + field.reach_y, w->height + 1);
-    if (area.x0 < field.reach_x || area.x1 + field.reach_x > w->width || field.reach_y > w->reach
-        || top > area.y0 - field.reach_y || bottom < area.y1 + field.reach_y
-        || max_i32(top, 0) < row_top(c, f->first) || min_i32(bottom, w->height) > row_bottom(c, f->last))
-        return false;
-    const struct smear_raster_target *s = &t->still;
-    struct smear_smooth_source source = {
-        w->color, w->depth, c->row_offset, area.y0 - w->reach,
-        s->color + target_row(&s->color_rows, s, s->y0) + s->x0, s->depth + target_row(&s->window_rows, s, s->y0) + s->x0,
-        s->color_rows.stride
-    };
-    c->worker_samples[worker] += smear_smooth_tile(t->out, &source, &field, &area, choice->taps, c->raster.linear);
-    return true;
-}
-
 static void finish_job(void *argument, int column, int worker)
 {
     const struct finish *f = (const struct finish *)argument;
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
-    struct smear_row_movers *m = movers_of(c, f->row.row);
+    const struct smear_row_movers *m = &c->row_movers;
     struct smear_tile_load *load = &m->load[column];
     if (is_still(load)) {
         load->method = TILE_COPY;
@@ -238,26 +172,24 @@ static void finish_job(void *argument, int column, int worker)
     t.still.x1 = tile_right(c, column);
     struct smear_tile_choice choice;
     smear_choose(&choice, &c->chooser, load);
-    if (SMEAR_WITH_SMOOTH && choice.method == TILE_SMOOTH && !try_smooth(f, &t, &choice, column, worker)) {
-        struct smear_chooser closed = c->chooser;
-        closed.has_window = false;
-        smear_choose(&choice, &closed, load);
-    }
-    if (SMEAR_WITH_TIMEMASK && choice.method == TILE_TIMEMASK)
-        c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask);
-    else if (choice.method == TILE_SUBFRAMES)
-        c->worker_samples[worker] += smear_subframes_tile(&t, choice.instants);
-    else if (choice.method == TILE_COPY)
-        blend_still(&t, c);
     load->method = (uint8_t)choice.method;
+    if (SMEAR_WITH_TIMEMASK && choice.method == TILE_TIMEMASK) {
+        bool is_smooth;
+        c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask, &is_smooth);
+        load->method = is_smooth ? TILE_SMOOTH : TILE_TIMEMASK;
+    } else if (choice.method == TILE_SUBFRAMES) {
+        c->worker_samples[worker] += smear_subframes_tile(&t, choice.instants);
+    } else {
+        blend_still(&t, c);
+    }
     smear_band_convert_tile(&f->row, column, t.out);
 }
 
 /* ------------------------------------------------------------------ rows */
 
-static void count_tiles(struct smear_context *c, int row)
+static void count_tiles(struct smear_context *c)
 {
-    const struct smear_tile_load *load = movers_of(c, row)->load;
+    const struct smear_tile_load *load = c->row_movers.load;
     smear_stats *s = &c->stats;
     for (int32_t i = 0; i < c->window.columns; i++) {
         s->tiles_still += load[i].method == TILE_COPY;
@@ -270,47 +202,28 @@ static void count_tiles(struct smear_context *c, int row)
     }
 }
 
-static int finish_row(struct smear_context *c, int row, int first, int last)
+static int finish_row(struct smear_context *c, int row)
 {
-    const struct smear_window *w = &c->window;
     uint32_t start = stage_start(c);
-    struct finish finish = { .row = { c, row, smear_band_begin(c) }, .first = first, .last = last };
-    still_target(c, row, &finish.still);
+    struct finish finish = { .row = { c, row, smear_band_begin(c) } };
+    smear_row_target(c, row, &finish.still);
     list_blended(c, row);
-    if (chooser_has_window(&c->chooser)) {
-        int32_t top = row_top(c, row) - w->reach;
-        for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
-            c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(top + i, 0, w->height - 1)) * w->width);
-    }
-    smear_jobs_run(&c->jobs, finish_job, &finish, w->columns);
-    count_tiles(c, row);
+    smear_jobs_run(&c->jobs, finish_job, &finish, c->window.columns);
+    count_tiles(c);
     stage_end(c, &c->stats.time_blur, start);
     return smear_band_flush(c, row, finish.row.band);
 }
 
-int smear_timed_rows(struct smear_context *c, int top, int first, int end)
+int smear_timed_rows(struct smear_context *c, int first, int end)
 {
-    for (int row = top; row < first; row++) {       /* drawn before; all but the last are finished, too */
-        list_movers(c, row);
-        if (row < first - 1)
-            list_blended(c, row);
-    }
     for (int row = first; row < end; row++) {
         uint32_t start = stage_start(c);
         struct row_job job = { c, row, NULL };
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
         smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
         list_movers(c, row);
-        if (chooser_has_window(&c->chooser))
-            smear_jobs_run(&c->jobs, movers_job, &job, c->jobs.workers);
         stage_end(c, &c->stats.time_raster, start);
-        int result = SMEAR_OK;
-        if (!chooser_has_window(&c->chooser))
-            result = finish_row(c, row, row, row);
-        else if (row > 0)
-            result = finish_row(c, row - 1, top, row);
-        if (result == SMEAR_OK && chooser_has_window(&c->chooser) && row == c->window.rows - 1)
-            result = finish_row(c, row, top, row);
+        int result = finish_row(c, row);
         if (result != SMEAR_OK)
             return result;
     }

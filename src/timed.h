@@ -5,9 +5,8 @@
 
 #include "band.h"
 
-/* Draws the tile rows [first, end), a part of the frame that has been assembled from row `top` on; finishes and hands out
- * what can be: with smooth tiles the last row waits for the next part, unless it is the frame's. Returns as
+/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
  * smear_band_flush. */
-int smear_timed_rows(struct smear_context *c, int top, int first, int end);
+int smear_timed_rows(struct smear_context *c, int first, int end);
 
 #endif

@@ -4,8 +4,7 @@
 
 enum {
     SLOT_Q = 14,                /* fraction bits of slots in planes */
-    BENT_Q = 12,                /* after a multiplication with bends */
-    MIDDLE_X = TIMEMASK_WIDTH / 2, MIDDLE_Y = TIMEMASK_HEIGHT / 2
+    BENT_Q = 12                 /* after a multiplication with bends */
 };
 
 /* ------------------------------------------------------------------ bounds */
@@ -102,9 +101,10 @@ static struct timemask_plane bow_of(const struct timemask_plane *start, const st
 }
 
 /* Largest magnitude in the block, or a bit more. */
-static inline int32_t plane_size(const struct timemask_plane *p)
+static inline int32_t plane_size(const struct timemask_plane *p, const struct timemask_cover *c)
 {
-    return abs_i32(p->at + p->dx * MIDDLE_X + p->dy * MIDDLE_Y) + abs_i32(p->dx) * MIDDLE_X + abs_i32(p->dy) * MIDDLE_Y;
+    return abs_i32(p->at + p->dx * c->middle_x + p->dy * c->middle_y) + abs_i32(p->dx) * c->middle_x
+         + abs_i32(p->dy) * c->middle_y;
 }
 
 /* How an edge's functions at start and end differ over the block: `d` in its middle, `h` more or less at its corners. */
@@ -155,10 +155,10 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
         int down = 31 - zeros;          /* |differences| < d < 2^(32 - zeros) */
         x->bend.dx = (int32_t)((int64_t)(-sign * (w->start.dx - w->end.dx)) * r >> down);
         x->bend.dy = (int32_t)((int64_t)(-sign * (w->start.dy - w->end.dy)) * r >> down);
-        x->bend.at = (1 << 30) - x->bend.dx * MIDDLE_X - x->bend.dy * MIDDLE_Y;
+        x->bend.at = (1 << 30) - x->bend.dx * c->middle_x - x->bend.dy * c->middle_y;
     }
     if (form == COVER_BOWED) {
-        int32_t bow = w->bow.at + w->bow.dx * MIDDLE_X + w->bow.dy * MIDDLE_Y;
+        int32_t bow = w->bow.at + w->bow.dx * c->middle_x + w->bow.dy * c->middle_y;
         x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
     }
     x->slack = (part << c->slots_log2 >> 1) + (abs_i32(x->bow) << c->slots_log2 >> 2);
@@ -184,7 +184,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     w.end = edge_at(b, i, j);
     struct timemask_plane middle = edge_at(m, i, j);
     w.bow = bow_of(&w.start, &middle, &w.end);
-    w.bows = plane_size(&w.bow);
+    w.bows = plane_size(&w.bow, c);
     int32_t reach_start, reach_end;
     int32_t start = plane_middle(&w.start, c, &reach_start), end = plane_middle(&w.end, c, &reach_end);
     if (min_i32(start - reach_start, end - reach_end) >= w.bows)
@@ -194,8 +194,8 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
 
     int32_t mx = w.start.dx + w.end.dx, my = w.start.dy + w.end.dy;
     int32_t ddx = w.start.dx - w.end.dx, ddy = w.start.dy - w.end.dy;
-    w.d = w.start.at - w.end.at + ddx * MIDDLE_X + ddy * MIDDLE_Y;
-    w.h = abs_i32(ddx) * MIDDLE_X + abs_i32(ddy) * MIDDLE_Y;
+    w.d = w.start.at - w.end.at + ddx * c->middle_x + ddy * c->middle_y;
+    w.h = abs_i32(ddx) * c->middle_x + abs_i32(ddy) * c->middle_y;
     w.length = (abs_i32(mx) + abs_i32(my)) >> 1;
     int32_t moves = abs_i32(w.d) + w.h + w.bows;
     if (moves > w.length >> 7 && crossing_add(c, &w, edge))
@@ -248,6 +248,8 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
         || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
         return false;
     c->slots_log2 = slots_log2;
+    c->middle_x = (width + 1) >> 1;
+    c->middle_y = (height + 1) >> 1;
     c->enters = c->leaves = c->stills = c->turns = c->lefts = c->rights = 0;
     c->form = COVER_EVEN;
     if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))

@@ -13,8 +13,9 @@
 
 #include "fixmath.h"
 
-/* Pixels are looked at in blocks of at most so many columns and rows. */
-enum { TIMEMASK_WIDTH = 16, TIMEMASK_HEIGHT = 8 };
+/* Pixels are looked at in blocks of at most so many columns and rows, or, where few of them say all there is (timemask.c),
+ * so many samples: then px are the distances between these. */
+enum { TIMEMASK_WIDTH = 16, TIMEMASK_HEIGHT = 17 };
 
 /* A triangle at one time: q8 px from the centre of the block's first pixel; depth units q11. */
 struct timemask_pose {
@@ -51,6 +52,7 @@ enum timemask_form { COVER_EVEN, COVER_BENT, COVER_BOWED };
 /* How the edges move in this block. */
 struct timemask_cover {
     int32_t x0, y0, x1, y1;     /* pixels of the block that may be covered */
+    int32_t middle_x, middle_y; /* of the block */
     int32_t slots_log2;         /* of the segment */
     enum timemask_form form;    /* what crossings need: none bends or bows, some bend, some bow */
     uint8_t enters, leaves, stills, turns;      /* edges of each kind; those inside everywhere are in none */

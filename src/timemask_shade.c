@@ -9,21 +9,13 @@ enum {
     STEEP = 1 << 28,            /* a plane so steep has no exact pixels, its triangle is a sliver */
     LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
     TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
-    LEVEL_COLOR = 3,            /* codes: triangles whose channels differ by no more are of one colour */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
 
 /* ------------------------------------------------------------------ slopes */
 
-/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
-struct shape {
-    int32_t x1, y1, x2, y2;
-    int shift;
-};
-
-/* False when it has no area. */
-static bool shape_make(struct shape *s, const struct timemask_pose *p)
+bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p)
 {
     int32_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
     int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
@@ -44,19 +36,14 @@ static bool shape_make(struct shape *s, const struct timemask_pose *p)
     return true;
 }
 
-/* Per pixel. */
-struct slopes {
-    int32_t dx, dy;
-};
-
-static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
+struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t a[3])
 {
     int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
     int64_t dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> s->shift;
     int64_t dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> s->shift;
     if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
-        return (struct slopes){ 0, 0 };
-    return (struct slopes){ (int32_t)dx, (int32_t)dy };
+        return (struct timemask_slopes){ 0, 0 };
+    return (struct timemask_slopes){ (int32_t)dx, (int32_t)dy };
 }
 
 /* At the point that attributes go with. */
@@ -71,7 +58,7 @@ static inline int32_t point_of(const int32_t a[3])
 struct course {
     bool started;
     bool turns;                 /* its shape is another one at the end */
-    struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
+    struct timemask_shape shape, start, end;         /* in the middle; where it turns also at both ends */
     int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
 };
 
@@ -94,10 +81,10 @@ static bool shape_turns(const struct timemask_pose *a, const struct timemask_pos
 static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool is_plain)
 {
     c->started = true;
-    bool seen = shape_make(&c->shape, pose[1]);
+    bool seen = smear_timemask_shape(&c->shape, pose[1]);
     c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
-        bool at_start = shape_make(&c->start, pose[0]), at_end = shape_make(&c->end, pose[2]);
+        bool at_start = smear_timemask_shape(&c->start, pose[0]), at_end = smear_timemask_shape(&c->end, pose[2]);
         if (!seen)
             c->shape = at_start ? c->start : c->end;
         if (!at_start)
@@ -126,14 +113,14 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
  * A plane that changes by more than there are bits for becomes one value. */
 static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
-    struct slopes g = slopes_of(&c->shape, value[1]);
+    struct timemask_slopes g = smear_timemask_slopes(&c->shape, value[1]);
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
     int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
     int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
-        struct slopes start = slopes_of(&c->start, value[0]), end = slopes_of(&c->end, value[2]);
+        struct timemask_slopes start = smear_timemask_slopes(&c->start, value[0]), end = smear_timemask_slopes(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
@@ -207,7 +194,7 @@ static void attribute_make(struct timemask_timed *t, const struct course *c, con
 /* ------------------------------------------------------------------ set-up */
 
 static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3],
-                        bool is_plain)
+                        const struct timemask_cover *cover, bool is_plain)
 {
     int32_t depth[3][3];
     s->depth_low = INT32_MAX;
@@ -225,7 +212,7 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
         course_start(c, pose, is_plain);
         timed_make(&s->depth, c, value);
     }
-    int32_t change = s->depth.change + s->depth.change_dx * (TIMEMASK_WIDTH / 2) + s->depth.change_dy * (TIMEMASK_HEIGHT / 2);
+    int32_t change = s->depth.change + s->depth.change_dx * cover->middle_x + s->depth.change_dy * cover->middle_y;
     s->slope = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
@@ -249,33 +236,6 @@ static void channels_read(struct channels *out, const struct smear_segment *g, c
             int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
             out->value[c][i] = linear ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
         }
-}
-
-/* All three vertices have one colour, or nearly. */
-static bool shade_level(struct timemask_shade *s, const int32_t *const record[3])
-{
-    const int at = s->segment->color;
-    const bool same = ((record[0][at] ^ record[1][at]) | (record[0][at] ^ record[2][at])
-                       | ((record[0][at + 1] ^ record[1][at + 1]) & 0xffff)
-                       | ((record[0][at + 1] ^ record[2][at + 1]) & 0xffff)) == 0;
-    struct channels k;
-    channels_read(&k, s->segment, record, frame_is_linear(s->frame));
-    uint32_t code[3], sum = 0;
-    for (int i = 0; i < (same ? 1 : 3); i++)
-        code[i] = channels_pixel(k.value[0][i], k.value[1][i], k.value[2][i], frame_is_linear(s->frame));
-    if (same) {
-        s->color = code[0];
-        return true;
-    }
-    for (int shift = 0; shift < 24; shift += 8) {
-        const int32_t a[3] = { (int32_t)(code[0] >> shift & 255u), (int32_t)(code[1] >> shift & 255u),
-                               (int32_t)(code[2] >> shift & 255u) };
-        if (spread(a) > LEVEL_COLOR)
-            return false;
-        sum |= (uint32_t)((least_of(a) + most_of(a)) >> 1) << shift;
-    }
-    s->color = sum;
-    return true;
 }
 
 static void shade_channels(struct timemask_shade *s, const struct course *c, const struct over_w *w, struct channels *k)
@@ -338,20 +298,21 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
-                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap)
+                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const int32_t *const record[3], const struct timemask_pose *const pose[3],
+                          const struct timemask_cover *cover, int32_t tap)
 {
     struct course course;
     course.started = false;
     s->frame = frame;
     s->segment = segment;
-    s->slots_log2 = slots_log2;
+    s->slots_log2 = cover->slots_log2;
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment_gouraud(segment) && (s->sampler != NULL || !shade_level(s, record));
+    s->gouraud = segment_gouraud(segment) && !is_level;
     const bool is_plain = !s->gouraud && s->sampler == NULL;
-    shade_depth(s, &course, pose, is_plain);
+    shade_depth(s, &course, pose, cover, is_plain);
     if (is_plain)
         return;
     if (!course.started)

@@ -38,13 +38,31 @@ struct timemask_shade {
     int32_t slots_log2;
 };
 
-/* From the poses at a segment's start, middle and end. */
+/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `is_level`: the triangle is of
+ * one colour, whatever its vertices have. `tap`: travel per texel, in q8 of the block's px. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, const int32_t *const record[3],
-                          const struct timemask_pose *const pose[3], int32_t slots_log2, int32_t tap);
+                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const int32_t *const record[3], const struct timemask_pose *const pose[3],
+                          const struct timemask_cover *cover, int32_t tap);
 
 /* Colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
+
+/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
+struct timemask_shape {
+    int32_t x1, y1, x2, y2;
+    int shift;
+};
+
+/* False when it has no area. */
+bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p);
+
+/* Of a plane through values at the vertices, per pixel; level where that would be too steep to have exact pixels. */
+struct timemask_slopes {
+    int32_t dx, dy;
+};
+
+struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t value[3]);
 
 /* The two planes at a pixel. */
 struct timemask_here {

@@ -13,7 +13,7 @@
 
 enum { TIMEMASK_ENTRIES = 5 };
 
-/* Entries of a block: e of pixel p at e * pixels + p, rows TIMEMASK_WIDTH apart. */
+/* Entries of a block: e of pixel p at e * pixels + p. */
 struct timemask_slots {
     uint32_t *any;              /* slots held by some entry */
     uint32_t *held;             /* a bit per slot, never 0 in use */
@@ -94,7 +94,20 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
+/* Depth code at or beyond which nothing new is seen in rows of `width` pixels, `stride` apart: 0 while slots are free. */
+int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows, int32_t stride);
+
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still);
+
+/* What entries add up to, in slots x codes: red and blue, 16 bits each, green and slots; in linear light red, green, blue
+ * (q16 of light) and slots. */
+enum { TIMEMASK_SUM_WORDS = 4 };
+
+void smear_timemask_slots_sum(const struct timemask_slots *b, uint32_t pixel, uint32_t sum[TIMEMASK_SUM_WORDS]);
+
+/* The same of what is nearer than a depth code. */
+void smear_timemask_slots_sum_before(const struct timemask_slots *b, uint32_t pixel, int32_t code,
+                                     uint32_t sum[TIMEMASK_SUM_WORDS]);
 
 #endif

@@ -32,7 +32,7 @@ switches=$(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_co
 try everything
 for switch in $switches; do
     case $switch in     # what cannot be without it
-    SMEAR_WITH_SUBFRAMES) try "$switch" -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_SMOOTH=0 ;;
+    SMEAR_WITH_SUBFRAMES) try "$switch" -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 ;;
     *) try "$switch" -D$switch=0 ;;
     esac
 done
@@ -45,8 +45,7 @@ rgb565="$rgb565 -DSMEAR_WITH_LINEAR=1 -DSMEAR_WITH_GOURAUD=1 -DSMEAR_WITH_ALPHA=
     try accumulate -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_ACCUMULATE=1 -DSMEAR_WITH_RGB332=1 -DSMEAR_WITH_DITHER=1 -DSMEAR_WITH_LINEAR=1
     try reconstruct $rgb565 -DSMEAR_WITH_RECONSTRUCT=1
     try subframes $rgb565 -DSMEAR_WITH_SUBFRAMES=1
-    try timemask $rgb565 -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1
-    try auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1 -DSMEAR_WITH_SMOOTH=1
+    try auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1
 }
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]
