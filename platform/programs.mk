@@ -160,9 +160,9 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## what its frames cost on TARGET
+## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR)
 
 # ---------------------------------------------------------------------- the smallest
 
