@@ -141,6 +141,30 @@ build/gentables: tools/gentables.c
 	@mkdir -p $(@D)
 	$(CC) -std=c11 -O2 -o $@ $< -lm
 
+# ---------------------------------------------------------------------- forms to hand on
+
+.PHONY: dist install dist-test
+dist-test: dist build/tapes/golden.c
+	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
+	sh tests/dist.sh
+
+## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
+dist: build/dist-single
+	sh tools/dist/dist.sh $< build/dist $(LAYERS)
+
+build/dist-single: tools/dist/single.c
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -Wall -Wextra -O1 -o $@ $<
+
+PREFIX ?= /usr/local
+## library, headers and smear.pc into $(DESTDIR)$(PREFIX)
+install: $(LIB)
+	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include
+	install -m 644 $(LIB) $(DESTDIR)$(PREFIX)/lib
+	install -m 644 $(wildcard include/*.h) $(DESTDIR)$(PREFIX)/include
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e "s|@VERSION@|$$(sh tools/dist/version.sh)|" tools/dist/smear.pc \
+	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/smear.pc
+
 clean:
 	rm -rf build
 

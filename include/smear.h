@@ -346,7 +346,8 @@ typedef struct smear_desc {
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint8_t sharp;              /* 1: no filter: no window is kept */
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
-    uint8_t accumulate;         /* 1: room for SMEAR_ACCUMULATE, 12 bytes per pixel of the frame */
+    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose rows are
+                                 * assembled anew at every instant: small and slow. 6 bytes without SMEAR_WITH_LINEAR */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
     uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
                                  * each but the last; 0 and 1: none. In any case one pass may be had */
@@ -354,7 +355,7 @@ typedef struct smear_desc {
     uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
                                  * as many tile rows more are kept. Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once, a multiple of 8; 0 means tile */
+    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
                                  * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in

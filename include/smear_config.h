@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* smear_config.h - what is decided when the library is compiled. Each choice can be given with -D, or a
- * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel: it only leaves code out. */
+ * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel: it leaves code out. */
 #ifndef SMEAR_CONFIG_H
 #define SMEAR_CONFIG_H
 
@@ -12,6 +12,106 @@
  * program (SMEAR_ASSERT). 0: no checks, no cost. `make CHECK=1` sets it. */
 #ifndef SMEAR_CHECK
 #define SMEAR_CHECK 0
+#endif
+
+/* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses what was left
+ * out (SMEAR_ERR_ARG); SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything that is not named. Link
+ * with --gc-sections, or the library as an archive. */
+#ifndef SMEAR_WITH_ALL
+#define SMEAR_WITH_ALL 1
+#endif
+
+/* Methods. SMEAR_NONE is always there. */
+#ifndef SMEAR_WITH_ACCUMULATE
+#define SMEAR_WITH_ACCUMULATE SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, smear_filter_begin, velocities; without it every desc is `sharp` */
+#define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_FILTERS              /* SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF, other weights, camera_step, scatter */
+#define SMEAR_WITH_FILTERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
+#endif
+#ifndef SMEAR_WITH_LAYERS               /* SMEAR_OBJECT, SMEAR_LAYERED */
+#define SMEAR_WITH_LAYERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
+#endif
+#ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at several instants: no desc.timed */
+#define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
+#define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#endif
+
+/* Surfaces. */
+#ifndef SMEAR_WITH_TEXTURE
+#define SMEAR_WITH_TEXTURE SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_BILINEAR
+#define SMEAR_WITH_BILINEAR (SMEAR_WITH_ALL && SMEAR_WITH_TEXTURE)
+#endif
+
+#ifndef SMEAR_WITH_GOURAUD              /* colours and normals of vertices; else those of faces only */
+#define SMEAR_WITH_GOURAUD SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_ALPHA                /* cutouts and blended draws */
+#define SMEAR_WITH_ALPHA SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_DEFORM               /* draws whose positions differ from pose to pose */
+#define SMEAR_WITH_DEFORM SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_LINEAR               /* linear light, and its table of 4 kB */
+#define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
+#endif
+
+#ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */
+#define SMEAR_WITH_IDS SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
+#define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
+#endif
+
+/* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
+ * SMEAR_DITHER_NONE only. */
+#ifndef SMEAR_WITH_XRGB8888
+#define SMEAR_WITH_XRGB8888 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB565               /* in both byte orders */
+#define SMEAR_WITH_RGB565 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB555
+#define SMEAR_WITH_RGB555 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_RGB332
+#define SMEAR_WITH_RGB332 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L8
+#define SMEAR_WITH_L8 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L4
+#define SMEAR_WITH_L4 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_L1                   /* in both packings */
+#define SMEAR_WITH_L1 SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_DITHER               /* ordered */
+#define SMEAR_WITH_DITHER SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_BLUE_DITHER
+#define SMEAR_WITH_BLUE_DITHER (SMEAR_WITH_ALL && SMEAR_WITH_DITHER)
+#endif
+
+/* The module of smear_model.h. */
+#ifndef SMEAR_WITH_MODEL
+#define SMEAR_WITH_MODEL SMEAR_WITH_ALL
+#endif
+
+#if SMEAR_WITH_TIMEMASK && !SMEAR_WITH_SUBFRAMES
+#error "SMEAR_WITH_TIMEMASK needs SMEAR_WITH_SUBFRAMES"
+#endif
+#if (SMEAR_WITH_FILTERS || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
+#error "SMEAR_WITH_FILTERS and SMEAR_WITH_LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
+#endif
+#if (SMEAR_WITH_BILINEAR && !SMEAR_WITH_TEXTURE) || (SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER)
+#error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
 
 /* 1 when the core multiplies 32 x 32 to 64 bits in an instruction. 0 builds high products from 16-bit

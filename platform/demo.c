@@ -4,7 +4,8 @@
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
  *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
  *                                          and how much stack was used; fails if it overflowed
- *     demo cost [SCREEN]           what the loop's frames cost, in the units of platform.h's clock
+ *     demo cost [SCREEN [BLUR]]    what the loop's frames cost, in the units of platform.h's clock; of
+ *                                  a way to blur of demo_player.c, or as the screen has it
  *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
@@ -118,7 +119,7 @@ static void print_row(const char *name, uint32_t count, uint32_t pixels)
 }
 
 /* Means over the loop. Posing the scene is the application's part and counted on its own line. */
-static int cost(const struct demo_screen *screen)
+static int cost(const struct demo_screen *screen, const struct demo_blur *way)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
@@ -126,8 +127,11 @@ static int cost(const struct demo_screen *screen)
     uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
     desc.clock = read_clock;
+    if (way != NULL)
+        demo_blur_desc(way, &desc);
     platform_clock_start();
     int result = start(screen, &desc);
+    player.blur = way;
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
         result = demo_player_frame(&player, i, true);
@@ -269,7 +273,8 @@ int main(int argc, char **argv)
     if (is_word(command, "check"))
         return check(screen, step > 0 ? step : 1, argc > 4);
     if (is_word(command, "cost"))
-        return cost(screen);
+        return argc > 3 && demo_blur_find(argv[3]) == NULL ? failed("no such way to blur", 0)
+                                                           : cost(screen, argc > 3 ? demo_blur_find(argv[3]) : NULL);
     if (is_word(command, "memory"))
         return memory();
     return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);

@@ -40,6 +40,36 @@ const struct demo_screen *demo_screen_find(const char *name)
     return NULL;
 }
 
+const struct demo_blur demo_blurs[] = {
+    { "none", SMEAR_NONE, 0 },
+    { "accumulate-2", SMEAR_ACCUMULATE, 2 }, { "accumulate-4", SMEAR_ACCUMULATE, 4 },
+    { "accumulate-8", SMEAR_ACCUMULATE, 8 }, { "accumulate-16", SMEAR_ACCUMULATE, 16 },
+    { "reconstruct-4", SMEAR_RECONSTRUCT, 4 }, { "reconstruct-8", SMEAR_RECONSTRUCT, 8 },
+    { "subframes-4", SMEAR_SUBFRAMES, 4 }, { "subframes-8", SMEAR_SUBFRAMES, 8 }, { "subframes-32", SMEAR_SUBFRAMES, 32 },
+    { "timemask-8", SMEAR_TIMEMASK, 8 }, { "timemask-32", SMEAR_TIMEMASK, 32 },
+    { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT }, { "auto-balanced", SMEAR_AUTO, SMEAR_BALANCED },
+    { "auto-fine", SMEAR_AUTO, SMEAR_FINE }
+};
+
+const int demo_blur_count = sizeof demo_blurs / sizeof *demo_blurs;
+
+const struct demo_blur *demo_blur_find(const char *name)
+{
+    for (int i = 0; i < demo_blur_count; i++)
+        if (same(demo_blurs[i].name, name))
+            return &demo_blurs[i];
+    return NULL;
+}
+
+void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc)
+{
+    desc->sharp = blur->method != SMEAR_RECONSTRUCT;
+    desc->accumulate = blur->method == SMEAR_ACCUMULATE;
+    desc->timed = blur->method >= SMEAR_SUBFRAMES;
+    if (desc->timed)            /* a turning triangle is listed if it is seen at any time */
+        desc->max_triangles *= 3;
+}
+
 /* The props are the only frame of the tape that is called like the level. */
 static const smear_draw *find_props(const char *level)
 {
@@ -55,6 +85,7 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
     player->screen = screen;
     player->props = find_props(screen->level);
     player->shutter_degrees = 180;
+    player->blur = NULL;
     if (player->props == NULL)
         return SMEAR_ERR_ARG;
     return smear_init(&player->ctx, desc, memory, bytes);
@@ -64,12 +95,18 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
 {
     struct demo_scene *scene = &player->scene;
     demo_scene_pose(scene, player->props, frame);
-    const smear_frame how = {
+    const struct demo_blur *blur = player->blur;
+    smear_frame how = {
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
         .reconstruct = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
         .light = player->screen->light, .shutter_degrees = player->shutter_degrees
     };
+    if (blur != NULL) {
+        how.method = blur->method;
+        how.samples = blur->method != SMEAR_AUTO ? blur->number : 0;
+        how.target = blur->method == SMEAR_AUTO ? blur->number : 0;
+    }
     int result = smear_begin(player->ctx, &how);
     for (int i = 0; i < scene->draw_count && result == SMEAR_OK; i++)
         result = smear_submit(player->ctx, &scene->draw[i]);

@@ -14,6 +14,22 @@ struct demo_screen {
     const char *level;              /* of detail, in demo_props.c */
 };
 
+/* A way to blur, to compare costs (make demo-cost BLUR=...). */
+struct demo_blur {
+    const char *name;
+    uint8_t method;                 /* smear_method */
+    uint16_t number;                /* samples, or the target of SMEAR_AUTO; 0: the default */
+};
+
+extern const struct demo_blur demo_blurs[];
+extern const int demo_blur_count;
+
+/* Null when there is none of this name. */
+const struct demo_blur *demo_blur_find(const char *name);
+
+/* What the screen's context needs for it. */
+void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc);
+
 extern const struct demo_screen demo_screens[];
 extern const int demo_screen_count;
 
@@ -25,6 +41,7 @@ struct demo_player {
     const struct demo_screen *screen;
     const smear_draw *props;
     uint16_t shutter_degrees;       /* 0: sharp; what keys change */
+    const struct demo_blur *blur;   /* null: as the screen has it */
     struct demo_scene scene;
 };
 

@@ -65,6 +65,11 @@ $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+# Each switch of smear_config.h off, and sets of them: golden frames of this machine.
+.PHONY: switches-test
+switches-test: $(TAPES)/golden.c
+	sh tests/target_switches.sh build/switches
+
 # ---------------------------------------------------------------------- template
 
 # platform/template with one core and with two, on a board of threads; and for a real core.
@@ -86,6 +91,7 @@ template-test: $(BUILD)/template-1 $(BUILD)/template-2
 # ---------------------------------------------------------------------- demo
 
 DISPLAY_SRC ?= platform/host/display.c
+SYMBOLS_PROGRAMS ?= $(BUILD)/demo$(EXE)
 DEMO_SCREEN ?= pico
 DEMO_LOOPS  ?= oled:6 gba:6
 
@@ -133,13 +139,52 @@ demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 print-run:
 	@echo $(RUN)
 
-## flash, RAM and worst stack of the library on every target
+## flash, RAM and worst stack of the library on every target, and what each switch saves
 footprint:
 	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
+	MAKE="$(MAKE)" sh platform/footprint_switches.sh $(FOOTPRINT)
 
-## what its frames cost on TARGET
+## writes these tables into platform/README.md
+footprint-readme:
+	@mkdir -p build
+	MAKE="$(MAKE)" sh platform/footprint.sh > build/footprint.txt
+	MAKE="$(MAKE)" sh platform/footprint_switches.sh > build/switches.txt
+	awk -f platform/footprint_readme.awk platform/README.md > build/platform-readme.md
+	mv build/platform-readme.md platform/README.md
+
+# Of the switches' part: what a program that only asks for sizes is linked from, and how.
+.PHONY: footprint-readme footprint-arena print-footprint
+footprint-arena: $(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o $(RUN_NEEDS)
+
+print-footprint:
+	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
+	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
+
+## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR)
+
+# ---------------------------------------------------------------------- the smallest
+
+FILE_SRC ?= platform/host/file.c
+TINY_OBJ := $(PROGRAM_OBJ) $(FILE_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/tiny.o
+
+$(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
+
+.PHONY: tiny-firmware tiny-test tiny-cost
+## the smallest firmware, for TARGET=microbit
+tiny-firmware: $(BUILD)/tiny$(EXE)
+	$(if $(SIZE),$(SIZE) -A $< | grep -E 'text|rodata|data|bss|mesh')
+
+## its frames against the host's, and what it takes
+tiny-test: $(BUILD)/tiny$(EXE) $(RUN_NEEDS)
+	$(MAKE) --no-print-directory -s TARGET=host build/host/tiny
+	RUN="$(RUN)" SIZE="$(SIZE)" sh tests/target_tiny.sh $(BUILD)/tiny-test $< build/host/tiny
+
+## instructions per frame
+tiny-cost: $(BUILD)/tiny$(EXE)
+	$(RUN_BENCH) $< cost
 
 # ---------------------------------------------------------------------- a model of one's own
 
@@ -166,6 +211,12 @@ model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 ## what its frames cost on TARGET
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+
+# No floating point, no 64-bit division, no C library: of the library and the demo as they are linked.
+.PHONY: symbols-test
+## what the firmware calls, from its symbols
+symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
+	sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

@@ -12,6 +12,8 @@
 #include "fixmath.h"
 #include "skin.h"
 
+#if SMEAR_WITH_MODEL
+
 enum { POSES = 3, FACTOR_LIMIT = (1 << 27) - 1 };
 
 struct actor_pose {
@@ -31,8 +33,8 @@ struct smear_actor {
     uint8_t known;                      /* bit p: pose p has been set */
 };
 
-_Static_assert(sizeof(struct smear_actor) <= SMEAR_ACTOR_HEAD_BYTES, "SMEAR_ACTOR_HEAD_BYTES is too small");
-_Static_assert(sizeof(struct smear_joint_matrix) == 48, "SMEAR_ACTOR_MEMORY counts 48 bytes");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_actor) <= SMEAR_ACTOR_HEAD_BYTES, "SMEAR_ACTOR_HEAD_BYTES is too small");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_joint_matrix) == 48, "SMEAR_ACTOR_MEMORY counts 48 bytes");
 
 /* ------------------------------------------------------------------ transforms */
 
@@ -351,7 +353,7 @@ static void pose_draws(struct smear_actor *a, uint32_t which)
 
 static size_t lay_out_actor(struct smear_actor *actor, const smear_model *m, int poses, void *memory)
 {
-    struct smear_arena a = { memory, 0 };
+    struct smear_arena a = { (uint8_t *)memory, 0 };
     arena_take(&a, 1, SMEAR_ACTOR_HEAD_BYTES);
     actor->world = arena_take(&a, m->node_count, sizeof *actor->world);
     actor->joint = arena_take(&a, m->joint_count, sizeof *actor->joint);
@@ -380,7 +382,7 @@ int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, v
     *actor = NULL;
     if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_actor_memory(model, poses))
         return SMEAR_ERR_MEMORY;
-    struct smear_actor *a = memory;
+    struct smear_actor *a = (struct smear_actor *)memory;
     *a = (struct smear_actor){ .model = model, .pose_count = (uint8_t)poses };
     lay_out_actor(a, model, poses, memory);
     for (uint32_t i = 0; i < model->draw_count; i++) {
@@ -472,3 +474,5 @@ int smear_actor_submit(smear_actor *a, smear_context *ctx)
     }
     return result;
 }
+
+#endif

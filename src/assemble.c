@@ -71,20 +71,21 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         uint32_t index = index_of(corner[i]);
         codes |= corner[i]->outcode;
         v->now = corner[i]->now;
-        for (int pose = 0; pose < 2; pose++)
+        for (int pose = 0; pose < CLIP_POSES; pose++)
             v->pose[pose] = v->now;
-        for (int pose = 0; pose < d->moves; pose++)
+        for (int pose = 0; SMEAR_WITH_RECONSTRUCT && pose < d->moves; pose++)
             smear_transform_vertex(&v->pose[pose], &d->pose[pose],
                                    d->pose_position[pose] + 3 * index);
         v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
         v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < CLIP_COLORS; c++)
             v->color[c] = 0;
     }
 
-    /* Which side is seen decides the light, and only the cut polygon can tell: clip places first. */
-    struct smear_clip_vertex probe[SMEAR_CLIP_MAX];
-    for (int i = 0; i < 3; i++)
+    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: clip places first. */
+    struct smear_clip_vertex copy[SMEAR_WITH_GOURAUD ? SMEAR_CLIP_MAX : 1];
+    struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
+    for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
         probe[i] = polygon[i];
     int count = smear_clip_polygon(probe, 3, &d->at.now, codes);
     int64_t area = 0;
@@ -101,15 +102,16 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         *segment = smear_record_segment(a, d);
     if (*segment == NULL)
         return false;
-    if ((*segment)->color != 0) {
+    if (segment_colored(*segment)) {
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
             smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
-            for (int c = 0; c < 4; c++)
+            for (int c = 0; c < CLIP_COLORS; c++)
                 polygon[i].color[c] = color.channel[c];
         }
     }
-    count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
+    if (SMEAR_WITH_GOURAUD)
+        count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
@@ -140,14 +142,15 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             offset[k] = (uint16_t)(a->geometry->vertex_words - s->base);
             a->geometry->vertex_words += s->stride;
             store_place(record, place[k]);
-            if (s->uv != 0)
+            if (segment_textured(s))
                 store_uv(record + s->uv, v->uv[0], v->uv[1]);
-            if (s->color != 0) {
-                const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1],
-                                              (uint16_t)v->color[2], (uint16_t)v->color[3] };
+            if (segment_colored(s)) {
+                uint16_t channel[4] = { 0, 0, 0, 0 };
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    channel[c] = (uint16_t)v->color[c];
                 store_color(record + s->color, channel);
             }
-            for (int pose = 0; pose < s->moves; pose++)
+            for (int pose = 0; pose < segment_moves(s); pose++)
                 store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
                              &v->now, place[k], &a->viewport);
         }
@@ -238,19 +241,19 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_place(record, &v->screen);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
-    if (b->vertex_color != NULL) {      /* as smear_shade has it */
+    if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
         const uint8_t *c = b->vertex_color + 4 * index;
         record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
         record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
-    } else if (s->color != 0) {
+    } else if (segment_colored(s)) {
         struct smear_color color;
         struct smear_face face = smear_face_of(d, triangle, back);
         smear_record_shade(&color, d, index, face.color, face.cosine, back);
         store_color(record + s->color, color.channel);
     }
-    for (int pose = 0; pose < s->moves; pose++) {
+    for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h;
         smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
         store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
@@ -264,7 +267,7 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
                                      bool back)
 {
     /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || b->segment->color == 0);
+    bool shares = b->shares && (!back || !segment_colored(b->segment));
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
     uint32_t word = store_vertex(b, v, triangle, back);
@@ -280,7 +283,7 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
     const struct smear_segment *s = b->segment;
     const uint32_t *channels[3] = { NULL, NULL, NULL };
     uint32_t color = 0;
-    if (s->color == 0)
+    if (!segment_colored(s))
         color = color_of_face(b, triangle, back);
     else
         for (int i = 0; i < 3; i++)
@@ -291,12 +294,12 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
         const struct covered *p = &covered[i];
         uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
         struct smear_triangle *t = geometry_add(g, &g->opaque_last[geometry_row(g, p->y)]);
-        t->x = (uint16_t)p->x;
-        t->y = (uint16_t)p->y;
-        t->depth = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->vertex[POINT_X] = (uint16_t)p->x;
+        t->vertex[POINT_Y] = (uint16_t)p->y;
+        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
         t->segment = SMEAR_POINT;
-        t->color = s->color == 0 ? color
-                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.linear);
+        t->color = !segment_colored(s) ? color
+                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
     }
 }
 
@@ -331,7 +334,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     b->segment = s;
     b->a->triangles_drawn++;
     if (count <= POINTS_MAX && b->points
-        && (s->color == 0 || s->flat_depth
+        && (!segment_colored(s) || s->flat_depth
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, covered, count, area);
@@ -384,10 +387,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     }
     b.shares = shares_vertices(d, b.segment);
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b.points = d->material->alpha == SMEAR_OPAQUE && b.segment->uv == 0 && b.segment->moves == 0 && !d->fixed;
+    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment) && segment_moves(b.segment) == 0 && !d->fixed;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
-    if (!d->shading.lit && d->shading.white && !d->shading.linear && mesh->face_color == NULL)
+    if (!d->shading.lit && d->shading.white && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
         b.vertex_color = mesh->color;
     if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);

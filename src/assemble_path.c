@@ -8,6 +8,8 @@
 #include "clip.h"
 #include "path.h"
 
+#if SMEAR_WITH_SUBFRAMES
+
 enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
 
 /* A vertex at all three instants, remembered under its index: direct mapped, in the memory of the other cache. */
@@ -17,7 +19,7 @@ struct path_vertex {
     uint8_t outcode[KEYS];
 };
 
-_Static_assert(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
+SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
 static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
 {
@@ -84,7 +86,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         .travel = sixteenths(travel), .bend = sixteenths(bend),
         .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
         .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
-                            | (d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
+                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
     };
     return true;
 }
@@ -110,7 +112,7 @@ static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, 
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    bool shares = b->shares && (!back || s->color == 0);
+    bool shares = b->shares && (!back || !segment_colored(s));
     if (shares && v->stored > s->base)
         return v->stored - 1;
     struct smear_geometry *g = b->a->geometry;
@@ -118,9 +120,9 @@ static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, 
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_path(record, s, v->screen);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
-    if (s->color != 0) {
+    if (segment_colored(s)) {
         struct smear_color color;
         struct smear_face face = smear_face_of(d, triangle, back);
         smear_record_shade(&color, d, index, face.color, face.cosine, back);
@@ -257,11 +259,12 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     g->vertex_words = word + s->stride;
     p->stored[i] = word + 1;
     store_path(record, s, p->screen[i]);
-    if (s->uv != 0)
+    if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
-    if (s->color != 0) {
-        const uint16_t channel[4] = { (uint16_t)v->color[0], (uint16_t)v->color[1], (uint16_t)v->color[2],
-                                      (uint16_t)v->color[3] };
+    if (segment_colored(s)) {
+        uint16_t channel[4] = { 0, 0, 0, 0 };
+        for (int c = 0; c < CLIP_COLORS; c++)
+            channel[c] = (uint16_t)v->color[c];
         store_color(record + s->color, channel);
     }
     return word;
@@ -417,9 +420,9 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         v->uv[0] = d->mesh->uv != NULL ? d->mesh->uv[2 * index] : 0;
         v->uv[1] = d->mesh->uv != NULL ? d->mesh->uv[2 * index + 1] : 0;
         struct smear_color color = { { 0, 0, 0, 0 } };
-        if (b->segment->color != 0)
+        if (segment_colored(b->segment))
             smear_record_shade(&color, d, index, face.color, face.cosine, back);
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < CLIP_COLORS; c++)
             v->color[c] = color.channel[c];
     }
     int near_codes = 0;
@@ -522,3 +525,5 @@ bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly 
     }
     return added;
 }
+
+#endif

@@ -9,7 +9,7 @@ void smear_row_target(const struct smear_context *c, int row, struct smear_raste
     const struct smear_window *w = &c->window;
     struct smear_plane_rows rows = { w->width, window_slot(w, row_top(c, row)), w->ring, 0 };
     *t = (struct smear_raster_target){
-        .x0 = 0, .x1 = w->width, .y0 = row_top(c, row), .y1 = row_bottom(c, row),
+        .x0 = 0, .y0 = row_top(c, row), .x1 = w->width, .y1 = row_bottom(c, row),
         .color = w->color, .color_rows = rows, .depth = w->depth, .window_rows = rows,
         .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
     };
@@ -27,7 +27,7 @@ uint8_t *smear_band_begin(struct smear_context *c)
 {
     /* With two buffers, the one from two bands ago must have been sent. */
     while (c->desc.bands == 2
-           && c->bands_handed - atomic_load_explicit(&c->bands_sent, memory_order_acquire) >= 2u)
+           && c->bands_handed - word_read(&c->bands_sent) >= 2u)
         if (c->desc.idle != NULL)
             c->desc.idle(c->desc.user);
     uint8_t *band = c->band[c->desc.bands == 2 ? c->bands_handed & 1u : 0];

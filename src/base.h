@@ -34,8 +34,16 @@
 #endif
 #define SMEAR_NOINLINE __attribute__((noinline))
 
-_Static_assert((-1 >> 1) == -1, "right shift of a negative number must keep its sign");
-_Static_assert(sizeof(int) == 4, "int products of 16-bit values must be 32 bits wide");
+#if defined(__cplusplus)
+#define SMEAR_STATIC_ASSERT(condition, text) static_assert(condition, text)
+#elif __STDC_VERSION__ >= 201112L
+#define SMEAR_STATIC_ASSERT(condition, text) _Static_assert(condition, text)
+#else
+#define SMEAR_STATIC_ASSERT(condition, text) void smear_static_assert(int holds[(condition) ? 1 : -1])
+#endif
+
+SMEAR_STATIC_ASSERT((-1 >> 1) == -1, "right shift of a negative number must keep its sign");
+SMEAR_STATIC_ASSERT(sizeof(int) == 4, "int products of 16-bit values must be 32 bits wide");
 
 static inline int32_t min_i32(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t max_i32(int32_t a, int32_t b) { return a > b ? a : b; }

@@ -60,15 +60,16 @@ struct smear_blob_material {
     uint8_t alpha, cutoff, unlit, double_sided, bilinear, zero;
 };
 
-_Static_assert(sizeof(struct smear_blob_head) == 48 + 8 * BLOB_TABLES, "no padding");
-_Static_assert(sizeof(struct smear_blob_mesh) == 48, "no padding");
-_Static_assert(sizeof(struct smear_blob_texture) == 20, "no padding");
-_Static_assert(sizeof(struct smear_blob_material) == 12, "no padding");
-_Static_assert(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) == 52
+SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_head) == 48 + 8 * BLOB_TABLES, "no padding");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_mesh) == 48, "no padding");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_texture) == 20, "no padding");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_material) == 12, "no padding");
+SMEAR_STATIC_ASSERT(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) == 52
                && sizeof(smear_model_joint) == 52 && sizeof(smear_model_skin) == 24
                && sizeof(smear_model_target) == 16 && sizeof(smear_model_delta) == 8
                && sizeof(smear_model_clip) == 16 && sizeof(smear_model_channel) == 36, "no padding");
 
+#if SMEAR_WITH_MODEL
 /* Bytes of an element of each table. */
 static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(struct smear_blob_texture), sizeof(struct smear_blob_material), sizeof(struct smear_blob_mesh),
@@ -76,5 +77,6 @@ static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(smear_model_target), sizeof(smear_model_delta), 1, 2, sizeof(smear_model_clip),
     sizeof(smear_model_channel), 2, 2, 1
 };
+#endif
 
 #endif

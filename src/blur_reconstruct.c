@@ -445,7 +445,7 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
                 own_motion_make(g, top, at, word);
             uint16_t code = w->depth[at];
             if (code != g->depth.code)
-                g->depth = (struct own_depth){ .code = code, .units = smear_depth_units(code) };
+                g->depth = (struct own_depth){ .units = smear_depth_units(code), .code = code };
             out[x - x0] = gather(g, (int32_t)at - x0, x - x0, y - g->rows->first, noise_of(inner), edge);
             taps += 2u * (uint32_t)top->pairs + 1u;
         }
@@ -459,8 +459,8 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
 {
     struct gathering g = {
         .w = w, .rows = rows, .linear = settings->linear,
-        .box = settings->flags & SMEAR_BOX, .fence = settings->flags & SMEAR_FENCE,
-        .guertin = settings->flags & SMEAR_DIRECTION, .orthographic = settings->orthographic,
+        .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
+        .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
         .wanted = clamp_i32(settings->samples / 2, 1, 64)
     };
     struct choice choice;

@@ -47,7 +47,7 @@ static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
-    bool closed_form = (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0;
+    bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
     if (load->count == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
     } else if (chooser->method == SMEAR_SUBFRAMES) {

@@ -13,7 +13,10 @@ struct smear_tile_load {
     uint8_t method;             /* smear_tile_method it got in the end */
 };
 
-enum { TILE_BLENDED = 0x100 };  /* a blended draw is seen there, too */
+enum {
+    TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
+    PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
+};
 
 /* TILE_SMOOTH: a time mask whose samples lie apart. */
 enum smear_tile_method { TILE_COPY, TILE_SMOOTH, TILE_SUBFRAMES, TILE_TIMEMASK };

@@ -43,11 +43,11 @@ static void cut(struct smear_clip_vertex *result, const struct smear_clip_vertex
     int32_t t = ratio_q30(d_in, d_in - d_out);
     struct smear_clip_vertex r;
     mix_homogeneous(&r.now, &in->now, &out->now, t);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < CLIP_POSES; i++)
         mix_homogeneous(&r.pose[i], &in->pose[i], &out->pose[i], t);
     for (int i = 0; i < 2; i++)
         r.uv[i] = mix(in->uv[i], out->uv[i], t);
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < CLIP_COLORS; i++)
         r.color[i] = mix(in->color[i], out->color[i], t);
     *result = r;
 }

@@ -26,6 +26,15 @@ static inline bool method_has_layers(uint8_t method)
     return method == SMEAR_OBJECT || method == SMEAR_LAYERED;
 }
 
+/* Sums of linear light or codes; of codes alone, 16 bits do. */
+#if SMEAR_WITH_LINEAR
+typedef uint32_t smear_sum;
+enum { SUM_SAMPLES_MAX = 1024 };
+#else
+typedef uint16_t smear_sum;
+enum { SUM_SAMPLES_MAX = 257 };
+#endif
+
 /* The pose a draw had, kept under its id. */
 struct smear_kept_pose {
     uint32_t id;                    /* 0: free */
@@ -90,7 +99,7 @@ struct smear_context {
     uint32_t *row_offset;           /* of the window rows a blur may read */
     uint32_t *scratch;              /* one tile of finished pixels per worker */
     uint32_t *half_scratch;         /* the same at half the size */
-    uint32_t *sums;                 /* accumulate: r g b per pixel */
+    smear_sum *sums;                /* accumulate: r g b per pixel of the frame, or of a band */
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
@@ -103,12 +112,13 @@ struct smear_context {
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
     bool direct;                    /* sharp rows are drawn as the display's pixels */
+    int32_t sums_top;               /* first row of the sums */
 
     /* bands */
     uint8_t *band[2];
     uint32_t band_bytes;
     uint32_t bands_handed;
-    atomic_uint bands_sent;
+    unsigned bands_sent;
 
     int32_t filter_row;             /* rows taken by smear_filter_row */
     uint32_t worker_samples[SMEAR_WORKERS_MAX];
@@ -118,7 +128,7 @@ struct smear_context {
 /* The frame has blurred layers. */
 static inline bool has_layers(const struct smear_context *c)
 {
-    return c->layers != NULL && c->layers->on;
+    return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
 }
 
 /* frame.c: draws what was submitted. */

@@ -7,6 +7,18 @@
 
 #include "pixel.h"
 
+bool smear_convert_has(int format, int dither)
+{
+    static const bool has[] = {
+        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332, SMEAR_WITH_L8,
+        SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
+    };
+    if (format > SMEAR_L1_PAGES || dither > SMEAR_DITHER_BLUE || !has[format])
+        return false;
+    return format == SMEAR_XRGB8888 || format == SMEAR_L8 || dither == SMEAR_DITHER_NONE
+        || (dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER);
+}
+
 uint32_t smear_convert_stride(int32_t width, smear_format format)
 {
     uint32_t w = (uint32_t)width;
@@ -32,9 +44,11 @@ uint32_t smear_convert_size(int32_t width, int32_t rows, smear_format format)
 /* 0 .. 255 in steps of 1/256 of a level. */
 static inline uint32_t threshold_at(int32_t x, int32_t y, smear_dither dither)
 {
-    return dither == SMEAR_DITHER_ORDERED ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
+    return !SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
                                           : smear_dither_blue[(y & 31) << 5 | (x & 31)];
 }
+
+static inline bool is_dithered(smear_dither dither) { return SMEAR_WITH_DITHER && dither != SMEAR_DITHER_NONE; }
 
 /* floor(c levels / 255 + t / 256): c 257 / 65536 is c / 255 for all that matters here, and exactly 1 at 255. */
 static inline uint32_t level_dithered(uint32_t code, uint32_t levels, uint32_t t)
@@ -57,10 +71,9 @@ static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, ui
                        const uint32_t levels[3])
 {
     const uint32_t code[3] = { pixel_red(p), pixel_green(p), pixel_blue(p) };
-    uint32_t t = dither != SMEAR_DITHER_NONE ? threshold_at(x, y, dither) : 0;
+    uint32_t t = is_dithered(dither) ? threshold_at(x, y, dither) : 0;
     for (int i = 0; i < 3; i++)
-        out[i] = dither == SMEAR_DITHER_NONE ? level_nearest(code[i], levels[i])
-                                             : level_dithered(code[i], levels[i], t);
+        out[i] = is_dithered(dither) ? level_dithered(code[i], levels[i], t) : level_nearest(code[i], levels[i]);
 }
 
 static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
@@ -75,6 +88,13 @@ void smear_convert_swap(uint16_t *pixels, int32_t n)
         *pixels = (uint16_t)(*pixels >> 8 | *pixels << 8);
 }
 
+#ifdef __OPTIMIZE_SIZE__
+static void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+{
+    while (n-- > 0)
+        *out++ = (uint16_t)rgb565_bytes(*in++, swapped);
+}
+#else
 /* Two pixels of 16 bits as they lie in memory. */
 static inline uint32_t pair_of(uint32_t first, uint32_t second)
 {
@@ -124,93 +144,163 @@ SMEAR_INLINE void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool 
     if (in < end)
         *out = (uint16_t)rgb565_bytes(*in, swapped);
 }
+#endif
 
-static void row_16bit_dithered(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
-                               smear_format format, smear_dither dither)
+/* `swapped` as the display has it. */
+static void row_rgb565_any(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
 {
-    static const uint32_t levels565[3] = { 31, 63, 31 }, levels555[3] = { 31, 31, 31 };
-    for (int32_t i = 0; i < n; i++, out += 2) {
-        uint32_t c[3], packed;
-        if (format == SMEAR_RGB555) {
-            rgb_levels(in[i], x + i, y, dither, c, levels555);
-            packed = c[2] << 10 | c[1] << 5 | c[0];
-        } else {
-            rgb_levels(in[i], x + i, y, dither, c, levels565);
-            packed = c[0] << 11 | c[1] << 5 | c[2];
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    if (swapped != big)
+        row_rgb565(out, in, n, true);
+    else
+        row_rgb565(out, in, n, false);
+}
+
+/* Thresholds of row y in 1/256 of a level: threshold[x & mask]. */
+static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32_t *mask)
+{
+    if (SMEAR_WITH_BLUE_DITHER && dither == SMEAR_DITHER_BLUE) {
+        *mask = 31;
+        return smear_dither_blue + ((y & 31) << 5);
+    }
+    *mask = 7;
+    return smear_dither_ordered + ((y & 7) << 3);
+}
+
+/* A code's level in q16, without a threshold: level_dithered adds it. */
+static inline uint32_t level_q16(uint32_t code, uint32_t levels)
+{
+    return code * (257u * levels) + (code >> 7) * levels;
+}
+
+/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Neighbours often are of one
+ * colour: only thresholds differ then. */
+SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
+                                     smear_dither dither, bool is_555, bool swapped)
+{
+    int32_t mask;
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
+    uint32_t last = ~*in, high = 0, green = 0, low = 0;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t p = in[i], t = (uint32_t)threshold[(x + i) & mask] << 8;
+        if (p != last) {
+            last = p;
+            high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
+            green = level_q16(pixel_green(p), is_555 ? 31 : 63);
+            low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
         }
-        int low = format == SMEAR_RGB565_SWAPPED ? 1 : 0;
-        out[low] = (uint8_t)packed;
-        out[1 - low] = (uint8_t)(packed >> 8);
+        uint32_t packed = (is_555 ? (high + t) >> 6 & 0x7c00u : (high + t) >> 5 & 0xf800u) | ((green + t) >> 11 & 0x7e0u)
+                        | (low + t) >> 16;
+        out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
+    }
+}
+
+static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
+                      smear_dither dither)
+{
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, swapped = (format == SMEAR_RGB565_SWAPPED) != big;
+    if (!is_dithered(dither)) {
+        for (int32_t i = 0; SMEAR_WITH_RGB555 && i < n; i++) {
+            uint32_t p = in[i], packed = level_nearest(pixel_blue(p), 31) << 10 | level_nearest(pixel_green(p), 31) << 5
+                                       | level_nearest(pixel_red(p), 31);
+            out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
+        }
+    } else if (SMEAR_WITH_RGB555 && format == SMEAR_RGB555) {
+        row_16bit_dithered(out, in, n, x, y, dither, true, swapped);
+    } else {
+        row_16bit_dithered(out, in, n, x, y, dither, false, swapped);
     }
 }
 
 static uint32_t grey_level(uint32_t p, int32_t x, int32_t y, uint32_t levels, smear_dither dither)
 {
-    return dither == SMEAR_DITHER_NONE ? level_nearest(luma(p), levels)
-                                       : level_dithered(luma(p), levels, threshold_at(x, y, dither));
+    return is_dithered(dither) ? level_dithered(luma(p), levels, threshold_at(x, y, dither))
+                               : level_nearest(luma(p), levels);
+}
+
+static void row_xrgb8888(uint32_t *out, const uint32_t *in, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++)
+        out[i] = in[i] & 0xffffffu;
+}
+
+static void row_rgb332(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
+{
+    static const uint32_t levels[3] = { 7, 7, 3 };
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t c[3];
+        rgb_levels(in[i], x + i, y, dither, c, levels);
+        out[i] = (uint8_t)(c[0] << 5 | c[1] << 2 | c[2]);
+    }
+}
+
+static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++)
+        out[i] = (uint8_t)luma(in[i]);
+}
+
+static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
+{
+    int32_t mask;
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
+    const bool dithered = is_dithered(dither);
+    uint32_t last = ~*in, grey = 0, left = 0;
+    uint8_t *pair = row + x / 2;
+    for (int32_t i = 0; i < n; i++) {
+        if (in[i] != last) {
+            last = in[i];
+            grey = dithered ? level_q16(luma(last), 15) : level_nearest(luma(last), 15) << 16;
+        }
+        uint32_t level = (grey + (dithered ? (uint32_t)threshold[(x + i) & mask] << 8 : 0u)) >> 16;
+        if (((x + i) & 1) != 0) {
+            *pair++ = (uint8_t)(left | level);
+        } else {
+            left = level << 4;
+            *pair = (uint8_t)left;
+        }
+    }
+}
+
+static void row_l1(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
+{
+    for (int32_t i = 0; i < n; i++) {
+        uint8_t *byte = row + (x + i) / 8;
+        if (((x + i) & 7) == 0)
+            *byte = 0;
+        if (grey_level(in[i], x + i, y, 1, dither) != 0)
+            *byte = (uint8_t)(*byte | 0x80 >> ((x + i) & 7));
+    }
+}
+
+static void row_page(uint8_t *page, const uint32_t *in, int32_t n, int32_t x, int32_t y, int bit, smear_dither dither)
+{
+    for (int32_t i = 0; i < n; i++)
+        if (grey_level(in[i], x + i, y, 1, dither) != 0)
+            page[x + i] = (uint8_t)(page[x + i] | 1 << bit);
 }
 
 void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                        int32_t y0, smear_format format, smear_dither dither)
 {
-    static const uint32_t levels332[3] = { 7, 7, 3 };
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
-    switch (format) {
-    case SMEAR_XRGB8888: {
-        uint32_t *out = (uint32_t *)(void *)row + x;
-        for (int32_t i = 0; i < n; i++)
-            out[i] = in[i] & 0xffffffu;
-        break;
-    }
-    case SMEAR_RGB565:
-    case SMEAR_RGB565_SWAPPED:
-        if (dither == SMEAR_DITHER_NONE) {
-            uint16_t *out = (uint16_t *)(void *)row + x;
-            if (smear_convert_is_swapped(format))
-                row_rgb565(out, in, n, true);
-            else
-                row_rgb565(out, in, n, false);
-            break;
-        }
-        row_16bit_dithered(row + 2 * x, in, n, x, y, format, dither);
-        break;
-    case SMEAR_RGB555:
-        row_16bit_dithered(row + 2 * x, in, n, x, y, format, dither);
-        break;
-    case SMEAR_RGB332:
-        for (int32_t i = 0; i < n; i++) {
-            uint32_t c[3];
-            rgb_levels(in[i], x + i, y, dither, c, levels332);
-            row[x + i] = (uint8_t)(c[0] << 5 | c[1] << 2 | c[2]);
-        }
-        break;
-    case SMEAR_L8:
-        for (int32_t i = 0; i < n; i++)
-            row[x + i] = (uint8_t)luma(in[i]);
-        break;
-    case SMEAR_L4:
-        for (int32_t i = 0; i < n; i++) {
-            uint32_t level = grey_level(in[i], x + i, y, 15, dither);
-            uint8_t *pair = row + (x + i) / 2;
-            *pair = (x + i) & 1 ? (uint8_t)(*pair | level) : (uint8_t)(level << 4);
-        }
-        break;
-    case SMEAR_L1:
-        for (int32_t i = 0; i < n; i++) {
-            uint8_t *byte = row + (x + i) / 8;
-            if (((x + i) & 7) == 0)
-                *byte = 0;
-            if (grey_level(in[i], x + i, y, 1, dither) != 0)
-                *byte = (uint8_t)(*byte | 0x80 >> ((x + i) & 7));
-        }
-        break;
-    case SMEAR_L1_PAGES:
-        row = band + (uint32_t)((y - y0) / 8) * stride;
-        for (int32_t i = 0; i < n; i++)
-            if (grey_level(in[i], x + i, y, 1, dither) != 0)
-                row[x + i] = (uint8_t)(row[x + i] | 1 << ((y - y0) & 7));
-        break;
-    }
+    if (SMEAR_WITH_XRGB8888 && format == SMEAR_XRGB8888)
+        row_xrgb8888((uint32_t *)(void *)row + x, in, n);
+    else if (SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED) && !is_dithered(dither))
+        row_rgb565_any((uint16_t *)(void *)row + x, in, n, format == SMEAR_RGB565_SWAPPED);
+    else if ((SMEAR_WITH_RGB565 && SMEAR_WITH_DITHER && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
+             || (SMEAR_WITH_RGB555 && format == SMEAR_RGB555))
+        row_16bit((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
+    else if (SMEAR_WITH_RGB332 && format == SMEAR_RGB332)
+        row_rgb332(row + x, in, n, x, y, dither);
+    else if (SMEAR_WITH_L8 && format == SMEAR_L8)
+        row_l8(row + x, in, n);
+    else if (SMEAR_WITH_L4 && format == SMEAR_L4)
+        row_l4(row, in, n, x, y, dither);
+    else if (SMEAR_WITH_L1 && format == SMEAR_L1)
+        row_l1(row, in, n, x, y, dither);
+    else if (SMEAR_WITH_L1 && format == SMEAR_L1_PAGES)
+        row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }
 
 uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size)

@@ -7,6 +7,9 @@
 
 #include "base.h"
 
+/* The format was compiled in, with that dither. */
+bool smear_convert_has(int format, int dither);
+
 /* Bytes of one row of pixels; of one page of eight rows for SMEAR_L1_PAGES. */
 uint32_t smear_convert_stride(int32_t width, smear_format format);
 

@@ -207,7 +207,7 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
 
 static bool pose_differs(const struct draw_poses *p, int i)
 {
-    return p->position[i] != p->position[0] || !same_transform(p->object[i], p->object[0])
+    return (SMEAR_WITH_DEFORM && p->position[i] != p->position[0]) || !same_transform(p->object[i], p->object[0])
         || !same_camera(p->camera[i], p->camera[0]);
 }
 
@@ -264,7 +264,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
-        if (position[k] == out->position) {
+        if (!SMEAR_WITH_DEFORM || position[k] == out->position) {
             smear_projection_add(&out->now, &sum[k]);
         } else {
             out->extra[out->extra_count] = sum[k];
@@ -274,7 +274,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
 }
 
 /* Everything the assembler needs of draw `i`, for the given instant. */
-static void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
+static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
                           struct smear_assembly *a)
 {
     static const smear_material plain = { 0 };
@@ -288,20 +288,20 @@ static void make_assembly(struct smear_context *c, uint32_t i, const struct inst
     a->moves = 0;
     a->path = a->fixed = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
-                       c->frame.light == SMEAR_LIGHT_LINEAR);
+                       SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
 
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
     if (!moves)
         return;
-    if (c->assembler.keep_paths) {
+    if (SMEAR_WITH_SUBFRAMES && c->assembler.keep_paths) {
         struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
         a->path = true;
         place(&a->key[0], c, &poses, a->mesh, &open);
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
     a->fixed = c->raster_draw[i].fixed;
-    if (!c->assembler.keep_motion || !c->raster_draw[i].moves)
+    if (!SMEAR_WITH_RECONSTRUCT || !c->assembler.keep_motion || !c->raster_draw[i].moves)
         return;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
      * itself, one further pose is enough. */
@@ -333,7 +333,7 @@ static bool assemble_rows(struct smear_context *c, int first, int end, const str
             c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
         make_assembly(c, i, has_layers(c) && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
-            : !(a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
+            : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -349,12 +349,11 @@ static void cache_free_pool(struct smear_context *c)
     c->cache = smear_raster_cache_make(g->pool + first, bytes, c->jobs.workers);
 }
 
-/* Assembles as many tile rows from `first` on as find room; returns their end. Rows above are included for what is
+/* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included for what is
  * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
  * dropped and counted. */
-static int assemble_part(struct smear_context *c, int *top, int least, int first, const struct instant *instant)
+static int assemble_part(struct smear_context *c, int *top, int least, int first, int end, const struct instant *instant)
 {
-    int end = c->window.rows;
     uint32_t start = stage_start(c);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
@@ -437,7 +436,7 @@ static int render_direct_row(struct smear_context *c, int row)
 
 static void raster_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_context *c = r->c;
     struct smear_window *w = &c->window;
     struct smear_raster_target t;
@@ -448,7 +447,7 @@ static void raster_job(void *argument, int job, int worker)
         return;
     clear_rows(c, t.y0, t.y1, t.x0, t.x1);
     t.cache = smear_raster_cache_of(&c->cache, job);
-    if (c->assembler.keep_motion) {
+    if (SMEAR_WITH_RECONSTRUCT && c->assembler.keep_motion) {
         t.velocity8 = w->velocity8;
         t.velocity16 = w->velocity16;
         t.inspect = c->inspect;
@@ -464,7 +463,7 @@ static void raster_job(void *argument, int job, int worker)
 /* Blended draws straight over the window's rows: where no filter will read them. */
 static void blend_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->c, r->row, &t);
@@ -499,7 +498,7 @@ static void draw_row(struct smear_context *c, int row)
 
 static void blend_row(struct smear_context *c, int row)
 {
-    if (!c->blends)
+    if (!SMEAR_WITH_ALPHA || !c->blends)
         return;
     struct row_job job = { .c = c, .row = row };
     c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
@@ -510,7 +509,7 @@ static void blend_row(struct smear_context *c, int row)
 
 static void convert_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->c, job, &x0, &x1);
@@ -519,7 +518,6 @@ static void convert_job(void *argument, int job, int worker)
 
 static int finish_sharp(struct smear_context *c, int row)
 {
-    blend_row(c, row);
     uint32_t start = stage_start(c);
     struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
@@ -549,7 +547,7 @@ static void half_job(void *argument, int column, int worker)
 
 static void reduce_job(void *argument, int column, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     const struct smear_window *w = r->c->filtered;
     (void)worker;
     if (r->c->window.moving[column])
@@ -620,7 +618,7 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
 
 static void tile_job(void *argument, int column, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_context *c = r->c;
     const struct smear_window *w = c->filtered;
     if (is_still(w, r->row, column) && c->blend == SMEAR_NO_TRIANGLE) {
@@ -744,13 +742,14 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 static int render_none(struct smear_context *c)
 {
     for (int row = 0; row < c->window.rows;) {
-        int top = row, end = assemble_part(c, &top, row, row, &sharp_instant);
+        int top = row, end = assemble_part(c, &top, row, row, c->window.rows, &sharp_instant);
         for (; row < end; row++) {
             int result;
             if (SMEAR_DIRECT && c->direct) {
                 result = render_direct_row(c, row);
             } else {
                 draw_row(c, row);
+                blend_row(c, row);
                 result = finish_sharp(c, row);
             }
             if (result != SMEAR_OK)
@@ -788,7 +787,7 @@ static int render_filter(struct smear_context *c)
         smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
                              c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
-        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, &middle);
+        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, c->window.rows, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -804,7 +803,7 @@ static int render_timed(struct smear_context *c)
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
     for (int row = 0, end; row < c->window.rows; row = end) {
         int top = row;
-        end = assemble_part(c, &top, row, row, &middle);
+        end = assemble_part(c, &top, row, row, c->window.rows, &middle);
         int result = smear_timed_rows(c, row, end);
         if (result != SMEAR_OK)
             return result;
@@ -843,7 +842,7 @@ static int render_layers(struct smear_context *c)
     find_layers(c, &middle);
     for (int row = 0, end; row < c->window.rows; row = end) {
         int top = row;
-        end = assemble_part(c, &top, row, row, &middle);
+        end = assemble_part(c, &top, row, row, c->window.rows, &middle);
         int result = smear_layers_rows(c, row, end);
         if (result != SMEAR_OK)
             return result;
@@ -851,19 +850,31 @@ static int render_layers(struct smear_context *c)
     return SMEAR_OK;
 }
 
-/* Adds the row's pixels to the sums: linear light, or codes in the same 16 bits. */
+/* Row y of the sums. */
+static smear_sum *sums_at(const struct smear_context *c, int32_t y)
+{
+    return c->sums + 3 * (size_t)(y - c->sums_top) * (size_t)c->window.width;
+}
+
+static void clear_sums(struct smear_context *c, int32_t top, int32_t bottom)
+{
+    c->sums_top = top;
+    __builtin_memset(c->sums, 0, 3 * (size_t)(bottom - top) * (size_t)c->window.width * sizeof *c->sums);
+}
+
+/* Adds the row's pixels to the sums: linear light, or codes in the same bits. */
 static void add_row(struct smear_context *c, int row)
 {
     const struct smear_window *w = &c->window;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
         const uint32_t *in = w->color + window_slot(w, y) * w->width;
-        uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t p = in[x];
-            sum[0] += linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p);
-            sum[1] += linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p);
-            sum[2] += linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p);
+            sum[0] = (smear_sum)(sum[0] + (linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p)));
+            sum[1] = (smear_sum)(sum[1] + (linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p)));
+            sum[2] = (smear_sum)(sum[2] + (linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p)));
         }
     }
 }
@@ -877,10 +888,10 @@ static uint32_t mean_of(uint32_t sum, uint32_t n)
 static void average_row(struct smear_context *c, int row, uint32_t n)
 {
     const struct smear_window *w = &c->window;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
         uint32_t *out = w->color + window_slot(w, y) * w->width;
-        const uint32_t *sum = c->sums + 3 * (size_t)y * (size_t)w->width;
+        const smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t r = mean_of(sum[0], n), g = mean_of(sum[1], n), b = mean_of(sum[2], n);
             out[x] = linear ? pixel_make(0, smear_srgb_encode[r >> 4], smear_srgb_encode[g >> 4],
@@ -890,27 +901,37 @@ static void average_row(struct smear_context *c, int row, uint32_t n)
     }
 }
 
-static int render_accumulate(struct smear_context *c)
+/* Draws tile rows [first, end) at every instant and adds them up. */
+static void accumulate_rows(struct smear_context *c, int first, int end)
 {
     uint32_t n = c->frame.samples;
-    size_t words = 3 * (size_t)c->window.width * (size_t)c->window.height;
-    for (size_t i = 0; i < words; i++)
-        c->sums[i] = 0;
     for (uint32_t k = 0; k < n; k++) {
         struct instant instant = instant_at(c, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
-        for (int row = 0; row < c->window.rows;) {
-            int top = row, end = assemble_part(c, &top, row, row, &instant);
-            for (; row < end; row++) {
+        for (int row = first; row < end;) {
+            int top = row, part = assemble_part(c, &top, row, row, end, &instant);
+            for (; row < part; row++) {
                 draw_row(c, row);
                 blend_row(c, row);
                 add_row(c, row);
             }
         }
     }
-    c->stats.samples = n * c->stats.pixels;
-    c->blends = false;          /* they are in the sums */
+}
+
+static int render_accumulate(struct smear_context *c)
+{
+    const bool whole = c->desc.accumulate == 1;
+    c->stats.samples = c->frame.samples * c->stats.pixels;
+    if (whole) {
+        clear_sums(c, 0, c->window.height);
+        accumulate_rows(c, 0, c->window.rows);
+    }
     for (int row = 0; row < c->window.rows; row++) {
-        average_row(c, row, n);
+        if (!whole) {
+            clear_sums(c, row_top(c, row), row_bottom(c, row));
+            accumulate_rows(c, row, row + 1);
+        }
+        average_row(c, row, c->frame.samples);
         int result = finish_sharp(c, row);
         if (result != SMEAR_OK)
             return result;
@@ -928,7 +949,7 @@ static void prepare(struct smear_context *c)
     s->pixels = (uint32_t)(w->width * w->height);
     for (int i = 0; i < c->jobs.workers; i++)
         c->worker_samples[i] = 0;
-    bool linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     uint32_t degrees = c->frame.shutter_degrees;
 
     c->raster.linear = linear;
@@ -974,12 +995,12 @@ static void prepare(struct smear_context *c)
         struct smear_raster_draw *r = &c->raster_draw[i];
         const smear_material *m = d->material;
         classify_draw(c, &c->submitted[i], r);
-        r->alpha = m != NULL ? m->alpha : SMEAR_OPAQUE;
+        r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
         r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-        if (m != NULL && m->texture != NULL)
+        if (SMEAR_WITH_TEXTURE && m != NULL && m->texture != NULL)
             smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15,
                                m->bilinear, linear);
-        c->blends = c->blends || r->alpha == SMEAR_BLEND;
+        c->blends = c->blends || (SMEAR_WITH_ALPHA && r->alpha == SMEAR_BLEND);
         /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
         c->direct = SMEAR_DIRECT && c->direct && !c->blends
                  && (m == NULL || m->texture == NULL || m->texture->format == SMEAR_TEXEL_565);
@@ -1006,10 +1027,18 @@ int smear_frame_render(struct smear_context *c)
 {
     uint32_t start = stage_start(c);
     prepare(c);
-    int result = c->frame.method == SMEAR_NONE ? render_none(c)
-               : c->frame.method == SMEAR_ACCUMULATE ? render_accumulate(c)
-               : smear_method_is_filter(c->frame.method) ? render_filter(c)
-               : method_has_layers(c->frame.method) ? render_layers(c) : render_timed(c);
+    /* What was not compiled in has been refused by smear_begin. */
+    int result;
+    if (SMEAR_WITH_ACCUMULATE && c->frame.method == SMEAR_ACCUMULATE)
+        result = render_accumulate(c);
+    else if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method))
+        result = render_filter(c);
+    else if (SMEAR_WITH_LAYERS && method_has_layers(c->frame.method))
+        result = render_layers(c);
+    else if (SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method))
+        result = render_timed(c);
+    else
+        result = render_none(c);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

@@ -30,7 +30,7 @@ static bool reaches(const struct smear_geometry *g, uint32_t triangle, int32_t y
 {
     const struct smear_triangle *t = geometry_triangle(g, triangle);
     if (t->segment == SMEAR_POINT)
-        return t->y >= y;
+        return t->vertex[POINT_Y] >= y;
     const struct smear_segment *s = &g->segment[t->segment];
     if (s->path)
         return geometry_bounds(g, triangle)->y1 > y;

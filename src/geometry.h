@@ -20,16 +20,13 @@
 #define SMEAR_NO_TRIANGLE UINT32_MAX
 
 struct smear_triangle {
-    union {
-        uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen */
-        struct {
-            uint16_t x, y, depth;       /* a point: pixel and depth code */
-        };
-    };
+    uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen. A point: POINT_X ... */
     uint16_t segment;       /* SMEAR_POINT: a point */
     uint32_t next;          /* in its row's ring, later in the row's list */
     uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */
 };
+
+enum { POINT_X, POINT_Y, POINT_DEPTH };      /* pixel and depth code of a point */
 
 /* In place of a segment: opaque, without motion. */
 #define SMEAR_POINT 0xffffu
@@ -72,6 +69,15 @@ struct smear_segment {
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in place of motion words; moves is 0 */
 };
+
+/* As they are, where the methods and surfaces that need them were compiled in. */
+static inline bool segment_textured(const struct smear_segment *s) { return SMEAR_WITH_TEXTURE && s->uv != 0; }
+static inline bool segment_gouraud(const struct smear_segment *s)
+{
+    return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
+}
+static inline bool segment_colored(const struct smear_segment *s) { return SMEAR_WITH_GOURAUD && s->color != 0; }
+static inline int segment_moves(const struct smear_segment *s) { return SMEAR_WITH_RECONSTRUCT ? s->moves : 0; }
 
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };

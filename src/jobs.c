@@ -19,18 +19,18 @@ static void announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument,
     jobs->job = job;
     jobs->argument = argument;
     jobs->count = count;
-    unsigned stage = atomic_load_explicit(&jobs->stage, memory_order_relaxed) + 1u;
-    atomic_store_explicit(&jobs->stage, stage, memory_order_release);
+    unsigned stage = word_own(&jobs->stage) + 1u;
+    word_write(&jobs->stage, stage);
     if (job != NULL)
         do_share(jobs, 0);
     for (int worker = 1; worker < jobs->workers; worker++)
-        while (atomic_load_explicit(&jobs->done[worker], memory_order_acquire) != stage)
+        while (word_read(&jobs->done[worker]) != stage)
             wait_a_little(jobs);
 }
 
 void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count)
 {
-    if (jobs->workers > 1) {
+    if (SMEAR_WITH_WORKERS && jobs->workers > 1) {
         announce(jobs, job, argument, count);
         return;
     }
@@ -40,20 +40,20 @@ void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, 
 
 void smear_jobs_end_frame(struct smear_jobs *jobs)
 {
-    if (jobs->workers > 1)
+    if (SMEAR_WITH_WORKERS && jobs->workers > 1)
         announce(jobs, NULL, NULL, 0);
 }
 
 void smear_jobs_work(struct smear_jobs *jobs, int worker)
 {
     for (;;) {
-        unsigned last = atomic_load_explicit(&jobs->done[worker], memory_order_relaxed), stage;
-        while ((stage = atomic_load_explicit(&jobs->stage, memory_order_acquire)) == last)
+        unsigned last = word_own(&jobs->done[worker]), stage;
+        while ((stage = word_read(&jobs->stage)) == last)
             wait_a_little(jobs);
         bool over = jobs->job == NULL;
         if (!over)
             do_share(jobs, worker);
-        atomic_store_explicit(&jobs->done[worker], stage, memory_order_release);
+        word_write(&jobs->done[worker], stage);
         if (over)
             return;
     }

@@ -8,7 +8,10 @@
 
 #include "base.h"
 
-#include <stdatomic.h>
+/* Words that cores and interrupts share, each written by one of them. */
+static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
+static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }
+static inline void word_write(unsigned *word, unsigned value) { __atomic_store_n(word, value, __ATOMIC_RELEASE); }
 
 #define SMEAR_WORKERS_MAX 8
 
@@ -21,8 +24,8 @@ struct smear_jobs {
     int count;
     void (*idle)(void *user);   /* called while waiting; may be null */
     void *user;
-    atomic_uint stage;                          /* written by core 0 */
-    atomic_uint done[SMEAR_WORKERS_MAX];        /* last stage that worker w finished; written by it */
+    unsigned stage;                          /* written by core 0 */
+    unsigned done[SMEAR_WORKERS_MAX];        /* last stage that worker w finished; written by it */
 };
 
 /* Runs jobs 0 .. count - 1 and waits for all of them. */

@@ -202,10 +202,10 @@ static uint16_t code_of(int32_t depth)
 static void extend(struct smear_group *group, const struct smear_geometry *g, const struct smear_triangle *t)
 {
     if (t->segment == SMEAR_POINT) {
-        group->x0 = min_i32(group->x0, t->x);
-        group->x1 = max_i32(group->x1, t->x + 1);
-        group->nearest = (uint16_t)max_u32(group->nearest, t->depth);
-        group->farthest = (uint16_t)min_u32(group->farthest, t->depth);
+        group->x0 = min_i32(group->x0, t->vertex[POINT_X]);
+        group->x1 = max_i32(group->x1, t->vertex[POINT_X] + 1);
+        group->nearest = (uint16_t)max_u32(group->nearest, t->vertex[POINT_DEPTH]);
+        group->farthest = (uint16_t)min_u32(group->farthest, t->vertex[POINT_DEPTH]);
         return;
     }
     const struct smear_segment *s = &g->segment[t->segment];

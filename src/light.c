@@ -3,6 +3,7 @@
 #include "light.h"
 
 #include "fixmath.h"
+#include "pixel.h"
 
 /* World direction towards the light, q14; (0.36, 0.80, 0.48) has length one. */
 static const int32_t light_direction[3] = { 5898, 13107, 7864 };
@@ -158,10 +159,16 @@ static uint32_t times_lin(uint32_t a, uint32_t b)
     return a * (b + (b >> 15)) >> 16;
 }
 
+/* Colours of vertices and faces alone do not want a table of 4 kB. */
+static uint32_t encode(uint32_t light)
+{
+    return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
+}
+
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine)
 {
-    if (!s->lit && !s->linear && s->white && (color == NULL || face_color == NULL)) {
+    if (!s->lit && !shading_is_linear(s) && s->white && (color == NULL || face_color == NULL)) {
         /* Codes in, codes out. */
         const uint8_t *c = color != NULL ? color : face_color;
         for (int i = 0; i < 3; i++)
@@ -178,7 +185,7 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
         if (face_color != NULL)
             c = times_lin(c, smear_srgb_decode[face_color[i]]);
         c = min_u32(c * light >> 16, 65535u);
-        out->channel[i] = s->linear ? (uint16_t)c : (uint16_t)(smear_srgb_encode[c >> 4] * 256u);
+        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(encode(c >> 4) * 256u);
     }
     uint32_t alpha = s->base[3];
     if (color != NULL)
@@ -192,7 +199,7 @@ uint32_t smear_color_pack(const struct smear_color *color, bool linear)
 {
     uint32_t packed = (uint32_t)(color->channel[3] >> 8) << 24;
     for (int i = 0; i < 3; i++) {
-        uint32_t code = linear ? smear_srgb_encode[color->channel[i] >> 4]
+        uint32_t code = SMEAR_WITH_LINEAR && linear ? smear_srgb_encode[color->channel[i] >> 4]
                                : (uint32_t)color->channel[i] >> 8;
         packed |= code << (16 - 8 * i);
     }

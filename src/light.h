@@ -18,6 +18,8 @@ struct smear_shading {
     u16lin base[4];                 /* material factor; base[3] is alpha */
 };
 
+static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }
+
 /* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256),
  * alpha 65535 is one. */
 struct smear_color {

@@ -6,6 +6,8 @@
 #include "blob.h"
 #include "convert.h"
 
+#if SMEAR_WITH_MODEL
+
 /* A blob whose head is good. */
 struct blob {
     const uint8_t *bytes;
@@ -276,8 +278,8 @@ static int check_head(struct blob *b, const void *bytes, size_t size)
         return SMEAR_MODEL_ERR_ENDIAN;
     if (bytes == NULL || ((uintptr_t)bytes & 3u) != 0)
         return SMEAR_MODEL_ERR_ALIGN;
-    b->bytes = bytes;
-    b->head = bytes;
+    b->bytes = (const uint8_t *)bytes;
+    b->head = (const struct smear_blob_head *)bytes;
     if (size < 8)
         return SMEAR_MODEL_ERR_SIZE;
     if (b->head->magic != SMEAR_BLOB_MAGIC)
@@ -319,7 +321,7 @@ static int check_blob(struct blob *b, const void *bytes, size_t size)
          : !are_skins(b)     ? SMEAR_MODEL_ERR_SKIN
          : !are_draws(b)     ? SMEAR_MODEL_ERR_DRAW
          : !are_morphs(b)    ? SMEAR_MODEL_ERR_MORPH
-         : !are_clips(b)     ? SMEAR_MODEL_ERR_CLIP : SMEAR_OK;
+         : !are_clips(b)     ? SMEAR_MODEL_ERR_CLIP : (int)SMEAR_OK;
 }
 
 int smear_mesh_check(const void *blob, size_t bytes)
@@ -362,7 +364,7 @@ struct model_tables {
 
 static size_t lay_out_tables(struct model_tables *t, const struct blob *b, void *memory)
 {
-    struct smear_arena a = { memory, 0 };
+    struct smear_arena a = { (uint8_t *)memory, 0 };
     t->texture = arena_take(&a, blob_count(b, BLOB_TEXTURE), sizeof *t->texture);
     t->material = arena_take(&a, blob_count(b, BLOB_MATERIAL), sizeof *t->material);
     t->mesh = arena_take(&a, blob_count(b, BLOB_MESH), sizeof *t->mesh);
@@ -450,3 +452,5 @@ int smear_model_find_clip(const smear_model *model, const char *name)
     }
     return -1;
 }
+
+#endif

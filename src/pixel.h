@@ -33,6 +33,17 @@ static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
     return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
 }
 
+/* smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean of two codes'
+ * light; at three values that is off by one. */
+static inline uint32_t srgb_encode_searched(uint32_t light)
+{
+    uint32_t code = 0;
+    for (uint32_t step = 128; step != 0; step >>= 1)
+        if ((uint32_t)smear_srgb_decode[code + step - 1] + smear_srgb_decode[code + step] < 32u * light + 16u)
+            code += step;
+    return code + (light == 527u || light == 1116u) - (light == 2146u);
+}
+
 /* src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
 static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
 {

@@ -80,8 +80,8 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     p->z = code_from_units(units, slope);
     p->dz = step_from_units(s->depth.dx, slope);
     p->mask = NULL;
-    if (s->writes_velocity) {
-        if (s->draw->alpha == SMEAR_CUTOUT) {
+    if (setup_writes_velocity(s)) {
+        if (draw_is_cutout(s->draw)) {
             draw_cutout(s, p, write);
             return;
         }
@@ -494,8 +494,8 @@ enum { TINY_PIXELS = 32 };
 
 static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
-    return pixels <= TINY_PIXELS && s->segment->uv == 0 && s->segment->moves == 0 && s->draw->alpha == SMEAR_OPAQUE
-        && (s->segment->shade != SHADE_GOURAUD || s->segment->flat_depth
+    return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && draw_is_opaque(s->draw)
+        && (!segment_gouraud(s->segment) || s->segment->flat_depth
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 
@@ -528,7 +528,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
                       int32_t bottom)
 {
     const struct smear_raster_target *t = s->target;
-    const bool gouraud = s->segment->shade == SHADE_GOURAUD;
+    const bool gouraud = segment_gouraud(s->segment);
     const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
     const int32_t x0 = max_i32(left, t->x0), x1 = min_i32(right, t->x1);
     const struct tiny_scale scale = tiny_scale_make(area);
@@ -555,8 +555,8 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
-                target_put(t, at, gouraud ? channels_mix(&channels, w1, w2, s->frame->linear) : s->color);
-                if (s->writes_velocity)
+                target_put(t, at, gouraud ? channels_mix(&channels, w1, w2, frame_is_linear(s->frame)) : s->color);
+                if (setup_writes_velocity(s))
                     smear_velocity_still(t, at, s->velocity_unknown);
             }
             e0 += e.right0;
@@ -572,9 +572,9 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
-    if (s->segment->uv != 0 || s->draw->alpha != SMEAR_OPAQUE)
+    if (segment_textured(s->segment) || !draw_is_opaque(s->draw))
         return false;
-    if (s->segment->shade != SHADE_GOURAUD)
+    if (!segment_gouraud(s->segment))
         return true;
     if (s->v[0][at] != s->v[1][at] || s->v[0][at] != s->v[2][at]
         || (((s->v[0][at + 1] ^ s->v[1][at + 1]) | (s->v[0][at + 1] ^ s->v[2][at + 1])) & 0xffff) != 0)
@@ -582,7 +582,7 @@ static bool is_flat(struct setup *s)
     uint32_t code[3];
     for (int c = 0; c < 3; c++) {
         uint32_t value = (uint32_t)channel_value(s, 0, c);
-        code[c] = s->frame->linear ? smear_srgb_encode[value >> 12] : value >> 16;
+        code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
     return true;
@@ -695,10 +695,10 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
             s->v[i] = v[i];
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
-    s->writes_velocity = (target->velocity8 != NULL || target->velocity16 != NULL)
-                      && s->draw->alpha != SMEAR_BLEND && (segment->moves != 0 || s->draw->fixed || *moved);
+    s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
+                      && !draw_is_blended(s->draw) && (segment_moves(segment) != 0 || s->draw->fixed || *moved);
     s->velocity_unknown = frame->velocity_from_depth && !s->draw->fixed;
-    if (segment->moves != 0 || s->draw->fixed)
+    if (segment_moves(segment) != 0 || s->draw->fixed)
         *moved = true;
     if (!known) {
         uint64_t area = setup_edges(s);
@@ -719,18 +719,18 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 static inline void draw_point(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                               const struct smear_triangle *t, bool moved)
 {
-    int32_t x = t->x, y = t->y - target->y0;
+    int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
     if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
         return;
     int32_t slot = target->window_rows.slot0 + y;
     if (slot >= target->window_rows.ring)
         slot -= target->window_rows.ring;
     int32_t at = slot * target->window_rows.stride + x - target->window_rows.x0;
-    if (t->depth <= target->depth[at])
+    if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
-    target->depth[at] = t->depth;
+    target->depth[at] = t->vertex[POINT_DEPTH];
     target_put(target, at, t->color);
-    if (moved && (target->velocity8 != NULL || target->velocity16 != NULL))
+    if (SMEAR_WITH_RECONSTRUCT && moved && (target->velocity8 != NULL || target->velocity16 != NULL))
         smear_velocity_still(target, at, frame->velocity_from_depth);
 }
 

@@ -14,8 +14,9 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
     if (s == NULL)
         return NULL;
     const smear_mesh *mesh = d->mesh;
-    bool textured = d->material->texture != NULL && mesh->uv != NULL;
-    bool per_vertex = (d->shading.lit && mesh->normal != NULL) || mesh->color != NULL;
+    bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
+    bool per_vertex = SMEAR_WITH_GOURAUD
+                   && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
     s->uv = s->color = s->motion = 0;
@@ -25,13 +26,13 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         s->color = (uint8_t)at;
         at += 2;
     }
-    s->moves = a->keep_motion && !is_blend(d) ? d->moves : 0;
-    if (s->moves != 0) {
+    s->moves = SMEAR_WITH_RECONSTRUCT && a->keep_motion && !is_blend(d) ? d->moves : 0;
+    if (segment_moves(s) != 0) {
         s->motion = (uint8_t)at;
         at += s->moves * MOTION_WORDS;
     }
     s->path = 0;
-    if (d->path) {
+    if (SMEAR_WITH_SUBFRAMES && d->path) {
         s->path = 1;
         s->motion = (uint8_t)at;
         at += PATH_WORDS;
@@ -48,7 +49,7 @@ void smear_record_shade(struct smear_color *color, const struct smear_assembly *
 {
     const smear_mesh *mesh = d->mesh;
     uint32_t cosine = face_cosine;
-    if (d->shading.lit && mesh->normal != NULL) {
+    if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL) {
         const int8_t *n = mesh->normal + 3 * index;
         if (flip) {
             const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
@@ -69,7 +70,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
         return 0xffffffffu;
     struct smear_color color;
     smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
-    return smear_color_pack(&color, d->shading.linear);
+    return smear_color_pack(&color, shading_is_linear(&d->shading));
 }
 
 /* The code of channel c (r g b) of a vertex, as pixels get it (see channel_value in setup.h). */

@@ -38,8 +38,8 @@ struct smear_placement {
     struct smear_projection now;
     const int16_t *position;
     int extra_count;                    /* further terms */
-    struct smear_projection extra[2];
-    const int16_t *extra_position[2];
+    struct smear_projection extra[SMEAR_WITH_DEFORM ? 2 : 1];
+    const int16_t *extra_position[SMEAR_WITH_DEFORM ? 2 : 1];
 };
 
 /* One draw with everything that does not change from triangle to triangle. */
@@ -52,16 +52,16 @@ struct smear_assembly {
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
-    struct smear_projection pose[2];    /* velocity is measured between these (one: and the drawn instant) */
-    const int16_t *pose_position[2];
-    struct smear_placement key[2];      /* shutter open and close */
+    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];   /* velocity is measured between these (one: and the drawn instant) */
+    const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
 
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
     smear_transform_vertex(h, &p->now, p->position + 3 * index);
-    for (int i = 0; i < p->extra_count; i++) {
+    for (int i = 0; SMEAR_WITH_DEFORM && i < p->extra_count; i++) {
         struct smear_homogeneous term;
         smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
         h->x += term.x;
@@ -182,13 +182,13 @@ static inline bool box_is_empty(const struct box *box)
 
 static inline bool is_blend(const struct smear_assembly *d)
 {
-    return d->material->alpha == SMEAR_BLEND;
+    return SMEAR_WITH_ALPHA && d->material->alpha == SMEAR_BLEND;
 }
 
 /* Vertices cannot be shared when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
-    return s->color == 0
+    return !segment_colored(s)
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 

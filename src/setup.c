@@ -159,9 +159,9 @@ void smear_setup_color(struct setup *s)
 {
     s->perspective_color = false;
     s->color_block = 16;
-    if (s->segment->shade != SHADE_GOURAUD)
+    if (!segment_gouraud(s->segment))
         return;
-    int channels = s->draw->alpha == SMEAR_OPAQUE ? 3 : 4;
+    int channels = draw_is_opaque(s->draw) ? 3 : 4;
     int32_t q[3], low_q = INT32_MAX, high_q = 0, value[4][3];
     uint32_t range = 0;
     for (int i = 0; i < 3; i++) {

@@ -104,7 +104,7 @@ static inline int32_t channel_value(const struct setup *s, int vertex, int c)
 {
     uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
     int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return s->frame->linear && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+    return frame_is_linear(s->frame) && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
 }
 
 static inline int32_t setup_mesh_u(const struct setup *s, int i)
@@ -120,6 +120,11 @@ static inline int32_t setup_mesh_v(const struct setup *s, int i)
 static inline uint32_t magnitude_i32(int32_t a)
 {
     return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+static inline bool setup_writes_velocity(const struct setup *s)
+{
+    return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
 }
 
 /* Twice the area, q16. */

@@ -4,6 +4,8 @@
 
 #include "fixmath.h"
 
+#if SMEAR_WITH_MODEL
+
 /* To int16; two instructions where nothing is to be done. */
 static inline int16_t clamp_step(int32_t x)
 {
@@ -123,3 +125,5 @@ void smear_unit_normals(int8_t *normal, uint32_t count)
     for (; count > 0; count--, normal += 3)
         unit_normal(normal, normal[0], normal[1], normal[2]);
 }
+
+#endif

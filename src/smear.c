@@ -16,9 +16,27 @@ static bool is_power_of_two(uint32_t x)
     return x != 0 && (x & (x - 1)) == 0;
 }
 
+/* What was compiled in (smear_config.h). */
+static bool has_method(int method)
+{
+    return method == SMEAR_ACCUMULATE ? SMEAR_WITH_ACCUMULATE : method == SMEAR_RECONSTRUCT ? SMEAR_WITH_RECONSTRUCT
+         : method == SMEAR_TIMEMASK ? SMEAR_WITH_TIMEMASK : smear_method_is_timed(method) ? SMEAR_WITH_SUBFRAMES
+         : method_has_layers((uint8_t)method) ? SMEAR_WITH_LAYERS
+         : smear_method_is_filter(method) ? SMEAR_WITH_FILTERS : true;
+}
+
+static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
+static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
+static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
+
 /* Fills in defaults; false when something is out of range. */
 static bool resolve(smear_desc *d)
 {
+    if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2
+        || (d->layers && !SMEAR_WITH_LAYERS) || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
+        return false;
+    if (!SMEAR_WITH_RECONSTRUCT)
+        d->sharp = 1;
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
         return false;
     if (d->scatter > 1 || (d->scatter && (d->sharp || d->timed || d->half || d->passes > 1)))
@@ -33,8 +51,8 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 8 || d->band_rows % 8 != 0
-        || ((!d->sharp || d->timed || d->layers) && d->band_rows != d->tile))
+    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0)
+        || ((has_window(d) || is_timed(d) || is_layered(d)) && d->band_rows != d->tile))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -48,10 +66,10 @@ static bool resolve(smear_desc *d)
         d->passes = 1;
     if (d->vertex_cache == 0)
         d->vertex_cache = 64;
-    if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && d->sharp))
+    if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && !has_window(d)))
         return false;
-    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && d->format <= SMEAR_L1_PAGES
-        && d->dither <= SMEAR_DITHER_BLUE && d->max_triangles <= 16u << 20
+    return d->bands <= 2 && d->workers <= (SMEAR_WITH_WORKERS ? SMEAR_WORKERS_MAX : 1) && smear_convert_has(d->format, d->dither)
+        && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
 
@@ -59,20 +77,20 @@ static bool resolve(smear_desc *d)
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
-    return max_u32(d->max_triangles * ((d->timed ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
+    return max_u32(d->max_triangles * ((is_timed(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
 }
 
-_Static_assert(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
-_Static_assert(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
-_Static_assert(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
+SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
-_Static_assert(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
-_Static_assert(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
-_Static_assert(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
-_Static_assert(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_BYTES");
-_Static_assert(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
-_Static_assert(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
-_Static_assert(sizeof(struct smear_triangle) == 16, "pool words per triangle");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
 
 /* A window of half the size of `full`. */
 static void layout_half(struct smear_window *w, struct smear_arena *a, const struct smear_window *full)
@@ -103,7 +121,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + d->band_rows - 1) / d->band_rows;
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = d->sharp ? min_i32(d->band_rows, d->height) : (w->lag + 1) * d->tile + d->reach;
+    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(d->band_rows, d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
@@ -111,7 +129,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     w->moving = arena_take(a, columns, 1);
     w->velocity8 = NULL;
     w->velocity16 = NULL;
-    if (!d->sharp) {
+    if (has_window(d)) {
         if (d->reach <= 15)
             w->velocity8 = arena_take(a, plane, 2);
         else
@@ -120,7 +138,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         w->around = arena_take(a, reduced, sizeof *w->around);
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
-    c->filtering = d->sharp ? NULL : arena_take(a, 1, sizeof *c->filtering);
+    c->filtering = has_window(d) ? arena_take(a, 1, sizeof *c->filtering) : NULL;
     for (int i = 0; i + 1 < d->passes; i++) {
         uint32_t *pass = arena_take(a, plane, 4);
         if (c->filtering != NULL)
@@ -132,17 +150,19 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         layout_half(c->half != NULL ? c->half : &spare, a, w);
         c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
     }
-    if (!d->sharp || d->timed)
+    if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
-    if (d->timed) {
+    if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
         c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
-        c->work_bytes = max_u32((uint32_t)smear_timemask_work(d->tile), (uint32_t)smear_subframes_work(d->tile));
+        c->work_bytes = (uint32_t)smear_subframes_work(d->tile);
+        if (SMEAR_WITH_TIMEMASK)
+            c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
-    if (d->layers) {
+    if (is_layered(d)) {
         struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);
         if (l == NULL)          /* only measured */
             l = &measured;
@@ -177,15 +197,17 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         l->layer_of = arena_take(a, d->max_draws, sizeof *l->layer_of);
         l->setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *l->setting);
     }
-    c->inspect = d->inspect != NULL && !d->sharp ? arena_take(a, plane, 8) : NULL;
-    c->sums = d->accumulate ? arena_take(a, (size_t)d->width * (size_t)d->height, 12) : NULL;
+    c->inspect = d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
+    c->sums = NULL;
+    if (SMEAR_WITH_ACCUMULATE && d->accumulate)
+        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : d->band_rows), 3 * sizeof *c->sums);
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
         c->band[i] = arena_take(a, c->band_bytes, 1);
 
     c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
-    c->kept = arena_take(a, d->max_draws, sizeof *c->kept);
+    c->kept = SMEAR_WITH_IDS ? arena_take(a, d->max_draws, sizeof *c->kept) : NULL;
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 
     struct smear_geometry *g = &c->geometry;
@@ -197,8 +219,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
-    g->mover_rows = d->layers ? 2 : 0;
-    g->mover_last = d->timed || d->layers
+    g->mover_rows = is_layered(d) ? 2 : 0;
+    g->mover_last = is_timed(d) || is_layered(d)
                   ? arena_take(a, (size_t)(w->rows + g->mover_rows), sizeof *g->mover_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
@@ -229,7 +251,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_memory_size(desc))
         return SMEAR_ERR_MEMORY;
 
-    struct smear_arena a = { memory, 0 };
+    struct smear_arena a = { (uint8_t *)memory, 0 };
     struct smear_context *c = arena_take(&a, 1, sizeof *c);
     *c = (struct smear_context){ 0 };
     layout(c, &a, &d);
@@ -244,7 +266,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     c->jobs.workers = d.workers;
     c->jobs.idle = d.idle;
     c->jobs.user = d.user;
-    for (uint32_t i = 0; i < d.max_draws; i++)
+    for (uint32_t i = 0; SMEAR_WITH_IDS && i < d.max_draws; i++)
         c->kept[i].id = 0;
     *ctx = c;
     return SMEAR_OK;
@@ -329,7 +351,7 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
     if (f->method == SMEAR_DEFAULT_METHOD)
-        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT;
+        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE : SMEAR_RECONSTRUCT;
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
     if (f->target == 0)
@@ -346,7 +368,8 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->filter = SMEAR_FILTER_MEAN;
     if (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
         return false;
-    if (f->method > SMEAR_LAYERED || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+    if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
+        || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
     if (!smear_pingpong_resolve(&f->pingpong))
@@ -368,7 +391,7 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         return false;
     if (smear_method_is_timed(f->method) && !c->desc.timed)
         return false;
-    return f->method != SMEAR_ACCUMULATE || c->desc.accumulate;
+    return f->method != SMEAR_ACCUMULATE || (c->desc.accumulate != 0 && f->samples <= SUM_SAMPLES_MAX);
 }
 
 static bool is_layer(const smear_layer *l)
@@ -423,7 +446,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !are_layers(&f) || !smear_shutter_make(&c->shutter, f.shutter))
+    if (!resolve_frame(c, &f) || !are_layers(&f) || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->shutter, f.shutter)))
         return SMEAR_ERR_ARG;
     if (method_has_layers(f.method))
         keep_layers(c, &f);
@@ -460,7 +483,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
 
 static bool is_texture(const smear_texture *t)
 {
-    return t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
+    return SMEAR_WITH_TEXTURE && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
         && t->format <= SMEAR_TEXEL_PALETTE8 && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL)
         && t->wrap_u <= SMEAR_MIRROR && t->wrap_v <= SMEAR_MIRROR;
 }
@@ -497,7 +520,7 @@ static int32_t find_kept(struct smear_context *c, uint32_t id)
 static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
-    if (draw->id == 0)
+    if (!SMEAR_WITH_IDS || draw->id == 0)
         return -1;
     int32_t at = find_kept(c, draw->id);
     if (at < 0)
@@ -519,7 +542,11 @@ int smear_submit(smear_context *c, const smear_draw *draw)
         || draw->billboard > SMEAR_BILLBOARD_UPRIGHT)
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
-    if (m != NULL && (m->alpha > SMEAR_BLEND || (m->texture != NULL && !is_texture(m->texture))))
+    if ((!SMEAR_WITH_IDS && draw->id != 0) || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+        || (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL)))
+        return SMEAR_ERR_ARG;
+    if (m != NULL && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) || (m->texture != NULL && !is_texture(m->texture))
+                      || (m->bilinear && !SMEAR_WITH_BILINEAR)))
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
@@ -544,13 +571,13 @@ int smear_render(smear_context *c)
 void smear_band_done(smear_context *c)
 {
     /* Only this function writes the word, so a plain increment is enough. */
-    unsigned sent = atomic_load_explicit(&c->bands_sent, memory_order_relaxed);
-    atomic_store_explicit(&c->bands_sent, sent + 1u, memory_order_release);
+    unsigned sent = word_own(&c->bands_sent);
+    word_write(&c->bands_sent, sent + 1u);
 }
 
 void smear_work(smear_context *c, int worker)
 {
-    if (c != NULL && worker > 0 && worker < c->jobs.workers)
+    if (SMEAR_WITH_WORKERS && c != NULL && worker > 0 && worker < c->jobs.workers)
         smear_jobs_work(&c->jobs, worker);
 }
 
@@ -563,7 +590,7 @@ void smear_get_stats(const smear_context *c, smear_stats *stats)
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
     if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA || c->desc.workers > 1)
@@ -582,7 +609,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
 int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth,
                      const int16_t *velocity)
 {
-    if (c == NULL || color == NULL || depth == NULL || velocity == NULL)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || color == NULL || depth == NULL || velocity == NULL)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_FILTER)
         return SMEAR_ERR_ORDER;

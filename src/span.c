@@ -98,7 +98,7 @@ struct block {
 static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
                         uint32_t d[4])
 {
-    int count = s->draw->alpha == SMEAR_OPAQUE ? 3 : 4;
+    int count = draw_is_opaque(s->draw) ? 3 : 4;
     int32_t x = k->x, x0 = k->start, x1 = k->end;
     c[3] = 255u << 16;
     d[3] = 0;
@@ -126,7 +126,7 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
 {
-    const bool linear = s->frame->linear;
+    const bool linear = frame_is_linear(s->frame);
     uint32_t c[4], d[4] = { 0, 0, 0, 0 };
     if (s->segment->shade == SHADE_FLAT) {
         for (int i = 0; i < 3; i++) {
@@ -161,7 +161,7 @@ static void shade_plain(uint32_t *out, const struct setup *s, const struct span 
     uint32_t c[4], d[4];
     channels_at(s, p, k, c, d);
     uint32_t r = c[0], g = c[1], b = c[2], a = c[3], dr = d[0], dg = d[1], db = d[2], da = d[3];
-    if (s->frame->linear) {
+    if (frame_is_linear(s->frame)) {
         for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
             *out++ = pixel_make(a >> 16 & 255u, smear_srgb_encode[r >> 12 & 4095u],
                                 smear_srgb_encode[g >> 12 & 4095u], smear_srgb_encode[b >> 12 & 4095u]);
@@ -197,10 +197,10 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
-    if (s->draw->alpha == SMEAR_BLEND) {
+    if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = pixel_blend(*color, *in, pixel_alpha(*in), s->frame->linear);
+                *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
@@ -234,7 +234,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
     void *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
-    bool textured = s->segment->uv != 0;
+    bool textured = segment_textured(s->segment);
     struct walk w;
     struct block k;
     k.x = p->a;
@@ -251,7 +251,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
             smear_sample(block, &s->draw->sampler, &w.run, k.x - k.start, n);
             if (s->segment->shade != SHADE_NONE)
                 modulate(block, s, p, &k, n);
-        } else if (s->segment->shade == SHADE_GOURAUD) {
+        } else if (segment_gouraud(s->segment)) {
             shade_plain(block, s, p, &k, n);
         } else {
             for (int32_t i = 0; i < n; i++)

@@ -360,7 +360,7 @@ static void add_packed(const struct subframes *f, const struct box *b)
 static void add(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const bool linear = f->t->frame->linear;
+    const bool linear = frame_is_linear(f->t->frame);
     const uint32_t all = f->blends;
     for (int32_t y = b->y0; y < b->y1; y++) {
         int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
@@ -389,7 +389,7 @@ static uint32_t mixed(const struct subframes *f, int32_t at, uint32_t still)
         uint32_t g = (f->sum[2 * at + 1] & 0xffffu) + pixel_green(still) * rest;
         return pixel_make(0, mean_of(m, rb >> 16), mean_of(m, g), mean_of(m, rb & 0xffffu));
     }
-    bool linear = f->t->frame->linear;
+    bool linear = frame_is_linear(f->t->frame);
     const uint32_t *sum = f->sum + 3 * at;
     uint32_t rest = m->n - f->times[at];
     uint32_t r = mean_of(m, sum[0] + value_of(pixel_red(still), linear) * rest);
@@ -414,8 +414,8 @@ uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instant
     const struct smear_raster_target *s = &t->still;
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
     int32_t pixels = t->tile * t->tile;
-    struct subframes f = { .t = t, .packed = !t->frame->linear && instants <= PACKED_MAX };
-    f.sum = t->work;
+    struct subframes f = { .t = t, .packed = !frame_is_linear(t->frame) && instants <= PACKED_MAX };
+    f.sum = (uint32_t *)t->work;
     f.listed = f.sum + 3 * pixels;
     f.times = (uint16_t *)(void *)(f.listed + LISTED);
     f.work = *s;

@@ -105,4 +105,10 @@ struct smear_raster_frame {
     int32_t reach_q3;               /* longest stored velocity, 1/8 px */
 };
 
+static inline bool frame_is_linear(const struct smear_raster_frame *f) { return SMEAR_WITH_LINEAR && f->linear; }
+
+static inline bool draw_is_opaque(const struct smear_raster_draw *d) { return !SMEAR_WITH_ALPHA || d->alpha == SMEAR_OPAQUE; }
+static inline bool draw_is_cutout(const struct smear_raster_draw *d) { return SMEAR_WITH_ALPHA && d->alpha == SMEAR_CUTOUT; }
+static inline bool draw_is_blended(const struct smear_raster_draw *d) { return SMEAR_WITH_ALPHA && d->alpha == SMEAR_BLEND; }
+
 #endif

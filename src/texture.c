@@ -21,6 +21,7 @@ static int32_t scale_for(int32_t size, int uv_shift, int8_t *shift)
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
                         bool bilinear, bool linear)
 {
+    bilinear = SMEAR_WITH_BILINEAR && bilinear;
     s->texels = texture->texels;
     s->palette = texture->palette;
     s->width = texture->width;
@@ -118,7 +119,7 @@ static uint64_t sample_chord(uint32_t *out, const struct smear_sampler *s, uint6
     if (s->turns) {
         for (; n > 0; n--, at += step)
             *out++ = fetch(s, sampler_index(s, (uint32_t)(at >> 32), (uint32_t)at));
-    } else if (s->bilinear) {
+    } else if (SMEAR_WITH_BILINEAR && s->bilinear) {
         for (; n > 0; n--, at += step)
             *out++ = sample_bilinear(s, (int32_t)(at >> 32), (int32_t)at);
     } else {

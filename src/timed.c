@@ -100,7 +100,7 @@ static void clear(const struct smear_raster_target *t, uint32_t color)
 
 static void still_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->c, r->row, &t);
@@ -121,7 +121,7 @@ struct finish {
 
 static bool is_still(const struct smear_tile_load *load)
 {
-    return load->count == 0 && (load->flags & (PATH_SUBFRAMES | TILE_BLENDED)) == 0;
+    return load->count == 0 && (load->flags & PATH_WITHOUT_MASK) == 0;
 }
 
 /* Still tiles go to the display as they lie, a run of them at once: the job of the run's first tile. */
@@ -153,7 +153,7 @@ static void blend_still(const struct smear_moving_tile *t, const struct smear_co
 
 static void finish_job(void *argument, int column, int worker)
 {
-    const struct finish *f = argument;
+    const struct finish *f = (const struct finish *)argument;
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
     const struct smear_row_movers *m = &c->row_movers;
@@ -173,7 +173,7 @@ static void finish_job(void *argument, int column, int worker)
     struct smear_tile_choice choice;
     smear_choose(&choice, &c->chooser, load);
     load->method = (uint8_t)choice.method;
-    if (choice.method == TILE_TIMEMASK) {
+    if (SMEAR_WITH_TIMEMASK && choice.method == TILE_TIMEMASK) {
         bool is_smooth;
         c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask, &is_smooth);
         load->method = is_smooth ? TILE_SMOOTH : TILE_TIMEMASK;

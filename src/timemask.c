@@ -406,8 +406,8 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, (m->bounds->flags & PATH_LEVEL) != 0,
                          m->record, pose, &c,
                          max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
-    struct painter p = { .shade = &s, .first = first, .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2,
-                         .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first };
+    struct painter p = { .shade = &s, .first = first, .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first,
+                         .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2 };
     for (int i = 0; i < 2; i++) {
         struct code_slope *k = &p.code[i];
         k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
@@ -560,10 +560,10 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
                              bool *is_smooth)
 {
     const int log2 = pixels_log2(t->work_bytes);
-    struct job j = { .tile = t, .settings = settings, .list = t->work };
+    struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
     struct block most;
     smear_timemask_slots_place(&j.slots, j.list + LISTED, log2, 31 - count_leading_zeros((uint32_t)settings->slots),
-                               t->frame->linear);
+                               frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     choose_samples(&j);

@@ -255,7 +255,7 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c, cons
 {
     struct channels k;
     struct over_w w;
-    channels_read(&k, s->segment, record, s->frame->linear);
+    channels_read(&k, s->segment, record, frame_is_linear(s->frame));
     uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
     if (s->over_w)
@@ -280,7 +280,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c, cons
     if (s->over_w)
         over_w_make(s, &w, c, pose);
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, s->frame->linear);
+        channels_read(&k, s->segment, record, frame_is_linear(s->frame));
         shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
@@ -309,15 +309,15 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->slots_log2 = cover->slots_log2;
     s->tap = tap;
     s->color = color & 0xffffffu;
-    s->sampler = segment->uv != 0 ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment->shade == SHADE_GOURAUD && !is_level;
+    s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
+    s->gouraud = segment_gouraud(segment) && !is_level;
     const bool is_plain = !s->gouraud && s->sampler == NULL;
     shade_depth(s, &course, pose, cover, is_plain);
     if (is_plain)
         return;
     if (!course.started)
         course_start(&course, pose, false);
-    if (s->sampler != NULL)
+    if (SMEAR_WITH_TEXTURE && s->sampler != NULL)
         shade_texture(s, &course, pose, record);
     else
         shade_gouraud(s, &course, pose, record);
@@ -387,7 +387,7 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
                              int32_t light[3])
 {
     uint32_t texel[TAPS_MAX];
-    const bool linear = s->frame->linear;
+    const bool linear = frame_is_linear(s->frame);
     const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
     int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
     int log2 = 0;
@@ -429,12 +429,12 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     int32_t x = timemask_run_x(run), light[3];
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
-        if (s->sampler == NULL)
-            return channels_pixel(light[0], light[1], light[2], s->frame->linear);
+        if (!SMEAR_WITH_TEXTURE || s->sampler == NULL)
+            return channels_pixel(light[0], light[1], light[2], frame_is_linear(s->frame));
     } else if (s->segment->shade == SHADE_FLAT) {
         for (int c = 0; c < 3; c++) {
             uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            light[c] = (int32_t)(s->frame->linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
+            light[c] = (int32_t)(frame_is_linear(s->frame) ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
         }
     } else {
         return texture_mean(s, x, y, run, NULL);

@@ -5,7 +5,7 @@
 void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear)
 {
     size_t pixels = (size_t)1 << pixels_log2;
-    b->any = memory;
+    b->any = (uint32_t *)memory;
     b->held = b->any + pixels;
     b->color = b->held + TIMEMASK_ENTRIES * pixels;
     b->depth = (uint16_t *)(void *)(b->color + TIMEMASK_ENTRIES * pixels);

@@ -90,6 +90,8 @@ if needs wasm-ld-14 "clang-14 lld-14" && needs chromedriver "chromium chromium-d
     suite web node tests/web.js build/web/index.html build/smear
 fi
 suite golden-host $make -s TARGET=host target-test
+suite switches $make -s switches-test
+suite dist $make -s dist-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
@@ -108,16 +110,23 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba; do
+        suite "symbols-$target" $make -s TARGET=$target symbols-test
+    done
+    suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test
     fi
-    suite objects-cortex-m0plus env CODE_LIMIT=90000 sh tests/target_objects.sh build/objects
+    suite objects-cortex-m0plus sh tests/target_objects.sh build/objects
+    suite objects-without-timed env CODE_LIMIT=40960 \
+        SWITCHES="-DSMEAR_WITH_SUBFRAMES=0 -DSMEAR_WITH_MODEL=0" sh tests/target_objects.sh build/objects-without-timed
 fi
 if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
     suite target-rv32imc $make -s TARGET=rv32imc target-test
+    suite symbols-rv32imc $make -s TARGET=rv32imc symbols-test
     suite demo-rv32imc $make -s TARGET=rv32imc demo-test
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \

@@ -5,7 +5,8 @@
 # checks the objects: nothing undefined but what a freestanding target always has, so neither
 # floating point nor 64-bit division; no writable data. Compiles them for the host, too: general
 # registers only, no header but the compiler's own. Prints the size of code and tables.
-# CODE_LIMIT=BYTES makes larger code fail.
+# SWITCHES="-DSMEAR_WITH_...=0" leaves out what smear_config.h lets one leave out; counted is what a program that calls
+# every function of the interface would link. CODE_LIMIT=BYTES makes larger code fail; LIST=0 prints no files.
 set -u
 if [ $# -lt 1 ]; then
     echo "usage: target_objects.sh BUILD-FOLDER [SOURCE...]" >&2
@@ -20,7 +21,7 @@ if [ $# -eq 0 ]; then
 fi
 arm=${ARM_CC:-arm-none-eabi-gcc}
 host=${HOST_CC:-gcc}
-common="-std=c11 -ffreestanding -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc"
+common="-std=c11 -ffreestanding -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc ${SWITCHES:-}"
 own_headers="-nostdinc -isystem $($arm -print-file-name=include)"
 host_headers="-nostdinc -isystem $($host -print-file-name=include)"
 mkdir -p "$out"
@@ -40,9 +41,10 @@ done
 # 32-bit division, 64-bit products, shifts and comparisons, switch tables, and filling and copying
 allowed='^(__aeabi_u?idiv(mod)?|__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)|__gnu_thumb1_case_[a-z]+'
 allowed="$allowed|memcpy|memset|__aeabi_mem(cpy|set|clr)[48]?)\$"
+roots=$(sed -n 's/^[a-z].*[ *]\(smear_[a-z0-9_]*\)(.*/-u \1/p' include/smear.h include/smear_model.h | grep -v '_fn$')
 # shellcheck disable=SC2086
-arm-none-eabi-ld -r -o "$out/all.o" $objects || exit 1
-foreign=$(arm-none-eabi-nm -u "$out/all.o" | awk '{ print $NF }' | sort -u | grep -Ev "$allowed")
+arm-none-eabi-ld -r --gc-sections $roots -Map="$out/all.map" -o "$out/all.o" $objects || exit 1
+foreign=$(arm-none-eabi-nm -u "$out/all.o" | awk '{ print $NF }' | sort -u | grep -Ev "$allowed|^($(echo $roots | sed 's/-u //g; s/ /|/g'))\$")
 if [ -n "$foreign" ]; then
     echo "target_objects.sh: the library needs what it must not:" >&2
     # shellcheck disable=SC2086
@@ -52,25 +54,20 @@ if [ -n "$foreign" ]; then
     status=1
 fi
 
-# shellcheck disable=SC2086
-arm-none-eabi-size -A $objects | awk -v limit="${CODE_LIMIT:-0}" '
-    / :$/                           { file = $1; sub(/^.*\//, "", file)
-                                      is_table = file ~ /tables\.o/ }
-    $1 ~ /^\.text/                  { code[file] += $2; if (!is_table) total += $2 }
-    $1 ~ /^\.rodata/                { data[file] += $2
-                                      if (is_table) tables += $2; else constants += $2 }
-    $1 ~ /^\.(data|bss)/ && $2 > 0  { print "target_objects.sh: writable data: " file, $1, $2
-                                      bad = 1 }
+# Sections of the whole, each named after the function or table it holds.
+arm-none-eabi-size -A "$out/all.o" | awk -v limit="${CODE_LIMIT:-0}" '
+    $1 ~ /^\.text/                  { code += $2 }
+    $1 ~ /^\.rodata/                { if ($1 ~ table) tables += $2; else constants += $2 }
+    $1 ~ /^\.(data|bss)/ && $2 > 0  { print "target_objects.sh: writable data: " $1, $2; bad = 1 }
     END {
-        for (file in code) if (code[file] + data[file] > 0)
-            printf "%-32s %6d code %6d constants\n", file, code[file], data[file] | "sort"
-        close("sort")
-        printf "%-32s %6d code %6d constants, %d tables (Cortex-M0+, -Os)\n", "in all but tables", \
-               total, constants, tables
-        if (limit > 0 && total + constants > limit) {
+        printf "%d code, %d constants: %d bytes; %d tables (Cortex-M0+, -Os)\n", code, constants, code + constants, tables
+        if (limit > 0 && code + constants > limit) {
             print "target_objects.sh: more than " limit " bytes"
             bad = 1
         }
         exit bad
-    }' || status=1
+    }' table="^\\.rodata\\.($(sed -n 's/^extern const .* \(smear_[a-z0-9_]*\)\[.*/\1/p' src/tables.h | tr '\n' '|')none)\$" || status=1
+
+[ "${LIST:-1}" = 0 ] || arm-none-eabi-size $objects | awk 'NR > 1 {
+    file = $6; sub(/^.*\//, "", file); printf "    %-32s %6d\n", file, $1 }'
 exit $status

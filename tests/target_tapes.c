@@ -289,6 +289,14 @@ static const struct spec golden[] = {
       { .width = 64, .height = 48, .reach = 8, .format = SMEAR_L8, .sharp = 1, .layers = 1, .max_triangles = 1800 },
       { .method = SMEAR_LAYERED, .keep_ids = true },
       .has_large_meshes = true },
+    { "accumulate-bands", "peer/E", 2, 1, 1,
+      { .width = 72, .height = 40, .format = SMEAR_RGB332, .sharp = 1, .accumulate = 2,
+        .band_rows = 5, .max_triangles = 300 },
+      { .method = SMEAR_ACCUMULATE, .samples = 5 } },
+    { "accumulate-leaves", "test/leaves", 6, 1, 1,
+      { .width = 64, .height = 48, .format = SMEAR_RGB565, .sharp = 1, .accumulate = 2,
+        .band_rows = 4, .max_triangles = 500 },
+      { .method = SMEAR_ACCUMULATE, .samples = 3, .light = SMEAR_LIGHT_ENCODED }, .has_large_textures = true },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */

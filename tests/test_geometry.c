@@ -150,8 +150,8 @@ static void test_points_are_listed_in_their_row_only(void)
         uint32_t at = geometry.triangle_count;
         struct smear_triangle *t = geometry_add(&geometry, &opaque_last[geometry_row(&geometry, y)]);
         t->segment = SMEAR_POINT;
-        t->x = 5;
-        t->y = (uint16_t)y;
+        t->vertex[POINT_X] = 5;
+        t->vertex[POINT_Y] = (uint16_t)y;
         added[at].first = y;
         added[at].end = y + 1;
         added[at].blend = false;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_tables.c - what the constants promise each other. That a fresh run of tools/gentables gives
  * the same file is a rule of the Makefile. Needs neither libc nor floating point. */
+#include "../src/pixel.h"
 #include "../src/tables.h"
 
 #include "test.h"
@@ -23,6 +24,12 @@ static void test_light_rises_with_the_code_from_black_to_one(void)
         CHECK(smear_srgb_decode[code] > smear_srgb_decode[code - 1]);
     for (int light = 1; light < 4096; light++)
         CHECK(smear_srgb_encode[light] >= smear_srgb_encode[light - 1]);
+}
+
+static void test_searching_finds_what_the_table_has(void)
+{
+    for (uint32_t light = 0; light < 4096; light++)
+        CHECK_EQ(srgb_encode_searched(light), smear_srgb_encode[light]);
 }
 
 static void test_middle_values_are_those_of_the_standard(void)
@@ -67,6 +74,7 @@ void suite_tables(void)
 {
     RUN(test_every_code_survives_decoding_and_encoding);
     RUN(test_light_rises_with_the_code_from_black_to_one);
+    RUN(test_searching_finds_what_the_table_has);
     RUN(test_middle_values_are_those_of_the_standard);
     RUN(test_the_sine_has_its_symmetries);
     RUN(test_roots_and_reciprocals_have_their_ends);

@@ -3,7 +3,8 @@
 # hot.sh PROGRAM.elf PROFILE BYTES
 # Prints hot.ld: the functions of the library that gain most per byte from fast memory, as many as
 # fit into BYTES. PROFILE is what `run.sh -p PROFILE PROGRAM.elf` wrote; the gain of a function is
-# what it took beyond FAST_CYCLES per instruction.
+# what it took beyond FAST_CYCLES per instruction, or, where it lies in fast memory already, what it would
+# take: SLOW_CYCLES more.
 set -u
 arm-none-eabi-nm -n -S "$1" | awk 'NF == 4 && $3 ~ /[tT]/ { print "F", $1, $2, $4 }' >"$2.names"
 awk '{ print "P", $1, $2, $3 }' "$2" | cat "$2.names" - | sort -k2,2 -k1,1 |
@@ -13,9 +14,9 @@ awk '{ print "P", $1, $2, $3 }' "$2" | cat "$2.names" - | sort -k2,2 -k1,1 |
             value = value * 16 + index("0123456789abcdef", substr(hex, i, 1)) - 1
         return value
     }
-    BEGIN { FAST_CYCLES = 1.8 }
+    BEGIN { FAST_CYCLES = 1.8; SLOW_CYCLES = 3.2 }
     $1 == "F" { name = $4; end = number($2) + number($3); bytes[name] = number($3) }
-    $1 == "P" && number($2) < end { gain[name] += $3 - FAST_CYCLES * $4; total += $3 }
+    $1 == "P" && number($2) < end { gain[name] += $2 ~ /^03/ ? SLOW_CYCLES * $4 : $3 - FAST_CYCLES * $4 }
     END {
         for (name in gain)
             if (bytes[name] > 0 && gain[name] > 0)

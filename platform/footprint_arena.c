@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* footprint_arena.c - bytes of memory the library wants for contexts of 240x240 pixels, RGB565, 600 triangles, 8 draws:
+ * sharp; with a window (reach 12); timed without a window (tiles of 16); timed with one. 0: refused. */
+#include "platform.h"
+
+#include "../tests/target_print.h"
+
+#include <smear.h>
+
+int main(void)
+{
+    const smear_desc desc[] = {
+        { .sharp = 1, .tile = 16 }, { .reach = 12 }, { .sharp = 1, .timed = 1, .tile = 16 }, { .reach = 12, .timed = 1 }
+    };
+    for (unsigned i = 0; i < sizeof desc / sizeof *desc; i++) {
+        smear_desc d = desc[i];
+        d.width = d.height = 240;
+        d.format = SMEAR_RGB565;
+        d.max_triangles = 600;
+        d.max_draws = 8;
+        platform_print(i > 0 ? " " : "");
+        print_decimal((uint32_t)smear_memory_size(&d));
+    }
+    platform_print("\n");
+    return 0;
+}

@@ -1,0 +1,190 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# dist.sh: the forms that `make dist` and `make install` wrote into build/dist and build/dist-install
+# build, draw golden frames, and state one version. What is not installed here (ESP-IDF, Zephyr, pico-sdk) is stood in for
+# by its few CMake functions, so that lists of sources, folders and switches are tried all the same.
+set -u
+dist=$PWD/build/dist installed=$PWD/build/dist-install
+out=$PWD/build/dist-test
+passed=0
+failed=0
+version=$(sh tools/dist/version.sh)
+rm -rf "$out"
+mkdir -p "$out"
+
+check() {
+    what=$1
+    shift
+    if "$@" >"$out/log" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $what"
+        tail -n 20 "$out/log"
+    fi
+}
+
+# ---------------------------------------------------------------------- versions
+
+states() {
+    grep -qF "$2" "$1" || { grep -n -i version "$1"; return 1; }
+}
+check "version of cmake" states "$dist/cmake/smear/CMakeLists.txt" "project(smear VERSION $version "
+check "version of platformio" states "$dist/platformio/smear/library.json" "\"version\": \"$version\""
+check "version of arduino" states "$dist/arduino/smear/library.properties" "version=$version"
+check "version of esp-idf" states "$dist/esp-idf/smear/idf_component.yml" "version: \"$version\""
+check "version of zephyr" states "$dist/zephyr/smear/zephyr/CMakeLists.txt" "version $version:"
+check "version of pico-sdk" states "$dist/pico-sdk/smear/CMakeLists.txt" "Version $version."
+check "version of smear.pc" states "$installed/usr/lib/pkgconfig/smear.pc" "Version: $version"
+check "no other version is stated" sh -c "! grep -rnE 'VERSION [0-9]|ersion[\": =]+[0-9]+\\.[0-9]+\\.[0-9]' '$dist' \
+    --include=CMakeLists.txt --include=*.json --include=*.properties --include=*.yml | grep -vF '$version' | grep -v cmake_minimum | grep ."
+
+# ---------------------------------------------------------------------- one file
+
+programs="tests/target_golden.c tests/play.c tests/target_print.c platform/host/platform.c build/tapes/golden.c"
+golden() {
+    name=$1
+    shift
+    # shellcheck disable=SC2086
+    "$@" -I"$dist/single" -c -o "$out/$name.o" "$dist/single/smear.c" &&
+        ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$dist/single" -Itests -o "$out/$name" $programs "$out/$name.o" &&
+        "$out/$name"
+}
+strict="-O1 -Wall -Wextra -Wpedantic -Werror"
+# shellcheck disable=SC2086
+{
+    check "smear.c as C99" golden c99 ${CC:-cc} -std=c99 $strict -Wconversion
+    check "smear.c as C11" golden c11 ${CC:-cc} -std=c11 $strict -Wconversion
+    check "smear.c as C++20" golden cxx20 ${CXX:-c++} -x c++ -std=c++20 $strict
+    check "smear.c with switches" ${CC:-cc} -std=c99 $strict -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -c -o "$out/o" \
+        "$dist/single/smear.c"
+    check "smear.h as C99" ${CC:-cc} -std=c99 $strict -fsyntax-only -x c "$dist/single/smear.h"
+    check "smear.h as C++11" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -x c++ "$dist/single/smear.h"
+}
+
+# ---------------------------------------------------------------------- Arduino, PlatformIO
+
+cat >"$out/sketch.cpp" <<END
+#include "$dist/arduino/smear/examples/cube/cube.ino"
+int main() { setup(); for (int i = 0; i < 40; i++) loop(); return bytes_seen == 40u * 128 * 64 * 2 ? 0 : 1; }
+END
+sketch() {
+    ${CC:-cc} -std=gnu11 -O1 -c -I"$dist/arduino/smear/src" -o "$out/arduino.o" "$dist"/arduino/smear/src/*.c &&
+        ${CXX:-c++} -std=gnu++11 -Wall -Wextra -Werror -I"$dist/arduino/smear/src" -o "$out/sketch" "$out/sketch.cpp" "$out/arduino.o" &&
+        "$out/sketch"
+}
+check "sketch of arduino" sketch
+
+example() {
+    ${CC:-cc} -std=gnu11 -O1 -I"$dist/platformio/smear/include" -I"$dist/platformio/smear/src" -o "$out/example" \
+        "$dist"/platformio/smear/src/*.c "$dist/platformio/smear/examples/cube/main.c" && "$out/example" >"$out/example.ppm"
+}
+check "example of platformio" example
+
+# ---------------------------------------------------------------------- installed
+
+if command -v pkg-config >/dev/null 2>&1; then
+    installed_example() {
+        flags=$(PKG_CONFIG_PATH="$installed/usr/lib/pkgconfig" pkg-config --define-variable=prefix="$installed/usr" --cflags --libs smear) &&
+            # shellcheck disable=SC2086
+            ${CC:-cc} -std=gnu11 -o "$out/pc" "$dist/platformio/smear/examples/cube/main.c" $flags && "$out/pc" >"$out/pc.ppm" &&
+            cmp "$out/pc.ppm" "$out/example.ppm"
+    }
+    check "program by pkg-config" installed_example
+else
+    echo "not run without pkg-config"
+fi
+
+# ---------------------------------------------------------------------- CMake, and what is built on it
+
+if command -v cmake >/dev/null 2>&1; then
+    # project NAME: configures and builds out/NAME, whose program draws the example's picture
+    project() {
+        cp "$dist/platformio/smear/examples/cube/main.c" "$out/$1/main.c"
+        cmake -S "$out/$1" -B "$out/$1/build" -DCMAKE_PREFIX_PATH="$out/prefix" && cmake --build "$out/$1/build" -j2 &&
+            "$out/$1/build/program" >"$out/$1/picture.ppm" && cmp "$out/$1/picture.ppm" "$out/example.ppm"
+    }
+    mkdir -p "$out/subdirectory" "$out/package" "$out/esp-idf" "$out/zephyr" "$out/pico-sdk"
+    cat >"$out/subdirectory/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(program C)
+add_subdirectory($dist/cmake/smear smear)
+add_executable(program main.c)
+target_link_libraries(program smear::smear)
+END
+    check "cmake: add_subdirectory" project subdirectory
+    package() {
+        cmake -S "$dist/cmake/smear" -B "$out/cmake" -DCMAKE_INSTALL_PREFIX="$out/prefix" && cmake --build "$out/cmake" -j2 &&
+            cmake --install "$out/cmake" && project package
+    }
+    cat >"$out/package/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(program C)
+find_package(smear $version EXACT REQUIRED)
+add_executable(program main.c)
+target_link_libraries(program smear::smear)
+END
+    check "cmake: find_package" package
+
+    switches=$(sed -n 's/^config \(SMEAR_WITH_[A-Z0-9_]*\)$/set(CONFIG_\1 y)/p' "$dist/esp-idf/smear/Kconfig" | grep -v _MODEL)
+    cat >"$out/esp-idf/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(program C)
+function(idf_component_register)
+    cmake_parse_arguments(c "" "" "SRCS;INCLUDE_DIRS;PRIV_INCLUDE_DIRS" \${ARGN})
+    list(TRANSFORM c_SRCS PREPEND $dist/esp-idf/smear/)
+    list(TRANSFORM c_INCLUDE_DIRS PREPEND $dist/esp-idf/smear/)
+    list(TRANSFORM c_PRIV_INCLUDE_DIRS PREPEND $dist/esp-idf/smear/)
+    add_library(component STATIC \${c_SRCS})
+    target_include_directories(component PUBLIC \${c_INCLUDE_DIRS} PRIVATE \${c_PRIV_INCLUDE_DIRS})
+    set(COMPONENT_LIB component PARENT_SCOPE)
+endfunction()
+$switches
+include($dist/esp-idf/smear/CMakeLists.txt)
+add_executable(program main.c)
+target_link_libraries(program component)
+END
+    check "esp-idf's functions" project esp-idf
+    check "esp-idf: a switch that is off leaves code out" sh -c "! nm '$out/esp-idf/build/libcomponent.a' | grep -q smear_actor_init"
+    cat >"$out/zephyr/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(program C)
+macro(zephyr_library_named name)
+    add_library(\${name} STATIC)
+    set(zephyr_library \${name})
+endmacro()
+macro(zephyr_library_sources)
+    target_sources(\${zephyr_library} PRIVATE \${ARGN})
+endmacro()
+macro(zephyr_library_compile_options)
+    target_compile_options(\${zephyr_library} PRIVATE \${ARGN})
+endmacro()
+macro(zephyr_library_include_directories)
+    target_include_directories(\${zephyr_library} PRIVATE \${ARGN})
+endmacro()
+macro(zephyr_include_directories)
+    target_include_directories(\${zephyr_library} PUBLIC \${ARGN})
+endmacro()
+macro(zephyr_compile_definitions)
+    target_compile_definitions(\${zephyr_library} PUBLIC \${ARGN})
+endmacro()
+set(CONFIG_SMEAR y)
+$switches
+include($dist/zephyr/smear/zephyr/CMakeLists.txt)
+add_executable(program main.c)
+target_link_libraries(program smear)
+END
+    check "zephyr's functions" project zephyr
+    cat >"$out/pico-sdk/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(program C)
+add_subdirectory($dist/pico-sdk/smear smear)
+add_executable(program main.c)
+target_link_libraries(program smear)
+END
+    check "pico-sdk" project pico-sdk
+else
+    echo "not run without cmake"
+fi
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
