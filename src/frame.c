@@ -453,7 +453,7 @@ static void raster_job(void *argument, int job, int worker)
         t.inspect = c->inspect;
     }
     smear_raster_list(&c->raster, &t, c->opaque);
-    if (!c->raster.velocity_from_depth)
+    if (!SMEAR_WITH_FILTERS || !c->raster.velocity_from_depth)
         return;
     const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale, c->raster.reach_q3,
                                               c->inspect };
@@ -560,7 +560,7 @@ static void reduce_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
     uint32_t start = stage_start(c);
-    if (c->filtered == c->half)
+    if (SMEAR_WITH_FILTERS && c->filtered == c->half)
         smear_jobs_run(&c->jobs, half_job, &job, c->window.columns);
     smear_jobs_run(&c->jobs, reduce_job, &job, c->window.columns);
     stage_end(c, &c->stats.time_reduce, start);
@@ -603,13 +603,13 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
     uint32_t samples = 0;
     if (kind == TILE_STILL)
         smear_blur_copy(tile, w, row, column);
-    else if (c->frame.filter == SMEAR_FILTER_PINGPONG)
+    else if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG)
         samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows, &c->filtering->pass[c->filtering->passes - 1], row,
                                       column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
     else if (c->frame.filter == SMEAR_FILTER_MEAN
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
-    else if (c->frame.weights != SMEAR_WEIGHTS_STACK)
+    else if (SMEAR_WITH_FILTERS && c->frame.weights != SMEAR_WEIGHTS_STACK)
         samples = smear_blur_weights(tile, w, &rows, row, column, &c->blur);
     else
         samples = smear_blur_reconstruct(tile, w, &rows, row, column, &c->blur);
@@ -626,7 +626,7 @@ static void tile_job(void *argument, int column, int worker)
         return;
     }
     uint32_t *tile = c->scratch + worker * c->window.tile * c->window.tile;
-    if (w != c->half) {
+    if (!SMEAR_WITH_FILTERS || w != c->half) {
         filter_tile(c, tile, r->row, column, worker);
     } else if (is_still(w, r->row, column)) {
         smear_blur_copy(tile, &c->window, r->row, column);
@@ -672,7 +672,7 @@ static void fill_row_table(struct smear_context *c, int row, int32_t end)
 static int32_t run_passes(struct smear_context *c, int known)
 {
     int32_t end = filtered_bottom(c, known);
-    for (int i = 0; i < c->filtering->passes - 1; i++) {
+    for (int i = 0; SMEAR_WITH_FILTERS && i < c->filtering->passes - 1; i++) {
         int32_t input_end = end;
         if (known != c->window.rows - 1)
             end = max_i32(end - c->filtering->pass[i].reach, 0);
@@ -783,7 +783,7 @@ static int render_filter(struct smear_context *c)
 {
     /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
     struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    if (c->raster.velocity_from_depth)
+    if (SMEAR_WITH_FILTERS && c->raster.velocity_from_depth)
         smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
                              c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
@@ -981,7 +981,7 @@ static void prepare(struct smear_context *c)
     }
 
     c->filtered = c->frame.method == SMEAR_HALF ? c->half : w;
-    if (c->filtering != NULL) {
+    if (SMEAR_WITH_FILTERS && c->filtering != NULL) {
         c->filtering->passes = smear_pingpong_plan(c->filtering->pass, &c->frame.pingpong, c->filtered->reach);
         for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
             c->filtering->pass_end[i] = 0;

@@ -372,7 +372,10 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
-    if (!smear_pingpong_resolve(&f->pingpong))
+    if (!SMEAR_WITH_FILTERS && (f->camera_step != 0 || f->weights != 0 || (smear_method_is_filter(f->method)
+                                                                         && f->filter != SMEAR_FILTER_RECONSTRUCT)))
+        return false;
+    if (SMEAR_WITH_FILTERS && !smear_pingpong_resolve(&f->pingpong))
         return false;
     if (f->reference_hz == 0)
         f->reference_hz = 30;

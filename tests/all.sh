@@ -122,7 +122,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     fi
     suite objects-cortex-m0plus sh tests/target_objects.sh build/objects
     suite objects-without-timed env CODE_LIMIT=40960 \
-        SWITCHES="-DSMEAR_WITH_SUBFRAMES=0 -DSMEAR_WITH_MODEL=0" sh tests/target_objects.sh build/objects-without-timed
+        SWITCHES="-DSMEAR_WITH_SUBFRAMES=0 -DSMEAR_WITH_FILTERS=0 -DSMEAR_WITH_LAYERS=0 -DSMEAR_WITH_MODEL=0" sh tests/target_objects.sh build/objects-without-timed
 fi
 if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
     suite target-rv32imc $make -s TARGET=rv32imc target-test

@@ -31,13 +31,18 @@ static bool has_format(const smear_desc *d)
 static enum outcome outcome_of(const struct tape *tape)
 {
     const smear_desc *d = tape->desc;
-    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || (d->timed && !SMEAR_WITH_SUBFRAMES))
+    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || (d->accumulate && !SMEAR_WITH_ACCUMULATE)
+        || (d->timed && !SMEAR_WITH_SUBFRAMES) || (d->layers && !SMEAR_WITH_LAYERS)
+        || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
         return REFUSED;
     enum outcome outcome = SAME_BITS;
     for (int i = 0; i < tape->frame_count; i++) {
         const struct tape_frame *f = &tape->frame[i];
         uint8_t method = f->frame->method;
-        if ((method == SMEAR_RECONSTRUCT && !SMEAR_WITH_RECONSTRUCT) || (method == SMEAR_TIMEMASK && !SMEAR_WITH_TIMEMASK))
+        if ((smear_method_is_filter(method) && !SMEAR_WITH_RECONSTRUCT) || (method == SMEAR_TIMEMASK && !SMEAR_WITH_TIMEMASK))
+            return REFUSED;
+        if (((smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) || f->frame->camera_step != 0
+             || f->frame->weights != 0) && !SMEAR_WITH_FILTERS)
             return REFUSED;
         if (f->frame->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
             return REFUSED;
