@@ -148,7 +148,7 @@ setting() {
 claim "b turns blur off" setting '1 key b\n' --method none
 claim "b turns it on again" setting '1 key b\n1 key b\n'
 claim "m: the method after auto" setting '1 key m\n' --method none
-claim "M: the method before auto" setting '1 key M\n' --method half
+claim "M: the method before auto" setting '1 key M\n' --method layered
 claim "u: quality" setting '1 key u\n' --quality fine
 claim "U: quality" setting '1 key U\n' --quality draft
 claim "]: shutter" setting '1 key ]\n' --shutter 195

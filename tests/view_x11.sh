@@ -67,7 +67,7 @@ claim "of the panel's size" equals "$width $height" "320 240"
 claim "the picture is the frame" shows --frames 0-0
 claim "a key: a step" eval 'key 0x2e && shows --frames 1-1'
 claim "a key: no blur" eval 'key 0x62 && shows --frames 1-1 --method none'
-claim "a key with shift" eval 'key 0x62 && key 0x4d 1 && shows --frames 1-1 --method half'
+claim "a key with shift" eval 'key 0x62 && key 0x4d 1 && shows --frames 1-1 --method layered'
 claim "the pointer turns the camera" eval '"$user" press "$window" 1 100 100 &&
     "$user" move "$window" 0 140 110 && "$user" release "$window" 1 140 110 &&
     wait_for 20 looks_wrong'
