@@ -18,8 +18,10 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
 WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
     src/texture.c src/rows.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
 
+# The page offers neither filters beyond reconstruct nor layers: it has to be small.
+WEB_SWITCHES := -DSMEAR_WITH_FILTERS=0 -DSMEAR_WITH_LAYERS=0
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
-    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+    -Iinclude -Isrc $(WEB_SWITCHES) -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
 .PHONY: web web-chart web-bench
