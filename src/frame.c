@@ -401,7 +401,7 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
  * in the window, which has no more rows. */
 static void direct_job(void *argument, int job, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_context *c = r->c;
     struct smear_raster_target t;
     (void)worker;
@@ -540,7 +540,7 @@ static int32_t filtered_bottom(const struct smear_context *c, int row)
 
 static void half_job(void *argument, int column, int worker)
 {
-    const struct row_job *r = argument;
+    const struct row_job *r = (const struct row_job *)argument;
     (void)worker;
     smear_half_reduce(r->c->half, &r->c->window, r->row, column, r->c->blur.linear);
 }
@@ -651,7 +651,7 @@ struct pass_job {
 
 static void pass_tile_job(void *argument, int column, int worker)
 {
-    const struct pass_job *r = argument;
+    const struct pass_job *r = (const struct pass_job *)argument;
     struct smear_context *c = r->c;
     struct smear_row_table rows = row_table(c, r->row);
     c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,

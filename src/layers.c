@@ -117,8 +117,8 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
     if (!moves && !over)
         return;
     struct smear_group g = {
-        .layer = l->layer_of[draw], .rank = over || setting->layer.plain ? (uint8_t)(l->layer_of[draw] + 1) : 0,
-        .method = moves ? setting->layer.method : SMEAR_NONE
+        .layer = l->layer_of[draw], .rank = (uint8_t)(over || setting->layer.plain ? l->layer_of[draw] + 1 : 0),
+        .method = (uint8_t)(moves ? setting->layer.method : (int)SMEAR_NONE)
     };
     if (g.method == SMEAR_OBJECT && !setting->layer.plain && !is_constant(&m))
         g.method = SMEAR_LAYERED;
@@ -279,7 +279,7 @@ static inline bool is_plain(const struct layers_row *r)
 
 static void still_job(void *argument, int job, int worker)
 {
-    const struct layers_row *r = argument;
+    const struct layers_row *r = (const struct layers_row *)argument;
     struct smear_raster_target t = r->still;
     (void)worker;
     smear_job_columns(r->row.c, job, &t.x0, &t.x1);
@@ -298,7 +298,7 @@ static void still_job(void *argument, int job, int worker)
 /* Columns [x0, x1) of the group's rows, in as many cuts as there are workers. */
 static void draw_job(void *argument, int job, int worker)
 {
-    const struct layers_row *r = argument;
+    const struct layers_row *r = (const struct layers_row *)argument;
     struct smear_raster_target t = r->target;
     int32_t units = (t.x1 - t.x0 + 15) >> 4, n = r->row.c->jobs.workers, x0 = t.x0;
     (void)worker;
@@ -348,7 +348,7 @@ static void find_drawn(const struct smear_layer_rows *rows, const struct smear_r
 
 static void merge_job(void *argument, int job, int worker)
 {
-    const struct layers_row *r = argument;
+    const struct layers_row *r = (const struct layers_row *)argument;
     struct smear_context *c = r->row.c;
     uint32_t samples;
     if (r->group->method == SMEAR_LAYERED || is_plain(r)) {
@@ -379,7 +379,7 @@ static void keep_depths(const struct layers_row *r)
 
 static void blend_job(void *argument, int job, int worker)
 {
-    const struct layers_row *r = argument;
+    const struct layers_row *r = (const struct layers_row *)argument;
     struct smear_raster_target t = r->still;
     (void)worker;
     smear_job_columns(r->row.c, job, &t.x0, &t.x1);
@@ -389,7 +389,7 @@ static void blend_job(void *argument, int job, int worker)
 
 static void convert_job(void *argument, int job, int worker)
 {
-    const struct layers_row *r = argument;
+    const struct layers_row *r = (const struct layers_row *)argument;
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->row.c, job, &x0, &x1);
@@ -458,20 +458,20 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     }
     r->area = (struct smear_streak_area){
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
-        .rows = height + 2 * s->reach_y, .tile = c->window.tile, .top = s->reach_y, .margin = rows->margin,
-        .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
+        .rows = height + 2 * s->reach_y, .tile = c->window.tile, .row_first = rows->row_first, .row_end = rows->row_end,
+        .top = s->reach_y, .margin = rows->margin, .still = r->still.color, .still_depth = r->still.depth,
+        .still_stride = c->window.width, .over = rows->over, .over_depth = rows->over_depth,
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks, .marked_from = group->marked_from,
+        .height = height,
         .nearest = group->rank != 0 ? 65536u : group->nearest, .farthest = group->rank != 0 ? 65536u : group->farthest,
-        .linear = c->raster.linear,
-        .row_first = rows->row_first, .row_end = rows->row_end, .edge = rows->edge, .work = rows->work,
-        .over = rows->over, .over_depth = rows->over_depth,
-        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks, .marked_from = group->marked_from
+        .edge = rows->edge, .work = rows->work, .linear = c->raster.linear
     };
     const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down, and taps, look beyond the drawn columns. */
     int32_t beside = s->upright || gathers ? (2 * s->reach_x + 15) & ~15 : 0;
     r->target = (struct smear_raster_target){
-        .x0 = max_i32(group->x0 - beside, 0), .x1 = min_i32(group->x1 + beside, rows->width),
-        .y0 = top - s->reach_y, .y1 = top + height + s->reach_y,
+        .x0 = max_i32(group->x0 - beside, 0), .y0 = top - s->reach_y,
+        .x1 = min_i32(group->x1 + beside, rows->width), .y1 = top + height + s->reach_y,
         .color = rows->color, .color_rows = plane, .depth = rows->depth, .window_rows = plane,
         .tile_shift = (uint8_t)c->window.tile_shift
     };

@@ -739,13 +739,13 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
     struct smear_streak_area area = *all, *a = &area;
     int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
     int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
-    struct merge m = { .s = s, .a = a, .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride,
-                       .nearest = a->nearest, .farthest = a->farthest };
+    struct merge m = { .s = s, .a = a, .nearest = a->nearest, .farthest = a->farthest,
+                       .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride };
     const int32_t nodes_max = NODES * a->tile, room = a->linear ? nodes_max / 2 : nodes_max;
-    m.node.codes = a->work;
+    m.node.codes = (lanes *)a->work;
     m.sums.codes = m.node.codes + nodes_max;
     if (a->linear) {
-        m.node.light = a->work;
+        m.node.light = (struct light *)a->work;
         m.sums.light = m.node.light + nodes_max / 2;
     }
     if (left >= right)

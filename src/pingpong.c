@@ -38,10 +38,11 @@ int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear
         int32_t spacing = (high << 10) + low;
         int32_t farthest = (p->taps - 1) * spacing + (spacing * p->jitter >> 7);
         pass[k] = (struct smear_pass){
-            .taps = p->taps, .all_taps = min_i32(p->taps * p->passes, 64),
-            .direct_up_to = p->passes > 1 ? min_i32(p->taps * p->passes, 64) / 2 : -1,
-            .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64), .is_last = k == p->passes - 1, .spacing = spacing, .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread,
-            .reach = min_i32(((farthest >> 4) * reach + (1 << 15)) >> 16, reach)
+            .taps = p->taps, .direct_up_to = p->passes > 1 ? min_i32(p->taps * p->passes, 64) / 2 : -1,
+            .all_taps = min_i32(p->taps * p->passes, 64), .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64),
+            .is_last = k == p->passes - 1, .spacing = spacing,
+            .reach = min_i32(((farthest >> 4) * reach + (1 << 15)) >> 16, reach),
+            .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread != 0
         };
     }
     return p->passes;

@@ -598,7 +598,7 @@ enum { SLOTS_MAX = 512 };
 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count)
 {
-    struct slot *slot = memory;
+    struct slot *slot = (struct slot *)memory;
     uint32_t slots = min_u32((uint32_t)(bytes / sizeof *slot), SLOTS_MAX) / (uint32_t)count;
     for (uint32_t i = 0; i < slots * (uint32_t)count; i++)
         slot[i].triangle = SMEAR_NO_TRIANGLE;

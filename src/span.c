@@ -7,12 +7,12 @@
 
 void smear_span_flat(const struct setup *s, const struct span *p)
 {
-    uint32_t *color = p->color;
+    uint32_t *color = (uint32_t *)p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z, c = target_pixel(s->target, s->color), dz = (uint32_t)p->dz;
     int32_t n = p->b - p->a, i = 0;
     if (target_is_direct(s->target)) {
-        uint16_t *narrow = p->color;
+        uint16_t *narrow = (uint16_t *)p->color;
         do {
             uint32_t code = z >> 16;
             if (code > depth[i]) {
@@ -175,10 +175,10 @@ static void shade_plain(uint32_t *out, const struct setup *s, const struct span 
 static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint32_t z, int32_t dz,
                         int32_t n, const struct setup *s, uint32_t *mask, int32_t first)
 {
-    uint32_t *color = pixels;
+    uint32_t *color = (uint32_t *)pixels;
     if (target_is_direct(s->target)) {
         uint32_t least = s->draw->alpha == SMEAR_CUTOUT ? s->draw->cutoff : 0;
-        uint16_t *narrow = pixels;
+        uint16_t *narrow = (uint16_t *)pixels;
         for (; n > 0; n--, in++, narrow++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth && pixel_alpha(*in) >= least) {
                 *depth = (uint16_t)(z >> 16);

@@ -334,7 +334,7 @@ struct painter {
 };
 
 /* Depths of no still scene. */
-static const uint16_t nothing[TIMEMASK_WIDTH];
+static const uint16_t nothing[TIMEMASK_WIDTH] = { 0 };
 
 /* The fragments of a block. */
 SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p, bool plain, bool turns)

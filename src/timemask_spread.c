@@ -10,25 +10,28 @@ static int32_t samples_of(const struct timemask_spread *s)
 static void take_row(struct timemask_spread *s, int32_t row)
 {
     for (int32_t i = 0; i < samples_of(s); i++)
-        smear_timemask_slots_sum(s->slots, (uint32_t)(row * s->down + i * s->right), s->sum[row & 1][i]);
+        smear_timemask_slots_sum(s->slots, (uint32_t)(row * s->down + i * s->right), s->sum[row & 1].word[i]);
 }
 
-/* Sums in the row of pixels, times 2^down_log2. */
-static const uint32_t (*rows_mix(struct timemask_spread *s, int32_t y, uint32_t mix[][TIMEMASK_SUM_WORDS]))[TIMEMASK_SUM_WORDS]
+/* A sample's sum. */
+struct sum {
+    uint32_t word[TIMEMASK_SUM_WORDS];
+};
+
+/* Sums of a row of pixels, times 2^down_log2. */
+static const struct sum *rows_mix(struct timemask_spread *s, int32_t y, struct sum mix[TIMEMASK_WIDTH])
 {
     const int32_t down = 1 << s->down_log2, part = y & (down - 1), row = y >> s->down_log2;
     if (part == 0 && (row == 0 || down == 1))
         take_row(s, row);
     if (part == 0 && down != 1)
         take_row(s, row + 1);
-    const uint32_t (*above)[TIMEMASK_SUM_WORDS] = (const void *)s->sum[row & 1];
-    const uint32_t (*below)[TIMEMASK_SUM_WORDS] = (const void *)s->sum[~row & 1];
-    if (down == 1)
-        return above;
+    const struct timemask_sums *above = &s->sum[row & 1], *below = &s->sum[~row & 1];
     for (int32_t i = 0; i < samples_of(s); i++)
         for (int k = 0; k < TIMEMASK_SUM_WORDS; k++)
-            mix[i][k] = above[i][k] * (uint32_t)(down - part) + below[i][k] * (uint32_t)part;
-    return (const void *)mix;
+            mix[i].word[k] = down == 1 ? above->word[i][k]
+                           : above->word[i][k] * (uint32_t)(down - part) + below->word[i][k] * (uint32_t)part;
+    return mix;
 }
 
 /* The rest of the exposure shows the still scene. */
@@ -70,19 +73,18 @@ static SMEAR_NOINLINE void sum_before(const struct timemask_spread *s, int32_t x
 SMEAR_INLINE void spread_row(struct timemask_spread *s, int32_t y, uint32_t *out, const uint32_t *color,
                              const uint16_t *depth, bool linear)
 {
-    enum { WORDS_ENCODED = 2 };
-    const int words = linear ? TIMEMASK_SUM_WORDS : WORDS_ENCODED;
+    const int words = linear ? (int)TIMEMASK_SUM_WORDS : 2;
     const int shift = s->slots->slots_log2 + s->across_log2 + s->down_log2;
     const int32_t across = 1 << s->across_log2;
     uint32_t sum[TIMEMASK_SUM_WORDS], step[TIMEMASK_SUM_WORDS];
-    uint32_t mix[TIMEMASK_WIDTH][TIMEMASK_SUM_WORDS];
-    const uint32_t (*sample)[TIMEMASK_SUM_WORDS] = rows_mix(s, y, mix);
+    struct sum mix[TIMEMASK_WIDTH];
+    const struct sum *sample = rows_mix(s, y, mix);
     for (int32_t x = 0; x < s->width; x++) {
         if ((x & (across - 1)) == 0) {
             int32_t i = x >> s->across_log2;
             for (int k = 0; k < words; k++) {
-                sum[k] = sample[i][k] << s->across_log2;
-                step[k] = across == 1 ? 0 : sample[i + 1][k] - sample[i][k];
+                sum[k] = sample[i].word[k] << s->across_log2;
+                step[k] = across == 1 ? 0 : sample[i + 1].word[k] - sample[i].word[k];
             }
         }
         if ((int32_t)depth[x] < s->back) {

@@ -9,6 +9,10 @@
 
 #include "timemask_slots.h"
 
+struct timemask_sums {
+    uint32_t word[TIMEMASK_WIDTH][TIMEMASK_SUM_WORDS];
+};
+
 struct timemask_spread {
     const struct timemask_slots *slots;
     int32_t right, down;            /* from a sample to the next */
@@ -17,7 +21,7 @@ struct timemask_spread {
     /* Depth codes: where the still scene is at `front` or nearer it hides all movers, where it is farther than `back` none. */
     int32_t front, back;
     /* Sums of the rows of samples above and below: at [y & 1]. */
-    uint32_t sum[2][TIMEMASK_WIDTH][TIMEMASK_SUM_WORDS];
+    struct timemask_sums sum[2];
 };
 
 /* A row of pixels: y of the block, over still colours and depths. Rows are asked for from 0 on, one after the other. */
