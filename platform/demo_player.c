@@ -10,7 +10,7 @@
  * want `timed` and lists several times as long, or it leaves triangles out: see demo-cost. */
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
-                .max_draws = DEMO_DRAWS, .max_triangles = 300 }, SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, 0, "night" },
+                .max_draws = DEMO_DRAWS, .max_triangles = 280 }, SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, 0, "night" },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
                .max_draws = DEMO_DRAWS, .max_triangles = 300 }, SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, DAY, "small" },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,

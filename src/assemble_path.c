@@ -354,9 +354,9 @@ static void place_on_way(struct smear_homogeneous *out, const struct smear_homog
 
 static void scale_homogeneous(struct smear_homogeneous *h, int down)
 {
-    h->x = scale_sat(h->x, -down);
-    h->y = scale_sat(h->y, -down);
-    h->w = scale_sat(h->w, -down);
+    h->x = scale_sat(h->x, clamp_i32(-down, -31, 31));
+    h->y = scale_sat(h->y, clamp_i32(-down, -31, 31));
+    h->w = scale_sat(h->w, clamp_i32(-down, -31, 31));
 }
 
 /* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout would be too

@@ -17,7 +17,8 @@ LDLIBS  += -lgcc
 # The library as ARM code, which multiplies to 64 bits.
 $(BUILD)/src/%.o $(BUILD)/platform/common/%.o: CFLAGS += -marm
 
-# What is large and hot is made small, so that it fits into fast memory.
+# What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
+CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_RASTER_CACHE=0
 $(BUILD)/src/blur_%.o $(BUILD)/src/raster.o: CFLAGS += -Os
 
 PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
