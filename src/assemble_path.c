@@ -332,9 +332,9 @@ static void lower_scale(struct smear_projection *p, int scale)
     p->scale = (int16_t)scale;
     p->distance_scale = (int16_t)(p->distance_scale - down);
     p->depth_shift = (int16_t)(p->depth_shift - down);
-    p->near_distance = max_i32(scale_sat(p->near_distance, -down), 1);
+    p->near_distance = max_i32(scale_sat(p->near_distance, clamp_i32(-down, -31, 31)), 1);
     if (p->far_distance != INT32_MAX)
-        p->far_distance = scale_sat(p->far_distance, -down);
+        p->far_distance = scale_sat(p->far_distance, clamp_i32(-down, -31, 31));
 }
 
 /* Coordinate at time u (q16, -1 .. 1) of the way from open over middle to close. */
