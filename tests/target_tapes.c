@@ -230,7 +230,7 @@ static const struct spec golden[] = {
       { .width = 97, .height = 73, .reach = 11, .format = SMEAR_RGB565, .half = 1, .max_triangles = 1200 },
       { .method = SMEAR_HALF, .reconstruct = SMEAR_FENCE | SMEAR_UNIFORM }, .has_large_meshes = true },
     { "half-drone", "demo/drone", 9, 1, 1,
-      { .width = 88, .height = 64, .reach = 40, .format = SMEAR_RGB565, .half = 1, .passes = 2, .max_triangles = 1500 },
+      { .width = 88, .height = 64, .reach = 24, .format = SMEAR_RGB565, .half = 1, .passes = 2, .max_triangles = 1500 },
       { .method = SMEAR_HALF, .filter = SMEAR_FILTER_PINGPONG, .camera_step = 1, .light = SMEAR_LIGHT_ENCODED }, .has_large_meshes = true },
     { "mcguire", "suite/cross", 14, 1, 1,
       { .width = 72, .height = 54, .reach = 8, .format = SMEAR_RGB565, .max_triangles = 1200 },
