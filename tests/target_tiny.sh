@@ -40,10 +40,16 @@ done
 check differ "$folder/22.want.ppm" "$folder/22sharp.want.ppm"
 check differ "$folder/22.want.ppm" "$folder/25.want.ppm"
 check [ "$stack" -gt 0 ]
-$SIZE -A "$program" | awk -v stack="$stack" '
+# Where the call graph ends the compiler may call a helper: a product of 64 bits pushes 28 bytes.
+folder=$(dirname "$program")
+worst=$(find "$folder" -name "*.ci" -exec awk -v root=reset_handler -f platform/stack.awk {} + | awk '{ print $1 + 28 }')
+check [ "${worst:-0}" -ge "$stack" ]
+check [ "${worst:-0}" -le 2720 ]       # what tiny.ld has left
+$SIZE -A "$program" | awk -v worst="${worst:-0}" -v stack="$stack" '
     $1 == ".text" || $1 == ".data" { flash += $2 }
     $1 == ".mesh" { mesh = $2 }
     $1 == ".data" || $1 == ".bss" { ram += $2 }
-    END { printf "flash %d bytes and %d of mesh; RAM %d: memory and data %d, stack used %d\n", flash, mesh, ram + stack, ram, stack }'
+    END { printf "flash %d bytes and %d of mesh; RAM %d: memory and data %d, worst stack %d by the call graph, %d used\n",
+          flash, mesh, ram + worst, ram, worst, stack }'
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

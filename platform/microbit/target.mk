@@ -19,10 +19,11 @@ SYMBOLS_PROGRAMS = $(BUILD)/tiny$(EXE)
 FILE_SRC     := platform/microbit/file.c
 $(BUILD)/platform/tiny.o: CFLAGS += -DTINY_MEMORY=$(TINY_MEMORY)
 # smear_memory_size() of its desc, exactly.
-TINY_MEMORY := 9108
+TINY_MEMORY := 9064
 
-# The library is optimized as a whole: 1 kB less.
+# The library is optimized as a whole, 1 kB less, and tells who calls whom, for the worst stack.
 AR      := arm-none-eabi-gcc-ar
 
-LDFLAGS += -Os -flto
+LDFLAGS += -Os -flto -flto-partition=none -fcallgraph-info=su -dumpdir $(BUILD)/call.
 $(BUILD)/src/%.o: CFLAGS += -flto
+$(BUILD)/platform/%.o: CFLAGS += -fcallgraph-info=su
