@@ -174,24 +174,26 @@ static inline uint32_t level_q16(uint32_t code, uint32_t levels)
 }
 
 /* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Neighbours often are of one
- * colour: only thresholds differ then. */
+ * colour: only thresholds differ then, and these repeat. */
 SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                                      smear_dither dither, bool is_555, bool swapped)
 {
     int32_t mask;
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
-    uint32_t last = ~*in, high = 0, green = 0, low = 0;
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t p = in[i], t = (uint32_t)threshold[(x + i) & mask] << 8;
-        if (p != last) {
-            last = p;
-            high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
-            green = level_q16(pixel_green(p), is_555 ? 31 : 63);
-            low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
-        }
-        uint32_t packed = (is_555 ? (high + t) >> 6 & 0x7c00u : (high + t) >> 5 & 0xf800u) | ((green + t) >> 11 & 0x7e0u)
-                        | (low + t) >> 16;
-        out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
+    const uint32_t *end = in + n;
+    while (in < end) {
+        const uint32_t p = *in, *period = end - in > mask ? in + mask : end - 1;
+        const uint32_t high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
+        const uint32_t green = level_q16(pixel_green(p), is_555 ? 31 : 63);
+        const uint32_t low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
+        do {
+            uint32_t t = (uint32_t)threshold[x++ & mask] << 8;
+            uint32_t packed = (is_555 ? (high + t) >> 6 & 0x7c00u : (high + t) >> 5 & 0xf800u)
+                            | ((green + t) >> 11 & 0x7e0u) | (low + t) >> 16;
+            *out++ = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
+        } while (in++ < period && *in == p);
+        for (; in < end && *in == p; in++, out++, x++)
+            *out = out[-mask - 1];
     }
 }
 
@@ -207,8 +209,10 @@ static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, i
         }
     } else if (SMEAR_WITH_RGB555 && format == SMEAR_RGB555) {
         row_16bit_dithered(out, in, n, x, y, dither, true, swapped);
+    } else if (swapped) {
+        row_16bit_dithered(out, in, n, x, y, dither, false, true);
     } else {
-        row_16bit_dithered(out, in, n, x, y, dither, false, swapped);
+        row_16bit_dithered(out, in, n, x, y, dither, false, false);
     }
 }
 

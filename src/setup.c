@@ -157,7 +157,7 @@ static inline int32_t times_q16(int32_t a, int32_t q)
 
 void smear_setup_color(struct setup *s)
 {
-    s->perspective_color = false;
+    s->even_color = s->perspective_color = false;
     s->color_block = 16;
     if (!segment_gouraud(s->segment))
         return;
@@ -175,6 +175,7 @@ void smear_setup_color(struct setup *s)
         for (int i = 0; i < 3; i++)
             range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
     }
+    s->even_color = range == 0;
     /* Interpolated on the screen, a value is off by at most range x change of 1/w / 4: half a code is TEXTURE_OFF. */
     if (!segment_flat_depth(s->segment) && range != 0)
         s->perspective_color = smear_times_over((uint32_t)(high_q - low_q), range >> 8, (uint32_t)low_q)

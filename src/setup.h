@@ -71,6 +71,7 @@ struct setup {
     uint32_t color;                 /* 0xAARRGGBB: flat */
     struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or linear >> 8) in q16, see channel_value */
     uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
+    bool even_color;                /* channels are the same everywhere */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
 
     struct texture_setup texture;

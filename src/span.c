@@ -102,6 +102,13 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     int32_t x = k->x, x0 = k->start, x1 = k->end;
     c[3] = 255u << 16;
     d[3] = 0;
+    if (s->even_color) {
+        for (int i = 0; i < count; i++) {
+            c[i] = (uint32_t)s->channel[i].at;
+            d[i] = 0;
+        }
+        return;
+    }
     if (!s->perspective_color) {
         for (int i = 0; i < count; i++) {
             c[i] = (uint32_t)plane_at(&s->channel[i], x, p->y);
@@ -122,6 +129,28 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     }
 }
 
+#ifndef __OPTIMIZE_SIZE__
+/* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no colour: then red and blue are one
+ * product. */
+static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
+{
+    const uint32_t r = c[0] >> 16 & 255u, g = c[1] >> 16 & 255u, b = c[2] >> 16 & 255u, pair = 0xff00ffu;
+    if (r == b && r == g) {
+        for (; n > 0; n--, texel++) {
+            uint32_t t = *texel, rb = (t & pair) * r + 0x800080u, green = (t >> 8 & 255u) * r + 128u;
+            rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
+            *texel = (t >> 24 << 16 | (green + (green >> 8)) >> 8) << 8 | rb;
+        }
+        return;
+    }
+    for (; n > 0; n--, texel++) {
+        uint32_t t = *texel;
+        *texel = pixel_make(pixel_alpha(t), code_times(pixel_red(t), r), code_times(pixel_green(t), g),
+                            code_times(pixel_blue(t), b));
+    }
+}
+#endif
+
 /* Multiplies n texels by the light of the triangle: flat, or interpolated. */
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
@@ -137,6 +166,12 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
     } else {
         channels_at(s, p, k, c, d);
     }
+#ifndef __OPTIMIZE_SIZE__
+    if (!linear && (d[0] | d[1] | d[2]) == 0 && c[3] >> 16 == 255u && d[3] == 0) {
+        modulate_even(texel, c, n);
+        return;
+    }
+#endif
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;

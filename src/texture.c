@@ -59,15 +59,20 @@ int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
     return texels_of(ratio, s->scale_v, s->shift_v);
 }
 
-static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
+SMEAR_INLINE uint32_t fetch_as(const struct smear_sampler *s, uint32_t at, int format)
 {
-    if (s->format == SMEAR_TEXEL_8888)
+    if (format == SMEAR_TEXEL_8888)
         return ((const uint32_t *)s->texels)[at];
-    if (s->format == SMEAR_TEXEL_PALETTE8)
+    if (format == SMEAR_TEXEL_PALETTE8)
         return s->palette[((const uint8_t *)s->texels)[at]];
     uint32_t c = ((const uint16_t *)s->texels)[at];
     uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
     return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
+}
+
+static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
+{
+    return fetch_as(s, at, s->format);
 }
 
 /* Any integer texel coordinate into 0 .. size - 1. */
@@ -113,41 +118,56 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
     return mix_texels(top, bottom, fv, s->linear);
 }
 
-/* Texels along a chord; returns the coordinate after it. */
-static uint64_t sample_chord(uint32_t *out, const struct smear_sampler *s, uint64_t at, uint64_t step, int n)
+/* Any texel at the coordinates u and v, in turns (`turns`) or texels q16. */
+SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
 {
-    if (s->turns) {
+    if (turns)
+        return fetch_as(s, sampler_index(s, (uint32_t)(at >> 32), (uint32_t)at), format);
+    if (SMEAR_WITH_BILINEAR && s->bilinear)
+        return sample_bilinear(s, (int32_t)(at >> 32), (int32_t)at);
+    return texel(s, (int32_t)(at >> 32) >> 16, (int32_t)at >> 16);
+}
+
+/* Along one chord, or where a run is bent along chords of 2 pixels. No coordinate is asked for after a loop, which would
+ * be a product of 64 bits: small cores call for that. */
+SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
+                             int n, bool turns, int format)
+{
+    uint64_t at = run->at, step = run->step;
+    if (run->bend == 0) {
+        if (first != 0)
+            at += step * (uint32_t)first;
         for (; n > 0; n--, at += step)
-            *out++ = fetch(s, sampler_index(s, (uint32_t)(at >> 32), (uint32_t)at));
-    } else if (SMEAR_WITH_BILINEAR && s->bilinear) {
-        for (; n > 0; n--, at += step)
-            *out++ = sample_bilinear(s, (int32_t)(at >> 32), (int32_t)at);
-    } else {
-        for (; n > 0; n--, at += step)
-            *out++ = texel(s, (int32_t)(at >> 32) >> 16, (int32_t)at >> 16);
+            *out++ = sample_at(s, at, turns, format);
+        return;
     }
-    return at;
+    const uint64_t bend = run->bend;
+    for (int i = 0; n > 0; i++) {
+        if (i >= first) {
+            *out++ = sample_at(s, at, turns, format);
+            n--;
+        }
+        at += step;
+        if (i & 1)
+            step += bend;
+    }
 }
 
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
                   int n)
 {
-    uint64_t at = run->at, step = run->step;
-    if (run->bend == 0) {
-        for (; first > 0; first--)
-            at += step;
-        sample_chord(out, s, at, step, n);
-        return;
-    }
-    for (; first >= 2; first -= 2, step += run->bend)
-        at += 2 * step;
-    at += first != 0 ? step : 0;
-    while (n > 0) {
-        int count = min_i32(2 - first, n);
-        at = sample_chord(out, s, at, step, count);
-        out += count;
-        n -= count;
-        step += run->bend;
-        first = 0;
-    }
+#ifdef __OPTIMIZE_SIZE__
+    sample_run(out, s, run, first, n, s->turns, s->format);
+#else
+    /* In registers: `out` might be any of its words. */
+    const struct smear_sampler sampler = *s;
+    if (!sampler.turns)
+        sample_run(out, s, run, first, n, false, 0);
+    else if (sampler.format == SMEAR_TEXEL_8888)
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_8888);
+    else if (sampler.format == SMEAR_TEXEL_PALETTE8)
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
+    else
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);
+#endif
 }
