@@ -131,6 +131,8 @@ static inline bool has_layers(const struct smear_context *c)
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
 }
 
+extern const smear_transform smear_identity;      /* frame.c */
+
 /* frame.c: draws what was submitted. */
 int smear_frame_render(struct smear_context *c);
 

@@ -182,7 +182,11 @@ SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t 
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
     const uint32_t *end = in + n;
     while (in < end) {
+#ifdef __OPTIMIZE_SIZE__
+        const uint32_t p = *in, *period = end - 1;
+#else
         const uint32_t p = *in, *period = end - in > mask ? in + mask : end - 1;
+#endif
         const uint32_t high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
         const uint32_t green = level_q16(pixel_green(p), is_555 ? 31 : 63);
         const uint32_t low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
@@ -192,8 +196,10 @@ SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t 
                             | ((green + t) >> 11 & 0x7e0u) | (low + t) >> 16;
             *out++ = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
         } while (in++ < period && *in == p);
+#ifndef __OPTIMIZE_SIZE__
         for (; in < end && *in == p; in++, out++, x++)
             *out = out[-mask - 1];
+#endif
     }
 }
 

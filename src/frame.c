@@ -20,6 +20,8 @@
 
 /* ------------------------------------------------------------------ poses */
 
+const smear_transform smear_identity = SMEAR_IDENTITY;
+
 /* Weights of the poses now, open, close for an instant, q24; they add up to one. */
 struct instant {
     int32_t weight[3];
@@ -180,9 +182,8 @@ static void object_poses(struct smear_context *c, const struct smear_submitted *
 /* Valid until the next draw's. */
 static void poses_of(struct smear_context *c, const struct smear_submitted *s, struct draw_poses *p)
 {
-    static const smear_transform identity = SMEAR_IDENTITY;
     const smear_draw *d = &s->draw;
-    const smear_transform *object = d->now != NULL ? d->now : &identity;
+    const smear_transform *object = d->now != NULL ? d->now : &smear_identity;
     for (int i = 0; i < 3; i++) {
         p->object[i] = object;
         p->camera[i] = &c->camera;

@@ -537,7 +537,6 @@ static int32_t find_kept(struct smear_context *c, uint32_t id)
 
 static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 {
-    static const smear_transform identity = SMEAR_IDENTITY;
     if (!SMEAR_WITH_IDS || draw->id == 0)
         return -1;
     int32_t at = find_kept(c, draw->id);
@@ -548,7 +547,7 @@ static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
     k->has_before = known;
     if (known)
         k->before = k->now;
-    k->now = draw->now != NULL ? *draw->now : identity;
+    k->now = draw->now != NULL ? *draw->now : smear_identity;
     k->id = draw->id;
     k->frame = c->frame_number;
     return at;

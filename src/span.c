@@ -5,6 +5,13 @@
 #include "course.h"
 #include "pixel.h"
 
+/* Loops of their own for what is common. */
+#ifdef __OPTIMIZE_SIZE__
+#define SPAN_SPECIALIZED 0
+#else
+#define SPAN_SPECIALIZED 1
+#endif
+
 void smear_span_flat(const struct setup *s, const struct span *p)
 {
     uint32_t *color = (uint32_t *)p->color;
@@ -102,7 +109,7 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     int32_t x = k->x, x0 = k->start, x1 = k->end;
     c[3] = 255u << 16;
     d[3] = 0;
-    if (s->even_color) {
+    if (SPAN_SPECIALIZED && s->even_color) {
         for (int i = 0; i < count; i++) {
             c[i] = (uint32_t)s->channel[i].at;
             d[i] = 0;
@@ -129,7 +136,6 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     }
 }
 
-#ifndef __OPTIMIZE_SIZE__
 /* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no colour: then red and blue are one
  * product. */
 static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
@@ -149,7 +155,6 @@ static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
                             code_times(pixel_blue(t), b));
     }
 }
-#endif
 
 /* Multiplies n texels by the light of the triangle: flat, or interpolated. */
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
@@ -166,12 +171,10 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
     } else {
         channels_at(s, p, k, c, d);
     }
-#ifndef __OPTIMIZE_SIZE__
-    if (!linear && (d[0] | d[1] | d[2]) == 0 && c[3] >> 16 == 255u && d[3] == 0) {
+    if (SPAN_SPECIALIZED && !linear && (d[0] | d[1] | d[2]) == 0 && c[3] >> 16 == 255u && d[3] == 0) {
         modulate_even(texel, c, n);
         return;
     }
-#endif
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;
