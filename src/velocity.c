@@ -144,9 +144,15 @@ static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t
 
 void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3, int32_t out[2])
 {
-    int64_t k = scale;
-    out[0] = narrow_sat((displacement[0] * k) >> 8);
-    out[1] = narrow_sat((displacement[1] * k) >> 8);
+    /* Up to 128 px and shutters of 360 degrees, products have 32 bits. */
+    if (((magnitude_i32(displacement[0]) | magnitude_i32(displacement[1])) >> 15 | (uint32_t)scale >> 16) == 0) {
+        out[0] = displacement[0] * scale >> 8;
+        out[1] = displacement[1] * scale >> 8;
+    } else {
+        int64_t k = scale;
+        out[0] = narrow_sat((displacement[0] * k) >> 8);
+        out[1] = narrow_sat((displacement[1] * k) >> 8);
+    }
     if (!clamp)
         return;
     /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
@@ -217,7 +223,8 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             displacement_at(s, end, p->y, next);
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
-                step[i] = (int32_t)(((int64_t)(stored_next[i] - stored[i]) * inverse[n] + 0x8000) >> 16);
+                int32_t change = stored_next[i] - stored[i];
+                step[i] = n == 8 ? (change + 4) >> 3 : (int32_t)(((int64_t)change * inverse[n] + 0x8000) >> 16);
                 if (target_is_inspected(t))
                     wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }
