@@ -106,9 +106,20 @@ static int check(const struct demo_screen *screen, uint32_t step, bool with_stac
     return 0;
 }
 
-static void print_row(const char *name, uint32_t count, uint32_t pixels)
+/* A sum of the loop's frames, of which the mean fits 32 bits: whole ones and the rest, in 1/DEMO_LOOP. */
+struct sum {
+    uint32_t mean, rest;
+};
+
+static void add(struct sum *s, uint32_t count)
 {
-    uint32_t per_frame = (count + DEMO_LOOP / 2) / DEMO_LOOP;
+    s->mean += count / DEMO_LOOP;
+    s->rest += count % DEMO_LOOP;
+}
+
+static void print_row(const char *name, struct sum s, uint32_t pixels)
+{
+    uint32_t per_frame = s.mean + (s.rest + DEMO_LOOP / 2) / DEMO_LOOP;
     platform_print(name);
     print_decimal(per_frame);
     platform_print(" per frame, ");
@@ -123,7 +134,8 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
-    uint32_t total = 0, submit = 0, raster = 0, blur = 0, convert = 0, worst = 0;
+    struct sum total = { 0, 0 }, submit = total, raster = total, blur = total, convert = total;
+    uint32_t worst = 0;
     uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
     desc.clock = read_clock;
@@ -137,12 +149,12 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way)
         result = demo_player_frame(&player, i, true);
         uint32_t count = platform_clock_count(platform_clock() - before);
         smear_get_stats(player.ctx, &stats);
-        total += count;
+        add(&total, count);
         worst = count > worst ? count : worst;
-        submit += platform_clock_count(stats.time_submit);
-        raster += platform_clock_count(stats.time_raster);
-        blur += platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce);
-        convert += platform_clock_count(stats.time_convert);
+        add(&submit, platform_clock_count(stats.time_submit));
+        add(&raster, platform_clock_count(stats.time_raster));
+        add(&blur, platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce));
+        add(&convert, platform_clock_count(stats.time_convert));
         moving += stats.tiles_uniform + stats.tiles_complex;
         tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
         triangles = stats.triangles_in;

@@ -44,7 +44,8 @@ const struct demo_blur demo_blurs[] = {
     { "none", SMEAR_NONE, 0 },
     { "accumulate-2", SMEAR_ACCUMULATE, 2 }, { "accumulate-4", SMEAR_ACCUMULATE, 4 },
     { "accumulate-8", SMEAR_ACCUMULATE, 8 }, { "accumulate-16", SMEAR_ACCUMULATE, 16 },
-    { "reconstruct-4", SMEAR_RECONSTRUCT, 4 }, { "reconstruct-8", SMEAR_RECONSTRUCT, 8 },
+    { "reconstruct-4", SMEAR_RECONSTRUCT, 4 }, { "reconstruct-8", SMEAR_RECONSTRUCT, 8 }, { "reconstruct-16", SMEAR_RECONSTRUCT, 16 },
+    { "pingpong", SMEAR_PINGPONG, 0 }, { "object", SMEAR_OBJECT, 0 }, { "layered", SMEAR_LAYERED, 0 },
     { "subframes-4", SMEAR_SUBFRAMES, 4 }, { "subframes-8", SMEAR_SUBFRAMES, 8 }, { "subframes-32", SMEAR_SUBFRAMES, 32 },
     { "timemask-8", SMEAR_TIMEMASK, 8 }, { "timemask-32", SMEAR_TIMEMASK, 32 },
     { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT }, { "auto-balanced", SMEAR_AUTO, SMEAR_BALANCED },
@@ -63,9 +64,10 @@ const struct demo_blur *demo_blur_find(const char *name)
 
 void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc)
 {
-    desc->sharp = blur->method != SMEAR_RECONSTRUCT;
+    desc->sharp = !smear_method_is_filter(blur->method);
     desc->accumulate = blur->method == SMEAR_ACCUMULATE;
-    desc->timed = blur->method >= SMEAR_SUBFRAMES;
+    desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
+    desc->timed = smear_method_is_timed(blur->method);
     if (desc->timed)            /* a turning triangle is listed if it is seen at any time */
         desc->max_triangles *= 3;
 }
@@ -91,6 +93,14 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
     return smear_init(&player->ctx, desc, memory, bytes);
 }
 
+static int submit(struct demo_player *player, const smear_frame *how)
+{
+    int result = smear_begin(player->ctx, how);
+    for (int i = 0; i < player->scene.draw_count && result == SMEAR_OK; i++)
+        result = smear_submit(player->ctx, &player->scene.draw[i]);
+    return result;
+}
+
 int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
 {
     struct demo_scene *scene = &player->scene;
@@ -107,8 +117,17 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
         how.samples = blur->method != SMEAR_AUTO ? blur->number : 0;
         how.target = blur->method == SMEAR_AUTO ? blur->number : 0;
     }
-    int result = smear_begin(player->ctx, &how);
-    for (int i = 0; i < scene->draw_count && result == SMEAR_OK; i++)
-        result = smear_submit(player->ctx, &scene->draw[i]);
+    int result = submit(player, &how);
     return result == SMEAR_OK && draw ? smear_render(player->ctx) : result;
+}
+
+int demo_player_instant(struct demo_player *player, int32_t time)
+{
+    demo_scene_pose_at(&player->scene, player->props, time);
+    const smear_frame how = {
+        .camera = &player->scene.camera, .cut = 1, .clear = player->screen->sky, .method = SMEAR_NONE,
+        .light = player->screen->light
+    };
+    int result = submit(player, &how);
+    return result == SMEAR_OK ? smear_render(player->ctx) : result;
 }

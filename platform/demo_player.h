@@ -54,4 +54,7 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
  * library remembers where everything was. Returns a smear_result. */
 int demo_player_frame(struct demo_player *player, uint32_t frame, int draw);
 
+/* Renders the sharp instant at a time between frames, in DEMO_TIME of a frame. Returns a smear_result. */
+int demo_player_instant(struct demo_player *player, int32_t time);
+
 #endif

@@ -49,6 +49,12 @@ static int32_t scaled(int32_t a, int32_t b)
 
 static const smear_transform identity = SMEAR_IDENTITY;
 
+/* What `step` per frame comes to at a time. */
+static int32_t along(int32_t time, int32_t step)
+{
+    return time * step / DEMO_TIME;
+}
+
 /* Goes on from the pose along its own axes. */
 static void move(smear_transform *pose, int32_t x, int32_t y, int32_t z)
 {
@@ -89,7 +95,7 @@ static void add(struct demo_scene *out, const smear_draw *props, enum demo_prop 
 }
 
 static void add_car(struct demo_scene *out, const smear_draw *props, const smear_transform *car,
-                    int32_t frame, int32_t steer)
+                    int32_t time, int32_t steer)
 {
     static const int32_t hub[4][2] = {
         { METRES(1.38), METRES(0.80) }, { METRES(1.38), METRES(-0.80) },
@@ -101,7 +107,7 @@ static void add_car(struct demo_scene *out, const smear_draw *props, const smear
         move(&wheel, hub[i][0], METRES(0.45), hub[i][1]);
         if (i < 2)
             turn(&wheel, 1, steer);
-        turn(&wheel, 2, -frame * WHEEL_STEP);
+        turn(&wheel, 2, -along(time, WHEEL_STEP));
         turn(&wheel, 0, hub[i][1] > 0 ? DEGREES(90) : DEGREES(-90));
         add(out, props, PROP_WHEEL, &wheel);
     }
@@ -111,14 +117,14 @@ static void add_car(struct demo_scene *out, const smear_draw *props, const smear
 }
 
 static void add_drone(struct demo_scene *out, const smear_draw *props,
-                      const smear_transform *drone, int32_t frame)
+                      const smear_transform *drone, int32_t time)
 {
     add(out, props, PROP_DRONE, drone);
     for (int i = 0; i < 4; i++) {
         smear_transform rotor = *drone;
         turn(&rotor, 1, DEGREES(45) + i * DEGREES(90));
         move(&rotor, METRES(0.70), METRES(0.10), 0);
-        turn(&rotor, 1, i % 2 == 0 ? frame * ROTOR_STEP : -frame * ROTOR_STEP);
+        turn(&rotor, 1, i % 2 == 0 ? along(time, ROTOR_STEP) : -along(time, ROTOR_STEP));
         add(out, props, PROP_ROTOR, &rotor);
     }
 }
@@ -145,30 +151,30 @@ static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_
 
 /* ------------------------------------------------------------------ shots */
 
-static void chase(struct demo_scene *out, const smear_draw *props, int32_t frame)
+static void chase(struct demo_scene *out, const smear_draw *props, int32_t time)
 {
-    int32_t phase = frame * 65536 / CHASE;
-    int32_t x = METRES(-6) + frame * CAR_STEP, sway = sine(phase);
+    int32_t phase = time * (65536 / DEMO_TIME) / CHASE;
+    int32_t x = METRES(-6) + along(time, CAR_STEP), sway = sine(phase);
     look(out, x + METRES(3.7) + scaled(METRES(0.12), sway), METRES(1.5), METRES(4.6), DEGREES(42),
          DEGREES(-2.5));
 
     int32_t yaw = scaled(DEGREES(2), cosine(phase));
     smear_transform car = moved(x, 0, METRES(-0.2) - scaled(METRES(0.12), sway));
     turn(&car, 1, yaw);
-    add_car(out, props, &car, frame, 2 * yaw);
+    add_car(out, props, &car, time, 2 * yaw);
 
     smear_transform drone = moved(x - METRES(1.9) + scaled(METRES(0.3), cosine(phase)),
                                   METRES(2.5) + scaled(METRES(0.16), sine(2 * phase)),
                                   METRES(0.3) + scaled(METRES(0.6), sway));
     turn(&drone, 0, DEGREES(18));
     turn(&drone, 2, DEGREES(-20));
-    add_drone(out, props, &drone, frame);
+    add_drone(out, props, &drone, time);
     add_land(out, props);
 }
 
-static void roadside(struct demo_scene *out, const smear_draw *props, int32_t frame)
+static void roadside(struct demo_scene *out, const smear_draw *props, int32_t time)
 {
-    int32_t phase = frame * 65536 / ROADSIDE, swing = sine(phase);
+    int32_t phase = time * (65536 / DEMO_TIME) / ROADSIDE, swing = sine(phase);
     look(out, METRES(1.2), METRES(1.6), METRES(5.2), DEGREES(16.7), DEGREES(2));
 
     smear_transform drone = moved(METRES(-0.25) + scaled(METRES(1.1), swing),
@@ -176,20 +182,25 @@ static void roadside(struct demo_scene *out, const smear_draw *props, int32_t fr
                                   METRES(0.6) - scaled(METRES(0.4), cosine(phase)));
     turn(&drone, 0, DEGREES(24));
     turn(&drone, 2, scaled(DEGREES(17), swing));
-    add_drone(out, props, &drone, frame);
+    add_drone(out, props, &drone, time);
 
-    smear_transform car = moved((frame - ROADSIDE / 2) * CAR_STEP, 0, METRES(-1.6));
-    add_car(out, props, &car, frame, 0);
+    smear_transform car = moved(along(time - ROADSIDE / 2 * DEMO_TIME, CAR_STEP), 0, METRES(-1.6));
+    add_car(out, props, &car, time, 0);
     add_land(out, props);
+}
+
+void demo_scene_pose_at(struct demo_scene *out, const smear_draw *props, int32_t time)
+{
+    const int32_t second = CHASE * DEMO_TIME;
+    out->cut = time == 0 || time == second;
+    out->draw_count = 0;
+    if (time < second)
+        chase(out, props, time);
+    else
+        roadside(out, props, time - second);
 }
 
 void demo_scene_pose(struct demo_scene *out, const smear_draw *props, uint32_t frame)
 {
-    int32_t at = (int32_t)(frame % DEMO_LOOP);
-    out->cut = at == 0 || at == CHASE;
-    out->draw_count = 0;
-    if (at < CHASE)
-        chase(out, props, at);
-    else
-        roadside(out, props, at - CHASE);
+    demo_scene_pose_at(out, props, (int32_t)(frame % DEMO_LOOP) * DEMO_TIME);
 }

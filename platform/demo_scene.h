@@ -32,4 +32,8 @@ struct demo_scene {
  * `out` holds points into itself: it must stay where it is until the frame has been drawn. */
 void demo_scene_pose(struct demo_scene *out, const smear_draw *props, uint32_t frame);
 
+/* The same at a time between frames, in DEMO_TIME of a frame from 0 to DEMO_LOOP frames. */
+enum { DEMO_TIME = 256 };
+void demo_scene_pose_at(struct demo_scene *out, const smear_draw *props, int32_t time);
+
 #endif
