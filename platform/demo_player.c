@@ -65,6 +65,7 @@ const struct demo_blur *demo_blur_find(const char *name)
 void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc)
 {
     desc->sharp = !smear_method_is_filter(blur->method);
+    desc->passes = blur->method == SMEAR_PINGPONG ? 2 : 0;
     desc->accumulate = blur->method == SMEAR_ACCUMULATE;
     desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
     desc->timed = smear_method_is_timed(blur->method);

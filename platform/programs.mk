@@ -186,6 +186,18 @@ tiny-test: $(BUILD)/tiny$(EXE) $(RUN_NEEDS)
 tiny-cost: $(BUILD)/tiny$(EXE)
 	$(RUN_BENCH) $< cost
 
+# ---------------------------------------------------------------------- speed against accuracy
+
+ERROR_SRC := platform/device_error.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c $(LIB_SRC)
+
+$(PROPS)/device_error: $(ERROR_SRC) platform/demo_player.h platform/demo_scene.h
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(ERROR_SRC) -lm
+
+.PHONY: device-chart
+## speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"
+device-chart: $(PROPS)/device_error
+	MAKE="$(MAKE)" BLURS="$(BLURS)" sh platform/device_chart.sh build/device-chart $< $(TARGETS)
+
 # ---------------------------------------------------------------------- a model of one's own
 
 # What `smear convert FILE --name model -o build/model.h` wrote.
