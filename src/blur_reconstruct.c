@@ -429,9 +429,9 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
                                   int32_t x0, int32_t y0, bool edge)
 {
     const struct smear_window *w = g->w;
-    int32_t x1 = min_i32(x0 + w->tile, w->width), y1 = min_i32(y0 + w->tile, w->height);
+    int32_t x1 = min_i32(x0 + w->tile, w->width);
     uint32_t taps = 0;
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+    for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
         uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
         uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
         for (int32_t x = x0; x < x1; x++, at++, inner += NOISE_X) {
@@ -468,7 +468,7 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
         g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     choice_make(&choice, &g, row, column);
     if (!choice.gathers) {
-        smear_blur_copy(out, w, row, column);
+        smear_blur_copy(out, w, rows, column);
         return 0;
     }
     int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift;

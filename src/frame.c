@@ -516,13 +516,30 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_window(r, x0, x1);
 }
 
+/* The tile row's next band, after job->y1; false when there is none. A windowed context may have bands of fewer rows than
+ * a tile. */
+static bool next_band(struct row_job *job)
+{
+    struct smear_context *c = job->c;
+    job->y0 = job->y1 != 0 ? job->y1 : row_top(c, job->row);
+    job->y1 = min_i32(job->y0 + c->desc.band_rows, row_bottom(c, job->row));
+    if (job->y0 >= job->y1)
+        return false;
+    job->band = smear_band_begin(c);
+    return true;
+}
+
 static int finish_sharp(struct smear_context *c, int row)
 {
-    uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
-    smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
-    stage_end(c, &c->stats.time_convert, start);
-    return smear_band_flush(c, row, job.band);
+    struct row_job job = { .c = c, .row = row };
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && next_band(&job)) {
+        uint32_t start = stage_start(c);
+        smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
+        stage_end(c, &c->stats.time_convert, start);
+        result = smear_band_flush_part(&job);
+    }
+    return result;
 }
 
 /* ------------------------------------------------------------------ finishing with a filter */
@@ -566,9 +583,9 @@ static void reduce_row(struct smear_context *c, int row)
     stage_end(c, &c->stats.time_reduce, start);
 }
 
-static struct smear_row_table row_table(const struct smear_context *c, int row)
+static struct smear_row_table row_table(const struct smear_context *c, int row, int32_t y0, int32_t y1)
 {
-    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach };
+    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach, y0, y1 };
 }
 
 static bool is_still(const struct smear_window *w, int row, int column)
@@ -594,18 +611,18 @@ static const uint32_t *pass_input(const struct smear_context *c, int pass)
     return pass == 0 ? c->filtered->color : c->filtering->pass_plane[pass - 1];
 }
 
-/* The filter, over a tile of the window it reads; rows of `tile` are that window's tile apart. */
-static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int worker)
+/* The filter, over rows [y0, y1) of a tile of the window it reads; rows of `tile` are that window's tile apart. */
+static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int32_t y0, int32_t y1, int worker)
 {
     const struct smear_window *w = c->filtered;
-    struct smear_row_table rows = row_table(c, row);
+    struct smear_row_table rows = row_table(c, row, y0, y1);
     uint8_t kind = window_around(w, row)[column].kind;
     uint32_t samples = 0;
     if (kind == TILE_STILL)
-        smear_blur_copy(tile, w, row, column);
+        smear_blur_copy(tile, w, &rows, column);
     else if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG)
         samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows, &c->filtering->pass[c->filtering->passes - 1], row,
-                                      column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
+                                      column, y0, y1, &c->blur);
     else if (c->frame.filter == SMEAR_FILTER_MEAN
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
@@ -625,14 +642,15 @@ static void tile_job(void *argument, int column, int worker)
         convert_still(r, column);
         return;
     }
-    uint32_t *tile = c->scratch + worker * c->window.tile * c->window.tile;
+    uint32_t *tile = c->scratch + worker * c->window.tile * c->desc.band_rows;
     if (!SMEAR_WITH_FILTERS || w != c->half) {
-        filter_tile(c, tile, r->row, column, worker);
+        filter_tile(c, tile, r->row, column, r->y0, r->y1, worker);
     } else if (is_still(w, r->row, column)) {
-        smear_blur_copy(tile, &c->window, r->row, column);
+        struct smear_row_table rows = row_table(c, r->row, r->y0, r->y1);
+        smear_blur_copy(tile, &c->window, &rows, column);
     } else {
         uint32_t *blurred = c->half_scratch + worker * w->tile * w->tile;
-        filter_tile(c, blurred, r->row, column, worker);
+        filter_tile(c, blurred, r->row, column, filtered_top(c, r->row), filtered_bottom(c, r->row), worker);
         smear_half_blend(tile, blurred, w, &c->window, r->row, column);
     }
     if (c->blend != SMEAR_NO_TRIANGLE)
@@ -653,7 +671,7 @@ static void pass_tile_job(void *argument, int column, int worker)
 {
     const struct pass_job *r = (const struct pass_job *)argument;
     struct smear_context *c = r->c;
-    struct smear_row_table rows = row_table(c, r->row);
+    struct smear_row_table rows = row_table(c, r->row, r->y0, r->y1);
     c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
                                                      &c->filtering->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
 }
@@ -730,11 +748,15 @@ static int finish_blurred(struct smear_context *c, int row, int known)
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
-    uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
-    smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
-    stage_end(c, &c->stats.time_blur, start);
-    return smear_band_flush(c, row, job.band);
+    struct row_job job = { .c = c, .row = row };
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && next_band(&job)) {
+        uint32_t start = stage_start(c);
+        smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
+        stage_end(c, &c->stats.time_blur, start);
+        result = smear_band_flush_part(&job);
+    }
+    return result;
 }
 
 /* ------------------------------------------------------------------ methods */

@@ -29,6 +29,11 @@ static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRU
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
 static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
 
+/* Rows are drawn a tile at a time; else a band at a time. */
+static inline bool has_tiles(const smear_desc *d) { return has_window(d) || is_timed(d) || is_layered(d); }
+/* Pixel rows that are drawn together. */
+static inline int32_t row_px(const smear_desc *d) { return has_tiles(d) ? d->tile : d->band_rows; }
+
 /* Fills in defaults; false when something is out of range. */
 static bool resolve(smear_desc *d)
 {
@@ -51,8 +56,11 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0)
-        || ((has_window(d) || is_timed(d) || is_layered(d)) && d->band_rows != d->tile))
+    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0))
+        return false;
+    /* Tiles may be finished in strips, by filters that read the window alone. */
+    if (has_tiles(d) && d->band_rows != d->tile
+        && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -119,9 +127,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
-    w->rows = (d->height + d->band_rows - 1) / d->band_rows;
+    w->rows = (d->height + row_px(d) - 1) / row_px(d);
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(d->band_rows, d->height);
+    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
@@ -151,7 +159,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
     }
     if (has_window(d) || is_timed(d))
-        c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->tile, 4);
+        c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->band_rows, 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
@@ -200,7 +208,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->inspect = d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
     c->sums = NULL;
     if (SMEAR_WITH_ACCUMULATE && d->accumulate)
-        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : d->band_rows), 3 * sizeof *c->sums);
+        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : row_px(d)), 3 * sizeof *c->sums);
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
@@ -211,7 +219,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 
     struct smear_geometry *g = &c->geometry;
-    g->row_px = d->band_rows;
+    g->row_px = row_px(d);
     g->row_count = w->rows;
     g->pool_words = pool_words(d);
     g->pool = arena_take(a, g->pool_words, 4);
