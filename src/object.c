@@ -51,7 +51,7 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->inner = (1u << shift) - s->rest;
     s->length = ((2u * (uint32_t)s->half + 1u) << shift) + 2u * s->rest;
     s->over = (1u << 22) / s->length + 1u;
-    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
+    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : length < 32 << 8 ? 2 : 3;
     int32_t along = s->half + 1 + (1 << s->node);
     int32_t across = s->slope == 0 ? 0 : min_i32(1 + ((abs_i32(s->slope) * along + 0xffff) >> 16), reach);
     s->reach_x = s->upright ? across : s->half + 1;
@@ -138,6 +138,13 @@ static inline struct light light_of(uint32_t p)
 
 /* ------------------------------------------------------------------ what is worked on */
 
+/* Loops of their own for nodes 4 and 8 steps apart, where size does not count. */
+#ifdef __OPTIMIZE_SIZE__
+#define EACH_NODE 0
+#else
+#define EACH_NODE 1
+#endif
+
 enum {
     NODES = 70,                 /* of each row of a tile, at a time; half as many of linear light */
     STEPS_MAX = 640,            /* along a line, at a time; likewise */
@@ -159,10 +166,9 @@ struct merge {
         struct light *light;
     } node;
     union {
-        lanes *codes;           /* of all before step sums_base + i */
+        lanes *codes;           /* of all before step line.base + i */
         struct light *light;
     } sums;
-    int32_t sums_base;
     /* Of each row that lies along the lines: the steps that are reached. Between nodes means would go on beyond. */
     int16_t first_of[64], end_of[64];
     int16_t near_x[NEAR], near_y[NEAR];         /* from a pixel */
@@ -173,33 +179,38 @@ size_t smear_streak_work(int32_t tile)
     return (size_t)(NODES * tile + STEPS_MAX) * sizeof(lanes);
 }
 
-/* A line and what may be drawn on it. */
+/* A line, and what may be drawn on it. */
 struct line {
     int32_t start;
-    int32_t from, to;
+    int32_t from, to;           /* steps */
+    int32_t place, by, runs;    /* where across it runs first, what to add for the next place, how many there are */
+    const int16_t *edge;        /* at which step it comes there; one more */
+    int32_t base;               /* sums begin at this step */
 };
 
-/* The steps at which a line runs along place `row` across, of those it runs along; what is drawn there, if any. */
-static inline bool run_of(const struct merge *m, const struct line *l, int32_t row, int32_t *first, int32_t *end)
-{
-    int32_t k = m->s->slope < 0 ? l->start - row : row - l->start;
-    *first = max_i32(m->a->edge[k], l->from);
-    *end = min_i32(m->a->edge[k + 1], l->to);
-    if (!m->s->upright) {
-        *first = max_i32(*first, m->a->row_first[row]);
-        *end = min_i32(*end, m->a->row_end[row]);
-    }
-    return *first < *end;
-}
-
-/* Places across that a line runs along from step l->from to l->to. */
-static void places_of(const struct merge *m, const struct line *l, int32_t *low, int32_t *high)
+/* The places across that a line runs along from step from to step to. */
+static void find_runs(const struct merge *m, struct line *l)
 {
     int32_t a = l->start + ((passes(m->s, l->from) + 0x8000) >> 16);
     int32_t b = l->start + ((passes(m->s, l->to - 1) + 0x8000) >> 16);
     int32_t most = m->s->upright ? m->a->stride : m->a->rows;
-    *low = clamp_i32(min_i32(a, b), 0, most);
-    *high = clamp_i32(max_i32(a, b) + 1, 0, most);
+    int32_t low = clamp_i32(min_i32(a, b), 0, most), high = clamp_i32(max_i32(a, b) + 1, 0, most);
+    l->by = m->s->slope < 0 ? -1 : 1;
+    l->place = m->s->slope < 0 ? high - 1 : low;
+    l->runs = high - low;
+    l->edge = m->a->edge + abs_i32(l->place - l->start);
+}
+
+/* The steps of run k; whether something may be drawn there. */
+static inline bool run_of(const struct merge *m, const struct line *l, int32_t k, int32_t *first, int32_t *end)
+{
+    *first = max_i32(l->edge[k], l->from);
+    *end = min_i32(l->edge[k + 1], l->to);
+    if (!m->s->upright) {
+        *first = max_i32(*first, m->a->row_first[l->place + l->by * k]);
+        *end = min_i32(*end, m->a->row_end[l->place + l->by * k]);
+    }
+    return *first < *end;
 }
 
 static inline lanes *fill(lanes *out, const lanes *end, lanes value)
@@ -214,16 +225,14 @@ static inline lanes *fill(lanes *out, const lanes *end, lanes value)
 /* Sums of steps [base, base + count) of a line. */
 static void gather_codes(const struct merge *m, const struct line *l, int32_t count)
 {
-    lanes sum = 0, *out = m->sums.codes, *const zero = out - m->sums_base;
-    const int32_t step = m->step;
-    int32_t low, high;
-    places_of(m, l, &low, &high);
-    for (int32_t k = 0; k < high - low; k++) {
-        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
-        if (!run_of(m, l, row, &first, &end))
+    lanes sum = 0, *out = m->sums.codes, *const zero = out - l->base;
+    const int32_t step = m->step, runs = l->runs, side = l->by * m->side;
+    const uint32_t *place = m->a->color + l->place * m->side;
+    for (int32_t k = 0, first, end; k < runs; k++, place += side) {
+        if (!run_of(m, l, k, &first, &end))
             continue;
         out = fill(out, zero + first, sum);
-        const uint32_t *in = m->a->color + row * m->side + first * step;
+        const uint32_t *in = place + first * step;
         for (lanes *const stop = zero + end; out < stop; in += step) {
             *out++ = sum;
             sum += lanes_of(*in) ^ (lanes)0xff << 48;
@@ -235,16 +244,14 @@ static void gather_codes(const struct merge *m, const struct line *l, int32_t co
 static void gather_light(const struct merge *m, const struct line *l, int32_t count)
 {
     struct light sum = { 0, 0, 0, 0 }, *out = m->sums.light;
-    int32_t low, high, at = 0;
-    places_of(m, l, &low, &high);
-    for (int32_t k = 0; k < high - low; k++) {
-        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
-        if (!run_of(m, l, row, &first, &end))
+    int32_t at = 0;
+    for (int32_t k = 0, first, end; k < l->runs; k++) {
+        if (!run_of(m, l, k, &first, &end))
             continue;
-        for (; at < first - m->sums_base; at++)
+        for (; at < first - l->base; at++)
             out[at] = sum;
-        const uint32_t *in = m->a->color + row * m->side + first * m->step;
-        for (; at < end - m->sums_base; at++, in += m->step) {
+        const uint32_t *in = m->a->color + (l->place + l->by * k) * m->side + first * m->step;
+        for (; at < end - l->base; at++, in += m->step) {
             out[at] = sum;
             if (*in >> 24 != 0)
                 continue;
@@ -281,7 +288,7 @@ static void means_codes(const struct merge *m, const struct line *l, int32_t fir
     const lanes half = (s->length >> 1) * 0x0001000100010001u;
     const int32_t n = 1 << s->node, to_right = 2 * s->half + 1, along = m->along, across = m->across;
     const int32_t last = (m->high - m->low - 1) * 65536, climb = s->slope * n;
-    const lanes *left = m->sums.codes + (first - s->half - m->sums_base), *const stop = left + (end - first);
+    const lanes *left = m->sums.codes + (first - s->half - l->base), *const stop = left + (end - first);
     lanes *out = m->node.codes + ((first - m->first) >> s->node) * along;
     int32_t place = (l->start - m->low) * 65536 + passes(s, first);
     if (climb == 0) {           /* the line is a row */
@@ -320,7 +327,7 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
     const struct smear_streak *s = m->s;
     const int32_t n = 1 << s->node;
     for (int32_t i = first; i < end; i += n) {
-        const struct light *p = m->sums.light + (i - s->half - m->sums_base), *q = p + 2 * s->half + 1;
+        const struct light *p = m->sums.light + (i - s->half - l->base), *q = p + 2 * s->half + 1;
         struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r), mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
                               mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b), mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
         int32_t place = (l->start - m->low) * 65536 + passes(s, i);
@@ -335,46 +342,46 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
 
 /* ------------------------------------------------------------------ lines, all of them */
 
-static void add_line(const struct merge *base, int32_t start)
+static void add_line(const struct merge *m, int32_t start)
 {
-    struct merge m = *base;
-    const struct smear_streak *s = m.s;
+    const struct smear_streak *s = m->s;
     const int32_t n = 1 << s->node;
     /* Nodes that pass by a place. */
-    int32_t first = m.first, end = m.first + ((m.nodes - 1) << s->node) + 1;
-    steps_within(s, start, m.low - 1, m.high, 0, &first, &end);
+    int32_t first = m->first, end = m->first + ((m->nodes - 1) << s->node) + 1;
+    steps_within(s, start, m->low - 1, m->high, 0, &first, &end);
     first = (first + n - 1) & -n;
     if (first >= end)
         return;
-    struct line l = { start, max_i32(first - s->half - 1, s->upright ? 0 : m.a->x0),
-                      min_i32(end + s->half + 1, s->upright ? m.a->rows : m.a->x1) };
-    /* What is drawn there: from the first of its runs to the last. */
-    int32_t low, high, from, to, none;
+    struct line l = { .start = start, .from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->x0),
+                      .to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->x1) };
     if (l.from >= l.to)
         return;
-    places_of(&m, &l, &low, &high);
-    const int32_t turn = s->slope < 0 ? high - 1 : low, by = s->slope < 0 ? -1 : 1;
-    int32_t k = 0, last = high - low - 1;
-    while (k <= last && !run_of(&m, &l, turn + by * k, &from, &none))
+    find_runs(m, &l);
+    /* What is drawn there: from the first of its runs to the last. */
+    int32_t from, to, none, k = 0;
+    while (k < l.runs && !run_of(m, &l, k, &from, &none))
         k++;
-    if (k > last)
+    if (k >= l.runs)
         return;
-    while (!run_of(&m, &l, turn + by * last, &none, &to))
-        last--;
+    while (!run_of(m, &l, l.runs - 1, &none, &to))
+        l.runs--;
+    l.place += l.by * k;
+    l.edge += k;
+    l.runs -= k;
     l.from = from;
     l.to = to;
     first = max_i32(first, (from - s->half - 1 + n - 1) & -n);
     end = min_i32(end, to + s->half + 1);
     if (first >= end)
         return;
-    m.sums_base = first - s->half - 1;
+    l.base = first - s->half - 1;
     int32_t count = end - first + 2 * s->half + 3;
-    if (m.a->linear) {
-        gather_light(&m, &l, count);
-        means_light(&m, &l, first, end);
+    if (m->a->linear) {
+        gather_light(m, &l, count);
+        means_light(m, &l, first, end);
     } else {
-        gather_codes(&m, &l, count);
-        means_codes(&m, &l, first, end);
+        gather_codes(m, &l, count);
+        means_codes(m, &l, first, end);
     }
 }
 
@@ -635,7 +642,7 @@ SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t
 }
 
 /* The same where groups pass through each other. */
-SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
+SMEAR_INLINE void between_mixed_by(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
 {
     const struct smear_streak_area *a = m->a;
     const bool marks = a->marks;
@@ -677,25 +684,18 @@ SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t
     }
 }
 
-typedef void between_fn(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row);
-
-/* Out of line: what they need would not leave registers to the loops around them. */
-static SMEAR_NOINLINE void between_mixed_1(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
+/* Out of line: what it needs would not leave registers to the loops around it. */
+static SMEAR_NOINLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
 {
-    between_mixed(m, here, next, x, y, row, 0);
+    if (EACH_NODE && m->s->node == 3)
+        between_mixed_by(m, here, next, x, y, row, 3);
+    else if (EACH_NODE && m->s->node == 2)
+        between_mixed_by(m, here, next, x, y, row, 2);
+    else
+        between_mixed_by(m, here, next, x, y, row, m->s->node);
 }
 
-static SMEAR_NOINLINE void between_mixed_2(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
-{
-    between_mixed(m, here, next, x, y, row, 1);
-}
-
-static SMEAR_NOINLINE void between_mixed_4(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
-{
-    between_mixed(m, here, next, x, y, row, 2);
-}
-
-SMEAR_INLINE void along_codes(struct merge *m, int32_t node, between_fn *mixed)
+SMEAR_INLINE void along_codes_by(struct merge *m, int32_t node)
 {
     const struct smear_streak_area *a = m->a;
     const int32_t n = 1 << node, last = m->end, mixed0 = a->mixed0, mixed1 = a->mixed1;
@@ -715,26 +715,26 @@ SMEAR_INLINE void along_codes(struct merge *m, int32_t node, between_fn *mixed)
             else if (x >= mixed1 || x + n <= mixed0)
                 between_codes(m, here, next, x, y, row, node);
             else
-                mixed(m, here, next, x, y, row);
+                between_mixed(m, here, next, x, y, row);
         }
     }
 }
 
-static SMEAR_NOINLINE void along_codes_1(struct merge *m) { along_codes(m, 0, between_mixed_1); }
-static SMEAR_NOINLINE void along_codes_2(struct merge *m) { along_codes(m, 1, between_mixed_2); }
-static SMEAR_NOINLINE void along_codes_4(struct merge *m) { along_codes(m, 2, between_mixed_4); }
+static SMEAR_NOINLINE void along_codes_8(struct merge *m) { along_codes_by(m, 3); }
+static SMEAR_NOINLINE void along_codes_4(struct merge *m) { along_codes_by(m, 2); }
+static SMEAR_NOINLINE void along_codes(struct merge *m) { along_codes_by(m, m->s->node); }
 
 /* Rows whose nodes lie along them. */
 static void finish_along(struct merge *m)
 {
     if (m->a->linear)
         along_light(m);
-    else if (m->s->node == 2)
+    else if (EACH_NODE && m->s->node == 3)
+        along_codes_8(m);
+    else if (EACH_NODE && m->s->node == 2)
         along_codes_4(m);
-    else if (m->s->node == 1)
-        along_codes_2(m);
     else
-        along_codes_1(m);
+        along_codes(m);
 }
 
 /* Rows across the lines. */
