@@ -66,7 +66,8 @@ void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc)
 {
     desc->sharp = !smear_method_is_filter(blur->method);
     desc->passes = blur->method == SMEAR_PINGPONG ? 2 : 0;
-    desc->accumulate = blur->method == SMEAR_ACCUMULATE;
+    /* Sums of whole frames where small boards have the memory, else of bands. */
+    desc->accumulate = blur->method != SMEAR_ACCUMULATE ? 0 : desc->width * desc->height > 10000 ? 2 : 1;
     desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
     desc->timed = smear_method_is_timed(blur->method);
     if (desc->timed)            /* a turning triangle is listed if it is seen at any time */
