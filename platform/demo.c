@@ -4,8 +4,9 @@
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
  *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
  *                                          and how much stack was used; fails if it overflowed
- *     demo cost [SCREEN [BLUR]]    what the loop's frames cost, in the units of platform.h's clock; of
- *                                  a way to blur of demo_player.c, or as the screen has it
+ *     demo cost [SCREEN [BLUR [STEP]]]     what the loop's frames cost, in the units of platform.h's clock;
+ *                                  of a way to blur of demo_player.c, or as the screen has it; of every
+ *                                  STEPth frame, a divisor of the loop
  *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
@@ -106,20 +107,20 @@ static int check(const struct demo_screen *screen, uint32_t step, bool with_stac
     return 0;
 }
 
-/* A sum of the loop's frames, of which the mean fits 32 bits: whole ones and the rest, in 1/DEMO_LOOP. */
+/* A sum over frames, of which the mean fits 32 bits: whole ones and the rest, in 1/frames. */
 struct sum {
-    uint32_t mean, rest;
+    uint32_t mean, rest, frames;
 };
 
 static void add(struct sum *s, uint32_t count)
 {
-    s->mean += count / DEMO_LOOP;
-    s->rest += count % DEMO_LOOP;
+    s->mean += count / s->frames;
+    s->rest += count % s->frames;
 }
 
 static void print_row(const char *name, struct sum s, uint32_t pixels)
 {
-    uint32_t per_frame = s.mean + (s.rest + DEMO_LOOP / 2) / DEMO_LOOP;
+    uint32_t per_frame = s.mean + (s.rest + s.frames / 2) / s.frames;
     platform_print(name);
     print_decimal(per_frame);
     platform_print(" per frame, ");
@@ -129,12 +130,12 @@ static void print_row(const char *name, struct sum s, uint32_t pixels)
     platform_print(" per pixel\n");
 }
 
-/* Means over the loop. Posing the scene is the application's part and counted on its own line. */
-static int cost(const struct demo_screen *screen, const struct demo_blur *way)
+/* Means over every stepth frame of the loop, from the middle of the first step on. */
+static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
-    struct sum total = { 0, 0 }, submit = total, raster = total, blur = total, convert = total;
+    struct sum total = { 0, 0, DEMO_LOOP / step }, submit = total, raster = total, blur = total, convert = total;
     uint32_t worst = 0;
     uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
@@ -146,8 +147,11 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way)
     player.blur = way;
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
-        result = demo_player_frame(&player, i, true);
+        const bool draw = i % step == step / 2;
+        result = demo_player_frame(&player, i, draw);
         uint32_t count = platform_clock_count(platform_clock() - before);
+        if (!draw)
+            continue;
         smear_get_stats(player.ctx, &stats);
         add(&total, count);
         worst = count > worst ? count : worst;
@@ -181,7 +185,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way)
     platform_print(" %, triangles ");
     print_decimal(triangles);
     platform_print(", drawn ");
-    print_decimal(drawn / DEMO_LOOP);
+    print_decimal(drawn / total.frames);
     platform_print(", frames in parts ");
     print_decimal(split);
     platform_print(", dropped ");
@@ -194,6 +198,14 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way)
     print_decimal(platform_stack_used());
     platform_print("\n");
     return 0;
+}
+
+static int cost_of(const struct demo_screen *screen, const char *name, uint32_t step)
+{
+    const struct demo_blur *way = name != NULL ? demo_blur_find(name) : NULL;
+    if (name != NULL && way == NULL)
+        return failed("no such way to blur", 0);
+    return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0) : cost(screen, way, step);
 }
 
 static int memory(void)
@@ -285,8 +297,7 @@ int main(int argc, char **argv)
     if (is_word(command, "check"))
         return check(screen, step > 0 ? step : 1, argc > 4);
     if (is_word(command, "cost"))
-        return argc > 3 && demo_blur_find(argv[3]) == NULL ? failed("no such way to blur", 0)
-                                                           : cost(screen, argc > 3 ? demo_blur_find(argv[3]) : NULL);
+        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_number(argv[4]) : 1);
     if (is_word(command, "memory"))
         return memory();
     return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);

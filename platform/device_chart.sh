@@ -10,6 +10,7 @@ folder=$1 error=$2
 shift 2
 [ $# -gt 0 ] || set -- cortex-m0plus:pico cortex-m3:oled gba:gba
 make=${MAKE:-make}
+STEP=6          # none of these frames is the first after the camera has jumped
 mkdir -p "$folder"
 csv=$folder/device.csv
 echo "target,screen,unit,method,cost per pixel,RMS in codes" >"$csv.new"
@@ -19,11 +20,11 @@ for pair in "$@"; do
     for tool in $(sed -n 's/^NEEDS *:= *//p' "platform/$target/target.mk" ${needs:+"$needs"}); do
         command -v "$tool" >/dev/null || { echo "device_chart.sh: $target needs $tool" >&2; exit 1; }
     done
-    "$error" "$screen" >"$folder/$screen.error" || exit 1
+    "$error" "$screen" $STEP >"$folder/$screen.error" || exit 1
     while read -r blur rms; do
         case " ${BLURS:-$blur} " in *" $blur "*) ;; *) continue ;; esac
         log=$folder/$target-$blur.log
-        if ! LIMIT=1800 $make --no-print-directory -s TARGET="$target" DEMO_SCREEN="$screen" BLUR="$blur" demo-cost \
+        if ! LIMIT=1800 $make --no-print-directory -s TARGET="$target" DEMO_SCREEN="$screen" BLUR="$blur" STEP=$STEP demo-cost \
             >"$log" 2>&1 </dev/null; then
             grep -q 'start (error\|error -2' "$log" || { tail -5 "$log" >&2; exit 1; }
             echo "device_chart.sh: $target has no memory for $blur at $screen" >&2

@@ -2,12 +2,12 @@
 /* device_error.c - host program: how far the ways to blur of the demo are from the truth.
  *
  *     device_error blurs              the names of demo_player.c
- *     device_error SCREEN             a line "BLUR RMS" for each
+ *     device_error SCREEN STEP        a line "BLUR RMS" for each
  *
  * RMS over all pixels and frames of the loop, in 8-bit codes. The truth of a frame is the mean of INSTANTS sharp frames at
  * the exact poses of the exposure's instants, not at poses between two frames, in the screen's own light. Frames are those
- * that the target draws, before its display's format rounds them: the library gives the same bits everywhere. Frames in
- * which the camera jumps are left out. */
+ * that the target draws, before its display's format rounds them: the library gives the same bits everywhere. Every STEPth
+ * frame of the loop counts, as in `demo cost SCREEN BLUR STEP`. */
 #include "demo_player.h"
 
 #include <math.h>
@@ -63,7 +63,7 @@ static void start(struct demo_player *player, const struct demo_screen *screen, 
 }
 
 /* Sums of INSTANTS codes per channel of every frame. */
-static uint16_t *find_truth(const struct demo_screen *screen)
+static uint16_t *find_truth(const struct demo_screen *screen, int step)
 {
     static struct demo_player player;
     static const struct demo_blur sharp = { "none", SMEAR_NONE, 0 };
@@ -71,7 +71,7 @@ static uint16_t *find_truth(const struct demo_screen *screen)
     struct picture picture = { screen->desc.width, screen->desc.height, take(4 * pixels) };
     uint16_t *sums = take(sizeof *sums * DEMO_LOOP * 3 * pixels);
     start(&player, screen, &sharp, &picture);
-    for (int frame = 0; frame < DEMO_LOOP; frame++) {
+    for (int frame = step / 2; frame < DEMO_LOOP; frame += step) {
         uint16_t *sum = sums + (size_t)frame * 3 * pixels;
         for (int k = 0; k < INSTANTS; k++) {
             int32_t time = frame * DEMO_TIME - SHUTTER / 2 + (2 * k + 1) * SHUTTER / (2 * INSTANTS);
@@ -85,7 +85,7 @@ static uint16_t *find_truth(const struct demo_screen *screen)
     return sums;
 }
 
-static double error_of(const struct demo_screen *screen, const struct demo_blur *blur, const uint16_t *truth)
+static double error_of(const struct demo_screen *screen, const struct demo_blur *blur, const uint16_t *truth, int step)
 {
     static struct demo_player player;
     size_t pixels = (size_t)screen->desc.width * (size_t)screen->desc.height;
@@ -94,10 +94,10 @@ static double error_of(const struct demo_screen *screen, const struct demo_blur 
     size_t count = 0;
     start(&player, screen, blur, &picture);
     for (int frame = 0; frame < DEMO_LOOP; frame++) {
-        if (demo_player_frame(&player, (uint32_t)frame, 1) != SMEAR_OK)
+        if (demo_player_frame(&player, (uint32_t)frame, frame % step == step / 2) != SMEAR_OK)
             die("no frame");
         const uint16_t *want = truth + (size_t)frame * 3 * pixels;
-        for (size_t i = 0; i < pixels && !player.scene.cut; i++)
+        for (size_t i = 0; i < pixels && frame % step == step / 2; i++)
             for (int c = 0; c < 3; c++, count++) {
                 double off = (double)(picture.pixel[i] >> (16 - 8 * c) & 255u) - want[3 * i + (size_t)c] / (double)INSTANTS;
                 sum += off * off;
@@ -114,13 +114,14 @@ int main(int argc, char **argv)
             printf("%s\n", demo_blurs[i].name);
         return 0;
     }
-    const struct demo_screen *screen = argc == 2 ? demo_screen_find(argv[1]) : NULL;
-    if (screen == NULL) {
-        fprintf(stderr, "usage: device_error blurs | SCREEN\n");
+    const struct demo_screen *screen = argc == 3 ? demo_screen_find(argv[1]) : NULL;
+    int step = screen != NULL ? atoi(argv[2]) : 0;
+    if (step <= 0) {
+        fprintf(stderr, "usage: device_error blurs | SCREEN STEP\n");
         return 2;
     }
-    const uint16_t *truth = find_truth(screen);
+    const uint16_t *truth = find_truth(screen, step);
     for (int i = 0; i < demo_blur_count; i++)
-        printf("%s %.3f\n", demo_blurs[i].name, error_of(screen, &demo_blurs[i], truth));
+        printf("%s %.3f\n", demo_blurs[i].name, error_of(screen, &demo_blurs[i], truth, step));
     return 0;
 }

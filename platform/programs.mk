@@ -162,7 +162,7 @@ print-footprint:
 
 ## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR) $(STEP)
 
 # ---------------------------------------------------------------------- the smallest
 
