@@ -74,13 +74,13 @@ static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
     return scale_sat(high, clamp_i32(shift, -31, 31));
 }
 
-/* The same as project(), as a call. */
+/* The same as project_inline(), as a call. */
 void smear_project(struct smear_screen *out, const struct smear_projection *p,
                    const struct smear_homogeneous *in, const struct smear_viewport *viewport);
 
 /* Divides. w > 0 is promised. |x| and |y| stay below 2^30, far outside the guard band: sums of two fit. */
-static inline void project(struct smear_screen *out, const struct smear_projection *p,
-                           const struct smear_homogeneous *in, const struct smear_viewport *viewport)
+static inline void project_inline(struct smear_screen *out, const struct smear_projection *p,
+                                  const struct smear_homogeneous *in, const struct smear_viewport *viewport)
 {
     SMEAR_ASSERT(in->w > 0);
     int zeros = count_leading_zeros((uint32_t)in->w);
@@ -109,8 +109,10 @@ static inline void project(struct smear_screen *out, const struct smear_projecti
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
-#if SMEAR_ONE_COPY && !defined(SMEAR_PROJECT_IS_HERE)
+#if SMEAR_ONE_COPY
 #define project smear_project
+#else
+#define project project_inline
 #endif
 
 /* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's borders. All that
