@@ -37,7 +37,10 @@ for pair in "$@"; do
 done
 mv "$csv.new" "$csv"
 awk -F, 'NR > 1 {
-    if ($1 != last) { printf "%s%s, %s: %s per pixel, and RMS against the truth\n", NR > 2 ? "\n" : "", $1, $2, $3; last = $1 }
+    if ($1 != last) {
+        printf("%s%s, %s: %s per pixel, and RMS against the truth\n", NR > 2 ? "\n" : "", $1, $2, $3)
+        last = $1
+    }
     printf "    %-16s %10.1f %8.2f\n", $4, $5, $6
 }' "$csv" | tee "$folder/device.txt"
 awk -f platform/device_chart.awk "$csv" >"$folder/device.svg.new" && mv "$folder/device.svg.new" "$folder/device.svg"
