@@ -210,8 +210,8 @@ typedef struct smear_pingpong {
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
     uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps, base 4 */
     uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either side */
-    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out;
-                                 * 0 means 4. 255: none is */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out. 255:
+                                 * none is. 0 means 255, with `spread` 16 */
     uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come over it */
 } smear_pingpong;
 

