@@ -67,6 +67,9 @@ struct smear_layer_rows {
 
 #define SMEAR_UNCOVERED 0xff000000u
 
+/* In smear_window.moving, of the tile row being finished: by what each tile is reached. */
+enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
+
 struct smear_layers {
     bool on;                    /* the frame has blurred layers */
     struct smear_layer_setting *setting;

@@ -435,8 +435,6 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_rows(&r->row, &r->still, x0, x1);
 }
 
-enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
-
 /* Tile columns that the group's streaks reach. */
 static void mark_tiles(struct smear_context *c, const struct layers_row *r)
 {
