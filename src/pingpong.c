@@ -246,6 +246,15 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
     return both_of((step_x >> 6) * (noise >> 6) >> 4, (step_y >> 6) * (noise >> 6) >> 4);
 }
 
+/* Rows of their own where taps need no check: 0.8 kB of code. */
+#ifdef __OPTIMIZE_SIZE__
+#define PLAIN_ROWS 0
+#else
+#define PLAIN_ROWS 1
+#endif
+
+typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y);
+
 /* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the taps taken. */
 SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y, bool linear,
                                bool wide)
@@ -286,8 +295,6 @@ SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int
     p->word = last;
     return taken;
 }
-
-typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y);
 
 static SMEAR_NOINLINE uint32_t row_light(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y)
 {
@@ -358,7 +365,7 @@ uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, 
     const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
     const struct smear_pixel_velocity top = { around->x >> 5, around->y >> 5 };
     const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    const bool any = pass->spread || pass->jitter != 0 || x0 < pass->reach + 1 || x1 + pass->reach + 1 > w->width;
+    const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < pass->reach + 1 || x1 + pass->reach + 1 > w->width;
     uint32_t taken = 0;
     if (settings->orthographic)
         p.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
