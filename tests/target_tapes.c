@@ -298,6 +298,10 @@ static const struct spec golden[] = {
       { .width = 64, .height = 48, .format = SMEAR_RGB565, .sharp = 1, .accumulate = 2,
         .band_rows = 4, .max_triangles = 500 },
       { .method = SMEAR_ACCUMULATE, .samples = 3, .light = SMEAR_LIGHT_ENCODED }, .has_large_textures = true },
+    { "object-long", "suite/long", 14, 2, 1,
+      { .width = 160, .height = 64, .reach = 14, .format = SMEAR_RGB565, .sharp = 1, .layers = 1, .max_triangles = 1200 },
+      { .method = SMEAR_OBJECT, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = true, .shutter_degrees = 360 },
+      .has_large_meshes = true },
 };
 
 /* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */

@@ -40,23 +40,24 @@ static const struct filter {
     smear_filter filter;
     int camera_step, reconstruct, samples;
     smear_weights weights;
-    bool spread;
+    smear_pingpong pingpong;
 } filters[] = {
-    { "none", SMEAR_NONE, 0, 0, 0, 0, 0, false },
-    { "reconstruct 8", SMEAR_RECONSTRUCT, 0, 0, 0, 8, 0, false },
-    { "reconstruct 8 mended", SMEAR_RECONSTRUCT, 0, 0, MEND, 8, 0, false },
-    { "  velocity from depth", SMEAR_RECONSTRUCT, 0, 1, MEND, 8, 0, false },
-    { "  McGuire 2012", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_MCGUIRE, false },
-    { "  Guertin 2014", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_GUERTIN, false },
-    { "  Jimenez 2014", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_JIMENEZ, false },
-    { "camera", SMEAR_CAMERA, 0, 1, 0, 8, 0, false },
-    { "camera, 2 x 2", SMEAR_CAMERA, 0, 2, 0, 8, 0, false },
-    { "camera, 4 x 4", SMEAR_CAMERA, 0, 4, 0, 8, 0, false },
-    { "pingpong", SMEAR_PINGPONG, 0, 0, 0, 0, 0, false },
-    { "pingpong, spread", SMEAR_PINGPONG, 0, 0, 0, 0, 0, true },
-    { "half", SMEAR_HALF, 0, 0, 0, 8, 0, false },
-    { "half, mended", SMEAR_HALF, 0, 0, MEND, 8, 0, false },
-    { "half, mean, from depth", SMEAR_HALF, SMEAR_FILTER_MEAN, 1, 0, 8, 0, false },
+    { "none", SMEAR_NONE, 0, 0, 0, 0, 0, { 0 } },
+    { "reconstruct 8", SMEAR_RECONSTRUCT, 0, 0, 0, 8, 0, { 0 } },
+    { "reconstruct 8 mended", SMEAR_RECONSTRUCT, 0, 0, MEND, 8, 0, { 0 } },
+    { "  velocity from depth", SMEAR_RECONSTRUCT, 0, 1, MEND, 8, 0, { 0 } },
+    { "  McGuire 2012", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_MCGUIRE, { 0 } },
+    { "  Guertin 2014", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_GUERTIN, { 0 } },
+    { "  Jimenez 2014", SMEAR_RECONSTRUCT, 0, 0, 0, 8, SMEAR_WEIGHTS_JIMENEZ, { 0 } },
+    { "camera", SMEAR_CAMERA, 0, 1, 0, 8, 0, { 0 } },
+    { "camera, 2 x 2", SMEAR_CAMERA, 0, 2, 0, 8, 0, { 0 } },
+    { "camera, 4 x 4", SMEAR_CAMERA, 0, 4, 0, 8, 0, { 0 } },
+    { "pingpong", SMEAR_PINGPONG, 0, 0, 0, 0, 0, { 0 } },
+    { "  what is nearer left out", SMEAR_PINGPONG, 0, 0, 0, 0, 0, { .bias = 16 } },
+    { "  spread", SMEAR_PINGPONG, 0, 0, 0, 0, 0, { .spread = 1 } },
+    { "half", SMEAR_HALF, 0, 0, 0, 8, 0, { 0 } },
+    { "half, mended", SMEAR_HALF, 0, 0, MEND, 8, 0, { 0 } },
+    { "half, mean, from depth", SMEAR_HALF, SMEAR_FILTER_MEAN, 1, 0, 8, 0, { 0 } },
 };
 enum { FILTERS = sizeof filters / sizeof *filters, GROUP_KINDS = 2 };
 
@@ -96,7 +97,7 @@ bool filters_take(int index, struct take *out)
     out->reconstruct = s->reconstruct;
     out->samples = s->samples;
     out->weights = s->weights;
-    out->pingpong.spread = s->spread;
+    out->pingpong = s->pingpong;
     return true;
 }
 
