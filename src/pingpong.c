@@ -185,8 +185,8 @@ static SMEAR_NOINLINE uint32_t mean_of_some(struct sums *s, const struct taps *t
 }
 
 /* The mean of a pixel's taps, those in front of it left out. place: the first, in the frame and in the table. */
-SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint32_t at, uint64_t place, uint32_t limit, bool linear,
-                             bool edge)
+SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint32_t at, uint64_t place, uint32_t limit,
+                             bool linear, bool edge)
 {
     const uint32_t *in = p->in, *row = p->row;
     const uint16_t *depth = p->depth;
@@ -255,9 +255,10 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
 
 typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y);
 
-/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the taps taken. */
-SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y, bool linear,
-                               bool wide)
+/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the taps
+ * taken. */
+SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y,
+                               bool linear, bool wide)
 {
     const struct smear_window *w = p->w;
     const uint32_t *in = p->in;
@@ -296,22 +297,26 @@ SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int
     return taken;
 }
 
-static SMEAR_NOINLINE uint32_t row_light(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y)
+static SMEAR_NOINLINE uint32_t row_light(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                                      int32_t table_y)
 {
     return pass_row(p, to, at, x, x1, table_y, true, false);
 }
 
-static SMEAR_NOINLINE uint32_t row_codes(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y)
+static SMEAR_NOINLINE uint32_t row_codes(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                                      int32_t table_y)
 {
     return pass_row(p, to, at, x, x1, table_y, false, false);
 }
 
-static SMEAR_NOINLINE uint32_t row_light_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y)
+static SMEAR_NOINLINE uint32_t row_light_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                                      int32_t table_y)
 {
     return pass_row(p, to, at, x, x1, table_y, true, true);
 }
 
-static SMEAR_NOINLINE uint32_t row_codes_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y)
+static SMEAR_NOINLINE uint32_t row_codes_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                                      int32_t table_y)
 {
     return pass_row(p, to, at, x, x1, table_y, false, true);
 }
@@ -323,7 +328,8 @@ static pass_row_fn *row_of(const struct passing *p)
     return p->settings->linear ? row_light : row_codes;
 }
 
-/* The same at the frame's sides, or with jitter, or where moving things spread: top is the longest motion around, in frame row y. */
+/* The same at the frame's sides, or with jitter, or where moving things spread: top is the longest motion around, in frame
+ * row y. */
 static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y, int32_t y,
                              struct smear_pixel_velocity top)
 {
@@ -365,7 +371,8 @@ uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, 
     const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
     const struct smear_pixel_velocity top = { around->x >> 5, around->y >> 5 };
     const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < pass->reach + 1 || x1 + pass->reach + 1 > w->width;
+    const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < pass->reach + 1
+                  || x1 + pass->reach + 1 > w->width;
     uint32_t taken = 0;
     if (settings->orthographic)
         p.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
