@@ -238,6 +238,8 @@ test-readme: $(LIB)
 	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme.ppm
+	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
+	    grep -q "RUN($$name);" tests/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 
 FUZZ_CC := clang-14
 FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -DSMEAR_CHECK=1

@@ -210,8 +210,8 @@ typedef struct smear_pingpong {
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
     uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps, base 4 */
     uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either side */
-    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out;
-                                 * 0 means 4. 255: none is */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out. 255:
+                                 * none is. 0 means 255, with `spread` 16 */
     uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come over it */
 } smear_pingpong;
 
@@ -295,8 +295,7 @@ typedef struct smear_frame {
     uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by those. CAPPED: at most a
                                  * frame */
     uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to 16128; */
-    uint16_t object_scale;              /* and of draws (which deform as they do, or with SMEAR_SCALE_NONE not at all);
-                                         * 0 means 256 */
+    uint16_t object_scale;              /* and of draws and their deformation (which grows 8 times at most); 0 means 256 */
     const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
                                  * Copied. Filters take it for a box */
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that moves */

@@ -74,8 +74,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         for (int pose = 0; pose < CLIP_POSES; pose++)
             v->pose[pose] = v->now;
         for (int pose = 0; SMEAR_WITH_RECONSTRUCT && pose < d->moves; pose++)
-            smear_transform_vertex(&v->pose[pose], &d->pose[pose],
-                                   d->pose_position[pose] + 3 * index);
+            pose_transform(&v->pose[pose], d, pose, index);
         v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
         v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
         for (int c = 0; c < CLIP_COLORS; c++)
@@ -255,7 +254,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     }
     for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h;
-        smear_transform_vertex(&h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+        pose_transform(&h, d, pose, index);
         store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
                      &b->a->viewport);
     }

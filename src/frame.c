@@ -83,6 +83,7 @@ struct draw_poses {
     const smear_transform *object[3];   /* now, open, close */
     const smear_camera *camera[3];
     const int16_t *position[3];
+    int32_t deform;                     /* of the way between their vertices, q8 */
 };
 
 /* The layer of a draw, if it has a camera of its own. */
@@ -104,6 +105,9 @@ static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
     return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
 }
 
+/* Deformation is not scaled further: weights of ten frames by it have eight bits. */
+enum { DEFORM_MOST = 8 << 8 };
+
 /* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
 static void scale_object(struct draw_poses *p, smear_transform made_poses[3], uint32_t scale)
 {
@@ -118,6 +122,7 @@ static void scale_object(struct draw_poses *p, smear_transform made_poses[3], ui
         if (scale == 0)
             p->position[i] = p->position[0];
     }
+    p->deform = min_i32((int32_t)scale, DEFORM_MOST);
 }
 
 /* Turns a billboard with the camera of each pose. */
@@ -189,6 +194,7 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
     }
+    p->deform = 256;
     const struct smear_layer_setting *own = layer_with_camera(c, s);
     for (int i = 0; i < 3 && own != NULL; i++)
         p->camera[i] = &own->camera[0];
@@ -244,13 +250,19 @@ static void project_pose(struct smear_projection *out, const struct smear_contex
     smear_projection_make(out, &view, p->camera[i], c->window.height);
 }
 
+static bool deformation_is_scaled(const struct draw_poses *p, int k)
+{
+    return SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && p->deform != 256 && p->position[k] != p->position[0];
+}
+
 /* Where the vertices are at an instant: a sum of poses, linear in clip space. */
 static void place(struct smear_placement *out, const struct smear_context *c, const struct draw_poses *p,
                   const smear_mesh *mesh, const struct instant *instant)
 {
-    struct smear_projection sum[3];
-    const int16_t *position[3];
-    int32_t weight[3];
+    enum { TERMS = SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM ? 5 : 3 };
+    struct smear_projection sum[TERMS];
+    const int16_t *position[TERMS];
+    int32_t weight[TERMS];
     int count = 0;
     out->extra_count = 0;
     for (int k = 0; k < 3; k++) {
@@ -259,6 +271,13 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
         project_pose(&sum[count], c, p, k, mesh);
         position[count] = p->position[k];
         weight[count++] = instant->weight[k];
+        if (deformation_is_scaled(p, k)) {      /* part of the way from the mesh's own vertices */
+            sum[count] = sum[count - 1];
+            position[count] = p->position[0];
+            weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);
+            weight[count] = instant->weight[k] - weight[count - 1];
+            count++;
+        }
     }
     if (count > 1)
         smear_projection_weigh(sum, weight, count, p->camera[0]);
@@ -268,10 +287,29 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
         if (!SMEAR_WITH_DEFORM || position[k] == out->position) {
             smear_projection_add(&out->now, &sum[k]);
         } else {
+            SMEAR_ASSERT(out->extra_count < 2);         /* that of now is the first, or there is one more */
             out->extra[out->extra_count] = sum[k];
             out->extra_position[out->extra_count++] = position[k];
         }
     }
+}
+
+/* A pose between which velocity is measured. */
+static void add_pose(struct smear_assembly *a, const struct smear_context *c, const struct draw_poses *p, int k)
+{
+    const int i = a->moves++;
+    project_pose(&a->pose[i], c, p, k, a->mesh);
+    a->pose_position[i] = p->position[k];
+    if (!SMEAR_WITH_SCALES || !SMEAR_WITH_DEFORM)
+        return;
+    struct smear_projection both[2] = { a->pose[i], a->pose[i] };
+    int32_t deform = deformation_is_scaled(p, k) ? p->deform : 256;
+    const int32_t weight[2] = { deform << 16, (256 - deform) << 16 };
+    a->has_rest = a->has_rest || deform != 256;
+    if (p->deform != 256)
+        smear_projection_weigh(both, weight, 2, p->camera[0]);
+    a->pose[i] = both[0];
+    a->rest[i] = both[1];
 }
 
 /* Everything the assembler needs of draw `i`, for the given instant. */
@@ -287,7 +325,7 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     a->draw = (uint16_t)i;
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->path = a->fixed = false;
+    a->path = a->fixed = a->has_rest = false;
     smear_shading_make(&a->shading, poses.object[0], a->material,
                        SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
 
@@ -306,15 +344,9 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
         return;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
      * itself, one further pose is enough. */
-    project_pose(&a->pose[0], c, &poses, 1, a->mesh);
-    a->pose_position[0] = poses.position[1];
-    a->moves = 1;
-    if (c->frame.shutter_poses || instant->weight[0] != 1 << 24) {
-        int later = c->frame.shutter_poses ? 2 : 0;
-        project_pose(&a->pose[1], c, &poses, later, a->mesh);
-        a->pose_position[1] = poses.position[later];
-        a->moves = 2;
-    }
+    add_pose(a, c, &poses, 1);
+    if (c->frame.shutter_poses || instant->weight[0] != 1 << 24)
+        add_pose(a, c, &poses, c->frame.shutter_poses ? 2 : 0);
 }
 
 /* ------------------------------------------------------------------ assembling */

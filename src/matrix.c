@@ -211,17 +211,22 @@ static void weigh(struct smear_projection *p, int32_t weight, int scale, int dis
 void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
                             const smear_camera *camera)
 {
-    /* Weights of a 3600-degree shutter reach 6 and -5: four bits of room. */
-    int scale = projection[0].scale, distance_scale = projection[0].distance_scale;
+    /* Weights of a 3600-degree shutter reach 11 and -10: four bits of room; more where deformation is scaled as well. */
+    int scale = projection[0].scale, distance_scale = projection[0].distance_scale, room = 4;
+    uint32_t sum = 0;           /* q20: each is below 2^7 */
+    for (int i = 0; i < count; i++)
+        sum += (uint32_t)abs_i32(weight[i]) >> 4;
+    while (sum > 2u << (20 + room))
+        room++;
     for (int i = 1; i < count; i++) {
         scale = min_i32(scale, projection[i].scale);
         distance_scale = min_i32(distance_scale, projection[i].distance_scale);
     }
     for (int i = 0; i < count; i++)
-        weigh(&projection[i], weight[i], scale - 4, distance_scale - 4);
+        weigh(&projection[i], weight[i], scale - room, distance_scale - room);
     /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
     for (int i = 0; i < count && is_orthographic(&projection[0]); i++)
-        projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - 4)) : 0;
+        projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
     set_distances(&projection[0], camera);
 }
 

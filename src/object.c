@@ -275,7 +275,8 @@ static inline lanes mean_codes(lanes weighed, uint32_t over)
 }
 
 /* The mean around a node: *right is the sum up to the pixel after its last whole one, *left the sum up to the first. */
-static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest, lanes half, uint32_t over)
+static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest, lanes half,
+                                uint32_t over)
 {
     return mean_codes(lanes_times(right[0] - left[0], inner) + lanes_times(right[1] - left[-1], rest) + half, over);
 }

@@ -54,6 +54,8 @@ struct smear_assembly {
     struct smear_placement at;          /* the instant that is drawn */
     struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];   /* velocity is measured between these (one: and the drawn instant) */
     const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    bool has_rest;                      /* what the mesh's own vertices add to them, where deformation is scaled: */
+    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_SCALES ? 2 : 1];
     struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
@@ -68,6 +70,20 @@ static inline void placement_transform(struct smear_homogeneous *h, const struct
         h->y += term.y;
         h->w += term.w;
         h->distance += term.distance;
+    }
+}
+
+/* A vertex in a pose of the assembly. */
+static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose, uint32_t index)
+{
+    smear_transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+    if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
+        struct smear_homogeneous rest;
+        smear_transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
+        h->x += rest.x;
+        h->y += rest.y;
+        h->w += rest.w;
+        h->distance += rest.distance;
     }
 }
 

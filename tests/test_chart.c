@@ -50,6 +50,8 @@ static void fill_good(void)
         set(k, "none", 1.0, 10.0 * error, 15.0 * error);
         set(k, "accumulate 8", 9.0, 1.2 * error, 1.0 * error);
         set(k, "reconstruct 8", still ? 1.03 : 7.0, 5.0 * error, 6.0 * error);
+        set(k, "object", 1.5, 1.7 * error, 3.0 * error);
+        set(k, "layered 8", 6.0, 3.0 * error, 3.0 * error);
         set(k, "auto draft", still || jump ? 1.01 : 1.2, 4.0 * error, 3.0 * error);
         set(k, "auto balanced", still ? 1.01 : jump ? 1.05 : 1.8, 1.1 * error, 1.8 * error);
         set(k, "auto fine", still ? 1.01 : jump ? 1.1 : 2.5, 0.45 * error, 0.4 * error);
@@ -192,6 +194,11 @@ static void break_flicker(void)
 }
 static void break_frontier(void) { for_group(GROUP_CAMERA, "accumulate 8", 1.5, 1.05); }
 
+static void break_layered_error(void) { for_group(GROUP_OBJECT, "layered 8", 6.0, 3.5); }
+static void break_layered_cost(void) { for_group(GROUP_OBJECT, "layered 8", 7.1, 3.0); }
+static void break_object_method(void) { set(kind_find("long"), "object", 1.5, 2.5, 3.0); }
+static void break_object_method_cost(void) { set(kind_find("fence_obj"), "object", 2.2, 1.7, 3.0); }
+
 static const struct {
     void (*spoil)(void);
     const char *bar;
@@ -213,6 +220,10 @@ static const struct {
     { break_teleport, "a jump (teleport)" },
     { break_flicker, "flicker of scenes with motion, auto fine" },
     { break_frontier, "settings of auto above the frontier, camera" },
+    { break_layered_error, "layered 8 over reconstruct 8, object scenes: error" },
+    { break_layered_cost, "layered 8 over reconstruct 8, object scenes: cost" },
+    { break_object_method, "object, each thing along one velocity: error" },
+    { break_object_method_cost, "object, each thing along one velocity: cost" },
 };
 
 static void test_every_bar_can_be_missed(void)

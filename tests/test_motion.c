@@ -476,6 +476,66 @@ static void test_rotation_translation_and_objects_scale_apart(void)
     rig_end(&r);
 }
 
+/* Scaled by k, a vertex that was d away was k d away; velocities, and pictures of all methods that take poses. */
+static void test_deformation_scales_with_objects(void)
+{
+    static const uint8_t methods[] = { SMEAR_RECONSTRUCT, SMEAR_PINGPONG, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
+                                       SMEAR_OBJECT, SMEAR_LAYERED };
+    static const uint16_t scale[] = { 64, 128, 384, 1024, 4096 };       /* the last: as 2048 */
+    static int16_t bent[2][12], told[2][12];
+    struct rig r;
+    smear_desc desc = small_desc(WIDTH, HEIGHT);
+    desc.passes = 2;
+    desc.accumulate = desc.timed = desc.layers = 1;
+    if (!rig_begin(&r, &desc, true))
+        return;
+    for (int m = 0; m < 7; m++)
+        for (int i = 0; i < 5; i++)
+            for (int poses = 0; poses < 2; poses++) {
+                struct stage s;
+                const int by = scale[i] > 2048 ? 2048 : scale[i];
+                for (int k = 0; k < 12; k++) {          /* the upper edge goes */
+                    int way = k >= 6 && k % 3 != 2 ? 96 + 64 * (k % 3) : 0;
+                    bent[0][k] = (int16_t)(square_position[k] - way);
+                    bent[1][k] = (int16_t)(square_position[k] + 2 * way);
+                    told[0][k] = (int16_t)(square_position[k] - way * by / 256);
+                    told[1][k] = (int16_t)(square_position[k] + 2 * way * by / 256);
+                }
+                stage_make(&s, methods[m]);
+                s.frame.samples = 16;
+                s.frame.shutter_poses = (uint8_t)poses;
+                s.draw[1].close = poses ? &s.square : NULL;
+                s.draw[1].open_position = bent[0];
+                s.draw[1].close_position = poses ? bent[1] : NULL;
+                s.frame.object_scale = scale[i];
+                stage_draw(&r, &s);
+                int32_t velocity[2] = { velocity_at(&r, 54, 26)[0], velocity_at(&r, 54, 26)[1] };
+                uint8_t *scaled = rig_copy(&r, &s.frame, s.draw, 2);
+                s.frame.object_scale = 0;
+                s.draw[1].open_position = told[0];
+                s.draw[1].close_position = poses ? told[1] : NULL;
+                stage_draw(&r, &s);
+                int worst = 0, different = 0;
+                for (int k = 0; k < 2 && (methods[m] == SMEAR_RECONSTRUCT || methods[m] == SMEAR_PINGPONG); k++)
+                    CHECK_NEAR(velocity[k], velocity_at(&r, 54, 26)[k], 2);
+                for (int k = 0; k < WIDTH * HEIGHT * 4 && scaled != NULL; k++) {
+                    int d = abs(scaled[k] - r.picture[k]);
+                    worst = d > worst ? d : worst;
+                    different += d > 2;
+                }
+                if (!CHECK(scaled != NULL && different <= 8))
+                    say("      method %d, scale %d, poses %d: %d bytes differ, by up to %d\n", methods[m], scale[i], poses,
+                        different, worst);
+                s.draw[1].open_position = bent[0];
+                s.draw[1].close_position = poses ? bent[1] : NULL;
+                stage_draw(&r, &s);
+                if (methods[m] != SMEAR_RECONSTRUCT)        /* which leaves short ways sharp */
+                    CHECK(scaled == NULL || memcmp(scaled, r.picture, WIDTH * HEIGHT * 4) != 0);
+                free(scaled);
+            }
+    rig_end(&r);
+}
+
 /* ------------------------------------------------------------------ the shutter and the frame time */
 
 /* Length of the motion from the square's streak in its middle row: the square, 16 px wide, covers the pixels between the
@@ -570,6 +630,7 @@ void suite_motion(void)
     RUN(test_what_is_still_to_the_eye_is_the_sharp_frames_bit_for_bit);
     RUN(test_the_blur_ends_in_the_frame_in_which_motion_ends);
     RUN(test_rotation_translation_and_objects_scale_apart);
+    RUN(test_deformation_scales_with_objects);
     RUN(test_fixed_shutters_keep_the_length_of_streaks);
     RUN(test_the_exposure_of_a_fixed_shutter_is_exact);
 }

@@ -275,6 +275,41 @@ static void bar_flicker(struct bars *b, int preset, double limit)
     bar(b, text, mean.known ? mean.flicker : NAN, AT_MOST, limit, "", "");
 }
 
+/* ------------------------------------------------------------------ layers */
+
+/* `object` where each thing has one velocity, means of these scenes. */
+static void bars_of_object(struct bars *b)
+{
+    static const char *const names[] = { "translate", "cross", "fence_obj", "enter", "long" };
+    enum { SCENES = sizeof names / sizeof *names };
+    const int setting = chart_find_setting("object");
+    double rmse[SCENES], cost[SCENES];
+    bool known = true;
+    for (int i = 0; i < SCENES; i++) {
+        int kind = kind_find(names[i]);
+        cost[i] = cost_of(b, kind, setting);
+        rmse[i] = rmse_of(b, kind, setting);
+        known = known && cost[i] > 0.0;
+    }
+    bar(b, "object, each thing along one velocity: error", known ? geometric_mean(rmse, SCENES) : NAN, AT_MOST, 1.8, "",
+        known ? "(translate, cross, fence_obj, enter, long)" : "");
+    bar(b, "object, each thing along one velocity: cost", known ? geometric_mean(cost, SCENES) : NAN, AT_MOST, 1.6, "x", "");
+}
+
+static void bars_of_layers(struct bars *b)
+{
+    struct chart_mean layered = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT, chart_find_setting("layered 8"));
+    struct chart_mean filter = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT, chart_find_setting("reconstruct 8"));
+    bool known = layered.known && filter.known;
+    char note[64] = "";
+    if (known)
+        snprintf(note, sizeof note, "(%.2f and %.2f; %.2fx and %.2fx)", layered.rmse, filter.rmse, layered.cost, filter.cost);
+    bar(b, "layered 8 over reconstruct 8, object scenes: error", known ? layered.rmse / filter.rmse : NAN, AT_MOST, 2.0 / 3, "",
+        note);
+    bar(b, "layered 8 over reconstruct 8, object scenes: cost", known ? layered.cost / filter.cost : NAN, AT_MOST, 1.0, "", "");
+    bars_of_object(b);
+}
+
 /* ------------------------------------------------------------------ the frontier */
 
 /* Cheaper or more accurate by more than 1 %, and not worse in the other. */
@@ -383,5 +418,6 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
     bar_scene(&b, "near plane", "near", 1.2, 8.0);
     bar_flicker(&b, BALANCED, 2.0);
     bar_flicker(&b, FINE, 0.5);
+    bars_of_layers(&b);
     bar_frontier(&b);
 }

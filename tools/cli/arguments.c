@@ -159,3 +159,23 @@ int read_name(const char *text, const char *const *names)
             return i;
     return -1;
 }
+
+bool read_list(const char *text, read_part_fn *take, void *to)
+{
+    for (;;) {
+        char part[32];
+        size_t length = strcspn(text, ",");
+        if (length >= sizeof part)
+            return false;
+        memcpy(part, text, length);
+        part[length] = '\0';
+        char *value = strchr(part, '=');
+        if (value != NULL)
+            *value++ = '\0';
+        if (!take(to, part, value))
+            return false;
+        if (text[length] == '\0')
+            return true;
+        text += length + 1;
+    }
+}

@@ -37,5 +37,9 @@ bool read_range(const char *text, long *first, long *last);
 bool read_color(const char *text, unsigned *rgb);
 /* The index of `text` in a null-terminated list, or -1. */
 int read_name(const char *text, const char *const *names);
+/* A list NAME or NAME=VALUE with commas: takes one after the other, with a null value where there is none. False when that
+ * says so, or a part is too long. */
+typedef bool read_part_fn(void *to, const char *name, const char *value);
+bool read_list(const char *text, read_part_fn *take, void *to);
 
 #endif

@@ -89,8 +89,9 @@ static const char *const render_help[] = {
     "                        what blurs in camera [mean] and half [reconstruct]\n"
     "  --camera-step 1|2|4   filters: what does not move itself gets its velocity from depth, at\n"
     "                        each pixel, 2 x 2 or 4 x 4; the background, too [camera: 1]\n"
-    "  --pingpong LIST       passes=2 taps=8 base=TAPS jitter=0 bias=4 (1/256 of the distance; 255:\n"
-    "                        no tap is left out) spread (silhouettes do), with commas\n"
+    "  --pingpong LIST       passes=2 taps=8 base=TAPS jitter=0 bias=255 (taps nearer by more\n"
+    "                        than so many 1/256 of the distance are left out; 255: none; 16\n"
+    "                        with spread) spread (silhouettes do), with commas\n"
     "  --scatter             the reach may exceed the tile, up to 64 pixels\n"
     "  --scale LIST          turn=1,way=1,objects=1: of the camera's rotation, its translation and\n"
     "                        the motion of objects, 0 to 63\n",

@@ -165,26 +165,20 @@ static const char *read_exact(void *to, const char *value)
     return NULL;
 }
 
-static const char *read_reconstruct(void *to, const char *value)
+static bool read_departure(void *to, const char *name, const char *value)
 {
     static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
-    struct render_options *o = to;
-    o->reconstruct = 0;
-    for (;;) {
-        char name[16];
-        size_t length = strcspn(value, ",");
-        if (length >= sizeof name)
-            length = 0;
-        memcpy(name, value, length);
-        name[length] = '\0';
-        int found = read_name(name, names);
-        if (found < 0)
-            return "needs a list of fence, corner, box, direction, uniform";
-        o->reconstruct |= 1 << found;           /* SMEAR_FENCE, SMEAR_CORNER, ... in this order */
-        if (value[length] == '\0')
-            return NULL;
-        value += length + 1;
-    }
+    int found = read_name(name, names);
+    if (found < 0 || value != NULL)
+        return false;
+    ((struct render_options *)to)->reconstruct |= 1 << found;   /* SMEAR_FENCE, SMEAR_CORNER, ... in this order */
+    return true;
+}
+
+static const char *read_reconstruct(void *to, const char *value)
+{
+    ((struct render_options *)to)->reconstruct = 0;
+    return read_list(value, read_departure, to) ? NULL : "needs a list of fence, corner, box, direction, uniform";
 }
 
 static const char *read_quality(void *to, const char *value)

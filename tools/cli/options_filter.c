@@ -27,9 +27,9 @@ const char *read_camera_step(void *to, const char *value)
     return NULL;
 }
 
-/* One NAME=NUMBER of a list, or a name alone. */
-static bool read_pass_setting(smear_pingpong *p, const char *name, const char *number)
+static bool read_pass_setting(void *to, const char *name, const char *number)
 {
+    smear_pingpong *p = to;
     static const struct {
         const char *name;
         size_t field;
@@ -66,22 +66,9 @@ const char *read_pingpong(void *to, const char *value)
     struct render_options *o = to;
     o->pingpong = (smear_pingpong){ 0 };
     o->has_pingpong = true;
-    for (;;) {
-        char setting[32];
-        size_t length = strcspn(value, ",");
-        if (length >= sizeof setting)
-            length = 0;
-        memcpy(setting, value, length);
-        setting[length] = '\0';
-        char *number = strchr(setting, '=');
-        if (number != NULL)
-            *number++ = '\0';
-        if (!read_pass_setting(&o->pingpong, setting, number))
-            return "needs a list of passes=1..3, taps=2..64, base=2..64, bias=1..255, jitter=0..1, spread";
-        if (value[strcspn(value, ",")] == '\0')
-            return NULL;
-        value += length + 1;
-    }
+    if (!read_list(value, read_pass_setting, &o->pingpong))
+        return "needs a list of passes=1..3, taps=2..64, base=2..64, bias=1..255, jitter=0..1, spread";
+    return NULL;
 }
 
 const char *read_weights(void *to, const char *value)
@@ -101,39 +88,24 @@ const char *read_scatter(void *to, const char *value)
     return NULL;
 }
 
-/* A factor as smear_frame has it. */
-static bool read_factor(const char *text, int *scale)
+/* A factor, to be kept as smear_frame has it. */
+static bool read_scale_of(void *to, const char *name, const char *text)
 {
+    static const char *const names[] = { "turn", "way", "objects", NULL };
+    struct render_options *o = to;
+    int *const scale[] = { &o->turn_scale, &o->way_scale, &o->object_scale };
+    int found = read_name(name, names);
     double factor;
-    if (!read_number(text, 0.0, 63.0, &factor))
+    if (found < 0 || text == NULL || !read_number(text, 0.0, 63.0, &factor))
         return false;
     int q8 = (int)lround(factor * 256);
-    *scale = q8 == 0 ? (int)SMEAR_SCALE_NONE : q8;
+    *scale[found] = q8 == 0 ? (int)SMEAR_SCALE_NONE : q8;
     return true;
 }
 
 const char *read_scale(void *to, const char *value)
 {
-    static const char *const names[] = { "turn", "way", "objects", NULL };
-    struct render_options *o = to;
-    int *const scale[] = { &o->turn_scale, &o->way_scale, &o->object_scale };
-    for (;;) {
-        char setting[32];
-        size_t length = strcspn(value, ",");
-        if (length >= sizeof setting)
-            length = 0;
-        memcpy(setting, value, length);
-        setting[length] = '\0';
-        char *number = strchr(setting, '=');
-        if (number != NULL)
-            *number++ = '\0';
-        int found = read_name(setting, names);
-        if (found < 0 || number == NULL || !read_factor(number, scale[found]))
-            return "needs a list of turn=F, way=F, objects=F, factors from 0 to 63";
-        if (value[length] == '\0')
-            return NULL;
-        value += length + 1;
-    }
+    return read_list(value, read_scale_of, to) ? NULL : "needs a list of turn=F, way=F, objects=F, factors from 0 to 63";
 }
 
 /* ------------------------------------------------------------------ the shutter */
