@@ -282,6 +282,9 @@ checks() {
 }
 claim "what was accepted is found again" checks
 
+claim "where there is no display" works view $race $small --frames 3 --check gold
+claim "CRCs where there is no display" eval 'works view $race $small --frames 2 --crc && equals "$(wc -l <"$base/out")" 2'
+
 check_fails() {
     fails 1 gold view $race $small --out null --frames 3 --check gold --light encoded &&
         has "$base/err" "3 of 3 pictures differ" && exists gold.0001.got.png &&
@@ -396,5 +399,9 @@ claim "a display that is none" eval 'DISPLAY=nonsense fails 1 x11 view --out x11
 claim "a terminal that is none" fails 1 term view --out term --frames 1
 claim "help" eval 'works view --help && has "$base/out" "Controls"'
 claim "the same help" eval 'works help view && has "$base/out" "rp2040"'
+
+controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
+claim "the README lists all controls" eval '"$smear" help view >help && controls help >wanted &&
+    controls "$here/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'
 
 finish

@@ -539,11 +539,14 @@ static int open_screen(struct view *v)
     struct failure f = { "" };
     struct screen_wish wish = { .title = "smear", .no_shared_memory = v->wish.no_shared_memory,
                                 .colors = v->wish.colors };
+    const char *out = v->wish.out;
+    if (out == NULL && v->wish.frames > 0 && (v->wish.crc || v->wish.check != NULL))
+        out = screen_null.name;         /* nobody looks */
     wish_size(v, &wish);
     guard_set(NULL);
-    v->screen = screen_open(v->wish.out, &wish, &f);
+    v->screen = screen_open(out, &wish, &f);
     if (v->screen == NULL)
-        return say_bad_input(v->wish.out != NULL ? v->wish.out : "no display", &f);
+        return say_bad_input(out != NULL ? out : "no display", &f);
     return STATUS_OK;
 }
 

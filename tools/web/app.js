@@ -705,7 +705,9 @@ function svg(name, attributes, text) {
     return e;
 }
 
-const LEFT = 52, RIGHT = 606, TOP = 14, BOTTOM = 352, COST = [0.85, 45], ERROR = [0.3, 16];
+const LEFT = 52, RIGHT = 606, TOP = 14, BOTTOM = 352;
+const COST = [0.85, Math.max(45, ...chartRows.map(r => 1.2 * r.cost))];
+const ERROR = [Math.min(0.3, ...chartRows.map(r => 0.8 * r.rmse)), Math.max(16, ...chartRows.map(r => 1.2 * r.rmse))];
 const toX = cost => LEFT + (RIGHT - LEFT) * Math.log(cost / COST[0]) / Math.log(COST[1] / COST[0]);
 const toY = error => BOTTOM - (BOTTOM - TOP) * Math.log(error / ERROR[0]) / Math.log(ERROR[1] / ERROR[0]);
 
