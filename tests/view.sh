@@ -416,6 +416,17 @@ claim "a terminal that is none" fails 1 term view --out term --frames 1
 claim "help" eval 'works view --help && has "$base/out" "Controls"'
 claim "the same help" eval 'works help view && has "$base/out" "rp2040"'
 
+sees_all() { # METHOD: every debug view of two halves of a screen; frames stay what they are
+    want=$(render_crcs $race 0-1 $small --method "$1") || return 1
+    for see in picture velocity depth tiles methods samples bands wire; do
+        view $race $small --method "$1" --split "$1" --see $see --figures --frames 2 --crc || return 1
+        equals "$(crcs)" "$want" || return 1
+    done
+}
+for method in auto none accumulate reconstruct subframes timemask camera pingpong half object layered; do
+    claim "all debug views of $method" sees_all $method
+done
+
 controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
 claim "the README lists all controls" eval '"$smear" help view >help && controls help >wanted &&
     controls "$here/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'

@@ -65,6 +65,7 @@ segments() { ipcs -m -p | awk -v process="$1" '$3 == process' | wc -l; }
 claim "a window" start $race --zoom 1 --paused --frames 1000
 claim "of the panel's size" equals "$width $height" "320 240"
 claim "the picture is the frame" shows --frames 0-0
+mkdir -p "$here/build/view" && cp "$base/shot.png" "$here/build/view/x11.png"
 claim "a key: a step" eval 'key 0x2e && shows --frames 1-1'
 claim "a key: no blur" eval 'key 0x62 && shows --frames 1-1 --method none'
 claim "a key with shift" eval 'key 0x62 && key 0x4d 1 && shows --frames 1-1 --method layered'
