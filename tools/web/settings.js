@@ -70,6 +70,7 @@ function words() {
     if (S.light !== "linear") out.push("--light", S.light);
     if (S.scene === "file") {
         out.push("--loop");
+        if (panel().words.some(w => w.startsWith("rgb"))) out.push("--clear", "28324a");
         if (S.clip > 0) out.push("--clip", String(S.clip));
     }
     return [...out, "--", sceneWord()];
