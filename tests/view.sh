@@ -259,12 +259,28 @@ claim "a recording from one frame to another" records
 records_loop() { # the demo repeats after 60 frames
     rm -f ./*.apng
     printf '1 key a\n' >"$base/in/keys"
-    view builtin:demo/drone --size 32x32 --method none --frames 2 --play "$base/in/keys" || return 1
+    view builtin:demo/drone --size 32x32 --frames 2 --play "$base/in/keys" || return 1
     exists demo-drone-0000.apng || return 1
-    "$smear" render builtin:demo/drone --size 32x32 --method none --frames 0-59 -o want.apng &&
+    "$smear" render builtin:demo/drone --size 32x32 --frames 0-59 -o want.apng &&
         cmp want.apng demo-drone-0000.apng
 }
-claim "a whole loop is found by its pictures" records_loop
+claim "a whole loop of the demo" records_loop
+
+records_turn() { # two seconds at 15 frames per second, once around the square
+    rm -f ./*.apng
+    printf '1 key j\n2 key a\n' >"$base/in/keys"
+    printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >square.obj
+    view square.obj --size 24x24 --fps 15 --frames 3 --play "$base/in/keys" && exists square-0000.apng || return 1
+    equals "$(grep -ao fcTL square-0000.apng | wc -l)" 30
+}
+claim "a turn of the turntable" records_turn
+
+records_found() { # nothing moves: any two frames are a loop
+    rm -f ./*.apng
+    printf '1 key a\n' >"$base/in/keys"
+    view builtin:suite/still --size 24x24 --frames 2 --play "$base/in/keys" && exists suite-still-0000.apng
+}
+claim "a loop that is found by its pictures" records_found
 
 records_clip() { # one second at 30 frames
     rm -f ./*.gif
@@ -281,6 +297,9 @@ checks() {
     "$smear" render $race $small --frames 2-2 -o f.png && cmp f.png gold.0002.png
 }
 claim "what was accepted is found again" checks
+
+claim "where there is no display" works view $race $small --frames 3 --check gold
+claim "CRCs where there is no display" eval 'works view $race $small --frames 2 --crc && equals "$(wc -l <"$base/out")" 2'
 
 check_fails() {
     fails 1 gold view $race $small --out null --frames 3 --check gold --light encoded &&
@@ -396,5 +415,20 @@ claim "a display that is none" eval 'DISPLAY=nonsense fails 1 x11 view --out x11
 claim "a terminal that is none" fails 1 term view --out term --frames 1
 claim "help" eval 'works view --help && has "$base/out" "Controls"'
 claim "the same help" eval 'works help view && has "$base/out" "rp2040"'
+
+sees_all() { # METHOD: every debug view of two halves of a screen; frames stay what they are
+    want=$(render_crcs $race 0-1 $small --method "$1") || return 1
+    for see in picture velocity depth tiles methods samples bands wire; do
+        view $race $small --method "$1" --split "$1" --see $see --figures --frames 2 --crc || return 1
+        equals "$(crcs)" "$want" || return 1
+    done
+}
+for method in auto none accumulate reconstruct subframes timemask camera pingpong half object layered; do
+    claim "all debug views of $method" sees_all $method
+done
+
+controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
+claim "the README lists all controls" eval '"$smear" help view >help && controls help >wanted &&
+    controls "$here/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'
 
 finish

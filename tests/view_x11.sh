@@ -65,6 +65,7 @@ segments() { ipcs -m -p | awk -v process="$1" '$3 == process' | wc -l; }
 claim "a window" start $race --zoom 1 --paused --frames 1000
 claim "of the panel's size" equals "$width $height" "320 240"
 claim "the picture is the frame" shows --frames 0-0
+mkdir -p "$here/build/view" && cp "$base/shot.png" "$here/build/view/x11.png"
 claim "a key: a step" eval 'key 0x2e && shows --frames 1-1'
 claim "a key: no blur" eval 'key 0x62 && shows --frames 1-1 --method none'
 claim "a key with shift" eval 'key 0x62 && key 0x4d 1 && shows --frames 1-1 --method layered'
@@ -118,6 +119,8 @@ claim "SIGTERM ends it" end
 claim "a picture that stands does not tear" eval 'start $race --zoom 1 --paused --bus 3000000 --panel-hz 60 &&
     key 0x2e && shows --frames 1-1'
 claim "ends after it" end
+claim "escape ends a recording, not the program" eval 'start $race --zoom 1 --paused && key 0x67 && key 0xff1b &&
+    key 0x2e && shows --frames 1-1 && [ -z "$(ls ./*.gif 2>/dev/null)" ] && end'
 
 timed() { # OPTIONS...: view's figures
     "$smear" view $race --out x11 --size 640x480 --frames 12 --times "$@" >times || return 1

@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "say.h"
 
+#include <math.h>
 #include <string.h>
 
 static const char builtin_prefix[] = "builtin:";
@@ -161,3 +162,17 @@ bool source_stem(const char *name, char *out, size_t size)
     out[length] = '\0';
     return true;
 }
+/* A clip that ends shows its last instant, too; one that loops shows it as its first. */
+long source_period(const struct source *s, const struct source_view *view, double fps)
+{
+    const struct model *m = &s->model;
+    double longest = 0.0, frames = s->scene.loop * fps;
+    if (!s->is_file)
+        return fabs(frames - (double)lround(frames)) < 1e-6 ? lround(frames) : 0;
+    for (int i = 0; i < m->clip_count; i++)
+        if (view->clip == NULL ? i == 0 : strcmp(view->clip, "all") == 0 || model_find_clip(m, view->clip) == i)
+            longest = fmax(longest, m->clip[i].duration);
+    frames = longest * fps;
+    return frames > 0.0 && frames < 1e6 ? lround(frames) + !view->loop : 0;
+}
+

@@ -32,6 +32,10 @@ const char *source_builtin_name(const char *name);
 int source_open(const char *name, const struct source_view *view, struct source *out);
 void source_close(struct source *source);
 
+/* Frames after which it begins again: one clip or all, as `view` has chosen them, or a scene that repeats in a whole
+ * number of frames. 0: it does not. */
+long source_period(const struct source *source, const struct source_view *view, double fps);
+
 /* The motion of each draw of an instant, by `NODE=full|camera|none` settings: each holds for the
  * node (by name, else by index) and all below it, later ones over earlier ones. A status. */
 int source_motion(const struct source *source, const char *const *setting, int setting_count,

@@ -90,5 +90,8 @@ static const struct stage_kind demo_kinds[] = {
 
 bool demo_make(const char *name, struct scene *out, struct failure *f)
 {
-    return stage_open(demo_kinds, sizeof demo_kinds / sizeof *demo_kinds, name, out, f);
+    if (!stage_open(demo_kinds, sizeof demo_kinds / sizeof *demo_kinds, name, out, f))
+        return false;
+    out->loop = LOOP_SECONDS;
+    return true;
 }

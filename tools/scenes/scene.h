@@ -76,6 +76,7 @@ struct scene {
     const char *name;
     int width, height;              /* the size it is meant for */
     double fps, time;               /* frame rate and the instant of the frame that stands for it */
+    double loop;                    /* seconds after which it looks the same again; 0: never */
     uint32_t clear;                 /* 0xRRGGBB sRGB */
     bool (*pose)(struct scene *scene, double time, struct scene_instant *out, struct failure *f);
     void (*instant_free)(struct scene *scene, struct scene_instant *instant);

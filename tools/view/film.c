@@ -2,8 +2,6 @@
 /* film.c - see film.h. */
 #include "film.h"
 
-#include "guard.h"
-
 #include "../cli/picture.h"
 #include "../cli/say.h"
 #include "../cli/sink.h"
@@ -11,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
+
+#define PI 3.14159265358979323846
 
 enum { MAX_SEARCH = 240, TRUTH_INSTANTS = 64 };
 
@@ -60,13 +60,13 @@ void film_screenshot(struct view *v)
 
 /* ------------------------------------------------------------------ loops */
 
-/* Frames from `first` until two in a row look as the first two do; 0: none within the search. */
+/* Frames from `first` until two in a row look as the first two do; 0: none within the search; -1: it was ended. */
 static long find_loop(struct view *v, long first)
 {
     uint32_t start[2] = { 0, 0 }, last = 0;
-    for (long i = 0; i <= MAX_SEARCH && !guard_is_asked(); i++) {
-        if (!view_draw_main(v, (first + i) * VIEW_UNITS))
-            return 0;
+    for (long i = 0; i <= MAX_SEARCH; i++) {
+        if (!view_busy(v, "looking for a loop", i, MAX_SEARCH) || !view_draw_main(v, (first + i) * VIEW_UNITS))
+            return -1;
         uint32_t crc = v->main.stats.crc32;
         if (i < 2)
             start[i] = crc;
@@ -75,6 +75,31 @@ static long find_loop(struct view *v, long first)
         last = crc;
     }
     return 0;
+}
+
+static long common_multiple(long a, long b)
+{
+    long x = a, y = b;
+    while (y != 0) {
+        long rest = x % y;
+        x = y;
+        y = rest;
+    }
+    return a / x * b;
+}
+
+/* Frames until scene and turntable are as they were, where that is known; else 0. */
+static long whole_loop(const struct view *v)
+{
+    long period = view_period(v);
+    if (v->orbit.spin == 0.0)
+        return period;
+    double turn = 2.0 * PI / fabs(v->orbit.spin) * view_fps(v);
+    long frames = lround(turn);
+    if (frames < 1 || frames > MAX_SEARCH || fabs(turn - (double)frames) > 1e-6)
+        return 0;
+    frames = period > 0 ? common_multiple(period, frames) : frames;
+    return frames <= 4 * MAX_SEARCH ? frames : 0;
 }
 
 /* What is to be recorded; the user is told when there is nothing. */
@@ -89,15 +114,17 @@ static bool choose_frames(struct view *v, long *first, long *count)
         *count = (long)(v->mark[1] - v->mark[0]) + 1;
         return true;
     }
-    if (view_period(v) > 0) {
+    *count = whole_loop(v);
+    if (*count > 0) {
         *first = 0;
-        *count = view_period(v);
         return true;
     }
     *first = (long)(v->at / VIEW_UNITS);
     *count = find_loop(v, *first);
     if (*count == 0)
         view_say(v, "no loop within %d frames; mark one with ( and )", MAX_SEARCH);
+    else if (*count < 0)
+        view_say(v, "no loop was looked for to the end");
     return *count > 0;
 }
 
@@ -108,7 +135,7 @@ static bool add_frames(struct view *v, struct sink *sink, long first, long count
     uint32_t crc_of_first = 0;
     for (long i = 0; i < count; i++) {
         struct image picture;
-        if (guard_is_asked())
+        if (!view_busy(v, "recording", i, count))
             return fail(f, "interrupted");
         if (!view_draw_main(v, (first + i) * VIEW_UNITS))
             return fail(f, "%s", v->message);
@@ -157,6 +184,7 @@ void film_measure(struct view *v)
     struct image truth, picture;
     struct instant instant = view_instant(v, v->at);
     struct present_options options = setup_frame(&v->main.setup, &v->main.options, instant.frame);
+    view_busy(v, "measuring", 0, 1);
     if (!presenter_exact(v->presenter, instant.time, &options, v->main.setup.width,
                          v->main.setup.height, options.shutter_degrees > 0.0 ? TRUTH_INSTANTS : 1,
                          &truth, &f)) {

@@ -194,6 +194,33 @@ static void add_help(struct page *p, int page)
         add(p, "page %d of %d: ? goes on, escape closes", page, pages);
 }
 
+/* Bytes of the line that text begins with: up to a blank, where there is one. */
+static int line_length(const char *text, int columns)
+{
+    int length = (int)strlen(text), end = columns;
+    if (length <= columns)
+        return length;
+    while (end > 0 && text[end] != ' ')
+        end--;
+    return end > 0 ? end : columns;
+}
+
+/* In as many lines as it takes, over the last ones where there is no room. */
+static void add_message(struct page *p, const char *text)
+{
+    int lines = 0, length;
+    if (p->columns < 1)
+        return;
+    for (const char *t = text; *t != '\0'; t += length + (t[length] == ' '), lines++)
+        length = line_length(t, p->columns);
+    if (p->text->rows > p->rows - lines)
+        p->text->rows = p->rows > lines ? p->rows - lines : 0;
+    for (const char *t = text; *t != '\0'; t += length + (t[length] == ' ')) {
+        length = line_length(t, p->columns);
+        add(p, "%.*s", length, t);
+    }
+}
+
 void overlay_text(const struct view *v, int columns, int rows, struct text *out)
 {
     struct page page = { out, columns < TEXT_COLUMNS ? columns : TEXT_COLUMNS, rows };
@@ -202,11 +229,8 @@ void overlay_text(const struct view *v, int columns, int rows, struct text *out)
         add_help(&page, v->help_page);
     else if (v->has_overlay)
         add_figures(&page, v);
-    if (v->message[0] != '\0' && clock_us() < v->message_until_us) {
-        if (out->rows == page.rows && out->rows > 0)
-            out->rows--;
-        add(&page, "%s", v->message);
-    }
+    if (v->message[0] != '\0' && clock_us() < v->message_until_us)
+        add_message(&page, v->message);
 }
 
 /* ------------------------------------------------------------------ letters on surfaces */

@@ -99,7 +99,7 @@ struct view {
     double board_us, wire_us;       /* estimates for the frame shown */
     double shown_fps, last_shown_us;
     char message[TEXT_COLUMNS + 1];
-    double message_until_us;
+    double message_until_us, busy_until_us;
 
     struct golden golden;
     struct script script;
@@ -119,11 +119,14 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void view_say(struct view *view, const char *format, ...);
 
+/* Of long work: every now and then, shows how far it is. False when the user wants it to end. */
+bool view_busy(struct view *view, const char *what, long done, long all);
+
 /* The instant of a position in time. */
 struct instant view_instant(const struct view *view, int64_t at);
 double view_fps(const struct view *view);
 
-/* Frames after which the scene's clips begin again; 0: they do not, or nobody knows. */
+/* Frames after which the scene begins again; 0: it does not, or nobody knows. */
 long view_period(const struct view *view);
 
 /* Draws the main lane at an instant. On failure the user is told, and the settings go back to what

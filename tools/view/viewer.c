@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 enum { MAX_LATE_FRAMES = 8, MAX_BOARD_FRAMES = 120, MAX_EVENTS = 1000, MEDIAN_PICTURES = 10000 };
-enum { MESSAGE_US = 3000000, IDLE_MS = 200, MAX_WAIT_MS = 60000 };
+enum { MESSAGE_US = 3000000, BUSY_US = 200000, IDLE_MS = 200, MAX_WAIT_MS = 60000 };
 enum { WISHED_WIDTH = 640, WISHED_HEIGHT = 480, MAX_ZOOM = 8 };
 
 void view_say(struct view *v, const char *format, ...)
@@ -61,28 +61,14 @@ struct instant view_instant(const struct view *v, int64_t at)
 
 long view_period(const struct view *v)
 {
-    const struct model *m = &v->source->model;
-    const char *name = v->main.options.view.clip;
-    double longest = 0.0;
-    if (!v->source->is_file || m->clip_count == 0)
-        return 0;
-    if (name == NULL || strcmp(name, "all") != 0) {
-        int clip = name == NULL ? 0 : model_find_clip(m, name);
-        longest = clip >= 0 ? m->clip[clip].duration : 0.0;
-    } else {
-        for (int i = 0; i < m->clip_count; i++)
-            longest = fmax(longest, m->clip[i].duration);
-    }
-    /* a clip that ends shows its last instant, too; one that loops shows it as its first */
-    double frames = longest * view_fps(v);
-    return frames > 0.0 && frames < 1e6 ? lround(frames) + !v->main.options.view.loop : 0;
+    return source_period(v->source, &v->main.options.view, view_fps(v));
 }
 
 /* Without --loop and --frames, a clip that has ended is shown again. */
 static void wrap(struct view *v)
 {
     long period = view_period(v);
-    if (v->wish.frames == 0 && !v->main.options.view.loop && !v->main.options.has_time &&
+    if (v->source->is_file && v->wish.frames == 0 && !v->main.options.view.loop && !v->main.options.has_time &&
         period > 0 && v->at >= (int64_t)period * VIEW_UNITS)
         v->at = 0;
 }
@@ -380,6 +366,24 @@ static void take_event(struct view *v, struct event *e)
     }
 }
 
+/* Shows what stands, with a line for the user; false when he wants it to end. */
+bool view_busy(struct view *v, const char *what, long done, long all)
+{
+    struct event e;
+    bool goes_on = !guard_is_asked();
+    if (v->screen->kind == &screen_null || v->tick == 0 || clock_us() < v->busy_until_us)
+        return goes_on;
+    view_say(v, "%s: %ld of %ld (escape ends it)", what, done, all);
+    while (goes_on && v->screen->kind->event(v->screen, 0, &e)) {
+        if (e.kind == EVENT_CLOSE || e.kind == EVENT_LOST)
+            take_event(v, &e);
+        goes_on = !v->quits && (e.kind != EVENT_KEY || e.key != SCREEN_ESCAPE);
+    }
+    goes_on = goes_on && show(v);
+    v->busy_until_us = clock_us() + BUSY_US;
+    return goes_on;
+}
+
 static bool is_due(const struct view *v, double now)
 {
     if (v->screen->kind == &screen_null || v->tick == 0 || v->quits || guard_is_asked())
@@ -539,11 +543,14 @@ static int open_screen(struct view *v)
     struct failure f = { "" };
     struct screen_wish wish = { .title = "smear", .no_shared_memory = v->wish.no_shared_memory,
                                 .colors = v->wish.colors };
+    const char *out = v->wish.out;
+    if (out == NULL && v->wish.frames > 0 && (v->wish.crc || v->wish.check != NULL))
+        out = screen_null.name;         /* nobody looks */
     wish_size(v, &wish);
     guard_set(NULL);
-    v->screen = screen_open(v->wish.out, &wish, &f);
+    v->screen = screen_open(out, &wish, &f);
     if (v->screen == NULL)
-        return say_bad_input(v->wish.out != NULL ? v->wish.out : "no display", &f);
+        return say_bad_input(out != NULL ? out : "no display", &f);
     return STATUS_OK;
 }
 

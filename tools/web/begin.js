@@ -3,7 +3,7 @@
 "use strict";
 const scriptStart = performance.now();
 const packed = id => document.getElementById(id).textContent.trim();
-let pageTexts = [];                     // app.js, worker.js, chart.csv
+let chartText = "", workerText = "";
 
 function fatal(text) {
     document.getElementById("fatal").textContent = text;
@@ -15,6 +15,7 @@ if (typeof WebAssembly !== "object" || typeof Worker !== "function")
         + "Any browser since 2018 has it; or run the library itself: make && build/smear view.");
 else
     filesOf(packed("unlzma"), packed("texts")).then(files => {
-        pageTexts = files.map(f => new TextDecoder().decode(f));
-        document.head.append(Object.assign(document.createElement("script"), { textContent: pageTexts[0] }));
+        const texts = files.map(f => new TextDecoder().decode(f));
+        [chartText, workerText] = texts;
+        document.head.append(Object.assign(document.createElement("script"), { textContent: "\"use strict\";\n" + texts.slice(2).join("") }));
     }).catch(error => fatal("The page does not start: " + (error && error.message || error)));

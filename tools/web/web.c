@@ -399,30 +399,14 @@ EXPORT(web_boards) void web_boards(void)
     append(at, "]");
 }
 
-/* How long one clip, or all of them, are shown until they begin again; as viewer.c has it. */
-static long period(double fps)
-{
-    const struct model *m = &shown.source->model;
-    const char *name = shown.main.options.view.clip;
-    double longest = 0.0;
-    if (!shown.source->is_file)
-        return lround(2.0 * fps);               /* both demos last 60 frames of a thirtieth */
-    if (m->clip_count == 0)
-        return 0;
-    for (int i = 0; i < m->clip_count; i++)
-        if (name == NULL ? i == 0 : strcmp(name, "all") == 0 || model_find_clip(m, name) == i)
-            longest = fmax(longest, m->clip[i].duration);
-    double frames = longest * fps;
-    return frames > 0.0 && frames < 1e6 ? lround(frames) + !shown.main.options.view.loop : 0;
-}
-
 /* The scene, as JSON in `text`. */
 EXPORT(web_scene) void web_scene(void)
 {
     const struct model *m = &shown.source->model;
+    double fps = shown.main.setup.present.fps;
     char *at = append(text, "{\"width\":%d,\"height\":%d,\"fps\":%g,\"period\":%ld,\"clips\":[",
-                      shown.width, shown.height, shown.main.setup.present.fps,
-                      period(shown.main.setup.present.fps));
+                      shown.width, shown.height, fps,
+                      source_period(shown.source, &shown.main.options.view, fps));
     bool is_file = shown.source->is_file;
     for (int i = 0; is_file && i < m->clip_count && i < 64; i++) {
         at = append(at, i > 0 ? "," : "");

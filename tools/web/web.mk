@@ -33,7 +33,9 @@ $(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.
 	$(WEB)/pack page tools/web/page.html $@
 
 $(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
-$(WEB)/texts.joined: $(WEB)/pack tools/web/app.js tools/web/worker.js $(WEB)/chart.csv
+# app.js comes last: it begins.
+WEB_TEXTS := $(addprefix tools/web/,worker.js settings.js engines.js frames.js screen.js controls.js chart.js models.js film.js app.js)
+$(WEB)/texts.joined: $(WEB)/pack $(WEB)/chart.csv $(WEB_TEXTS)
 $(WEB)/%.joined:
 	$(WEB)/pack join $@ $(filter-out $<,$^)
 
