@@ -52,7 +52,9 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->tile == 0)
         d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || (d->tile < d->reach && !d->scatter))
+    if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64 || (d->tile < d->reach && !d->scatter))
+        return false;
+    if (d->tile == 4 && (d->scatter || d->half || is_timed(d) || is_layered(d)))
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
@@ -124,7 +126,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     struct smear_window *w = &c->window, spare;
     *w = (struct smear_window){ .width = d->width, .height = d->height, .tile = d->tile,
                                 .reach = d->reach };
-    for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
+    for (w->tile_shift = 2; 1 << w->tile_shift < d->tile;)
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + row_px(d) - 1) / row_px(d);
