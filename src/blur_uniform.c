@@ -106,7 +106,7 @@ SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
             if (word == 0) {
                 out[x - x0] = w->color[at];
                 copied++;
-            } else if (held) {
+            } else if (SMEAR_WITH_FILTERS && held) {
                 out[x - x0] = mean_behind(w, rows->offset, at, x, y - rows->first, &taps, n, over, linear);
             } else {
                 out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n,
@@ -134,8 +134,9 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     n = max_i32(n, 2);
     int32_t x0 = column << w->tile_shift;
     bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
-    if (settings->linear)
-        return mean_tile(out, w, rows, column, n, true, settings->held, true);
-    return edge || settings->held ? mean_tile(out, w, rows, column, n, false, settings->held, true)
+    const bool held = SMEAR_WITH_FILTERS && settings->held;
+    if (SMEAR_WITH_LINEAR && settings->linear)
+        return mean_tile(out, w, rows, column, n, true, held, true);
+    return edge || held ? mean_tile(out, w, rows, column, n, false, held, true)
                                   : mean_tile(out, w, rows, column, n, false, false, false);
 }
