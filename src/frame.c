@@ -795,24 +795,40 @@ static int finish_blurred(struct smear_context *c, int row, int known)
 
 /* ------------------------------------------------------------------ methods */
 
-static int render_none(struct smear_context *c)
+/* The instant whose sharp picture is blurred both ways: the middle of the exposure. */
+static struct instant middle_of(const struct smear_context *c)
 {
-    for (int row = 0; row < c->window.rows;) {
-        int top = row, end = assemble_part(c, &top, row, row, c->window.rows, &sharp_instant);
-        for (; row < end; row++) {
-            int result;
-            if (SMEAR_DIRECT && c->direct) {
-                result = render_direct_row(c, row);
-            } else {
-                draw_row(c, row);
-                blend_row(c, row);
-                result = finish_sharp(c, row);
-            }
-            if (result != SMEAR_OK)
-                return result;
-        }
+    return c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+}
+
+/* Part after part: assembled at an instant, its tile rows [first, end) then drawn, finished and handed out. */
+typedef int rows_fn(struct smear_context *c, int first, int end);
+
+static int render_parts(struct smear_context *c, const struct instant *instant, rows_fn *rows)
+{
+    for (int row = 0, end; row < c->window.rows; row = end) {
+        int top = row;
+        end = assemble_part(c, &top, row, row, c->window.rows, instant);
+        int result = rows(c, row, end);
+        if (result != SMEAR_OK)
+            return result;
     }
     return SMEAR_OK;
+}
+
+static int sharp_rows(struct smear_context *c, int first, int end)
+{
+    int result = SMEAR_OK;
+    for (int row = first; row < end && result == SMEAR_OK; row++) {
+        if (SMEAR_DIRECT && c->direct) {
+            result = render_direct_row(c, row);
+        } else {
+            draw_row(c, row);
+            blend_row(c, row);
+            result = finish_sharp(c, row);
+        }
+    }
+    return result;
 }
 
 /* One step of the rolling window: tile row `row` has been drawn; row - 1 has a neighbour on both sides now.
@@ -837,8 +853,7 @@ static int roll(struct smear_context *c, int row)
 
 static int render_filter(struct smear_context *c)
 {
-    /* The sharp picture that is blurred both ways lies at the middle of the exposure. */
-    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    struct instant middle = middle_of(c);
     if (SMEAR_WITH_FILTERS && c->raster.velocity_from_depth)
         smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
                              c->frame.shutter_poses, c->window.width, c->window.height);
@@ -856,15 +871,8 @@ static int render_filter(struct smear_context *c)
 
 static int render_timed(struct smear_context *c)
 {
-    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
-    for (int row = 0, end; row < c->window.rows; row = end) {
-        int top = row;
-        end = assemble_part(c, &top, row, row, c->window.rows, &middle);
-        int result = smear_timed_rows(c, row, end);
-        if (result != SMEAR_OK)
-            return result;
-    }
-    return SMEAR_OK;
+    struct instant middle = middle_of(c);
+    return render_parts(c, &middle, smear_timed_rows);
 }
 
 /* Which draws are blurred, and how they move. */
@@ -894,16 +902,9 @@ static void find_layers(struct smear_context *c, const struct instant *middle)
 
 static int render_layers(struct smear_context *c)
 {
-    struct instant middle = c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
+    struct instant middle = middle_of(c);
     find_layers(c, &middle);
-    for (int row = 0, end; row < c->window.rows; row = end) {
-        int top = row;
-        end = assemble_part(c, &top, row, row, c->window.rows, &middle);
-        int result = smear_layers_rows(c, row, end);
-        if (result != SMEAR_OK)
-            return result;
-    }
-    return SMEAR_OK;
+    return render_parts(c, &middle, smear_layers_rows);
 }
 
 /* Row y of the sums. */
@@ -1094,7 +1095,7 @@ int smear_frame_render(struct smear_context *c)
     else if (SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method))
         result = render_timed(c);
     else
-        result = render_none(c);
+        result = render_parts(c, &sharp_instant, sharp_rows);
     smear_jobs_end_frame(&c->jobs);
     sum_up(c);
     stage_end(c, &c->stats.time_total, start);

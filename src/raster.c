@@ -661,14 +661,14 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_segment *segment, uint32_t color, uint32_t triangle,
                                          const int32_t *const v[3], bool *moved)
 {
-    int32_t left = min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
-    int32_t right = max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X]));
-    int32_t top = min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
-    int32_t bottom = max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]));
-    left = (left + 127) >> 8;
-    right = (right + 127) >> 8;
-    top = (top + 127) >> 8;
-    bottom = (bottom + 127) >> 8;
+    const struct bounds box = {
+        min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+        min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
+        max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+        max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]))
+    };
+    const int32_t left = (box.x0 + 127) >> 8, right = (box.x1 + 127) >> 8;
+    int32_t top = (box.y0 + 127) >> 8, bottom = (box.y1 + 127) >> 8;
     const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
@@ -696,6 +696,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         s->color = color;
         for (int i = 0; i < 3; i++)
             s->v[i] = v[i];
+        s->bounds = box;
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
     s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)

@@ -105,6 +105,23 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
 #if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
 #define TEXELS_BY_HAND 1
 
+/* One pixel, where the depth lies AT and the colour PLACE further on; LABEL is behind it. z in r2, u in r3, v in r4. */
+#define PIXEL_BY_HAND(LOAD, STORE, SIZE, AT, PLACE, LABEL) \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #" AT "]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs " LABEL "f\n\t" \
+        "strh r6, [r1, #" AT "]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #" PLACE "]\n" \
+        LABEL ": "
+
 /* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as a power of two, where the next one is, two. */
 #define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
     __asm__ volatile( \
@@ -119,35 +136,11 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
         "mov lr, r6\n\t" \
         "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
         "1:\n\t" \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #0]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs 2f\n\t" \
-        "strh r6, [r1, #0]\n\t" \
-        "lsrs r6, r4, %[from_v]\n\t" \
-        "lsls r6, r6, %[to_v]\n\t" \
-        "lsrs r7, r3, %[from_u]\n\t" \
-        "lsls r7, r7, #" SIZE "\n\t" \
-        "orrs r6, r7\n\t" \
-        LOAD " r6, [r5, r6]\n\t" \
-        STORE " r6, [r0, #0]\n" \
-        "2: add r3, r9\n\t" \
+        PIXEL_BY_HAND(LOAD, STORE, SIZE, "0", "0", "2") \
+        "add r3, r9\n\t" \
         "add r4, r10\n\t" \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #2]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs 3f\n\t" \
-        "strh r6, [r1, #2]\n\t" \
-        "lsrs r6, r4, %[from_v]\n\t" \
-        "lsls r6, r6, %[to_v]\n\t" \
-        "lsrs r7, r3, %[from_u]\n\t" \
-        "lsls r7, r7, #" SIZE "\n\t" \
-        "orrs r6, r7\n\t" \
-        LOAD " r6, [r5, r6]\n\t" \
-        STORE " r6, [r0, #" NEXT "]\n" \
-        "3: add r3, r9\n\t" \
+        PIXEL_BY_HAND(LOAD, STORE, SIZE, "2", NEXT, "3") \
+        "add r3, r9\n\t" \
         "add r4, r10\n\t" \
         "add r9, r11\n\t" \
         "add r10, r12\n\t" \
@@ -159,20 +152,8 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
         "ldr r6, [r6, #48]\n\t" \
         "lsrs r6, r6, #1\n\t" \
         "bcc 5f\n\t" \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #0]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs 4f\n\t" \
-        "strh r6, [r1, #0]\n\t" \
-        "lsrs r6, r4, %[from_v]\n\t" \
-        "lsls r6, r6, %[to_v]\n\t" \
-        "lsrs r7, r3, %[from_u]\n\t" \
-        "lsls r7, r7, #" SIZE "\n\t" \
-        "orrs r6, r7\n\t" \
-        LOAD " r6, [r5, r6]\n\t" \
-        STORE " r6, [r0, #0]\n" \
-        "4: adds r0, #" NEXT "\n\t" \
+        PIXEL_BY_HAND(LOAD, STORE, SIZE, "0", "0", "4") \
+        "adds r0, #" NEXT "\n\t" \
         "adds r1, #2\n" \
         "5: pop {r7}\n\t" \
         "str r0, [r7, #24]\n\t" \

@@ -218,13 +218,7 @@ struct seen {
 
 static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, int32_t high_q)
 {
-    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
-    for (int i = 0; i < 3; i++) {
-        x0 = min_i32(x0, s->v[i][VERTEX_X]);
-        x1 = max_i32(x1, s->v[i][VERTEX_X]);
-        y0 = min_i32(y0, s->v[i][VERTEX_Y]);
-        y1 = max_i32(y1, s->v[i][VERTEX_Y]);
-    }
+    int32_t x0 = s->bounds.x0, x1 = s->bounds.x1, y0 = s->bounds.y0, y1 = s->bounds.y1;
     bool cut = (x0 | y0) < 0 || x1 >= s->frame->width << 8 || y1 >= s->frame->height << 8;
     x0 = max_i32(x0 >> 8, 0);
     y0 = max_i32(y0 >> 8, 0);
@@ -237,8 +231,8 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
         const struct plane *q = &s->depth;
         int32_t dx = q->dx, dy = q->dy, vx = s->v[0][VERTEX_X] >> 8, vy = s->v[0][VERTEX_Y] >> 8;
         int64_t here = s->v[0][VERTEX_DEPTH];
-        int64_t low = here + (int64_t)dx * ((dx > 0 ? x0 : x1) - vx) + (int64_t)dy * ((dy > 0 ? y0 : y1) - vy);
-        int64_t high = here + (int64_t)dx * ((dx > 0 ? x1 : x0) - vx) + (int64_t)dy * ((dy > 0 ? y1 : y0) - vy);
+        int64_t low = here + product(dx, (dx > 0 ? x0 : x1) - vx) + product(dy, (dy > 0 ? y0 : y1) - vy);
+        int64_t high = here + product(dx, (dx > 0 ? x1 : x0) - vx) + product(dy, (dy > 0 ? y1 : y0) - vy);
         int32_t margin = (int32_t)((magnitude_i32(dx) + magnitude_i32(dy)) >> 1);      /* v[0] is no centre */
         seen->low_q = clamp_i32(narrow_sat(low - margin), low_q, high_q);
         seen->high_q = clamp_i32(narrow_sat(high + margin), low_q, high_q);

@@ -54,12 +54,18 @@ struct texture_setup {
     int32_t slope;          /* how q changes per pixel; quadratic: over its middle, q17. Divided: times 2^7 */
 };
 
+/* The box of a triangle's vertices, q8. */
+struct bounds {
+    int32_t x0, y0, x1, y1;
+};
+
 struct setup {
     const struct smear_raster_frame *frame;
     const struct smear_raster_target *target;
     const struct smear_segment *segment;
     const struct smear_raster_draw *draw;
     const int32_t *v[3];            /* records, clockwise on the screen */
+    struct bounds bounds;
 
     /* Edge vectors from v[0], q8, and 1 / (twice the area), which is positive. */
     int32_t x1, y1, x2, y2;

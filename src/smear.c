@@ -54,7 +54,9 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->tile == 0)
         d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if ((d->tile != 8 && d->tile != 16 && d->tile != 32 && d->tile != 64) || (d->tile < d->reach && !d->scatter))
+    if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64 || (d->tile < d->reach && !d->scatter))
+        return false;
+    if (d->tile == 4 && (d->scatter || d->half || is_timed(d) || is_layered(d)))
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
@@ -126,7 +128,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     struct smear_window *w = &c->window, spare;
     *w = (struct smear_window){ .width = d->width, .height = d->height, .tile = d->tile,
                                 .reach = d->reach };
-    for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
+    for (w->tile_shift = 2; 1 << w->tile_shift < d->tile;)
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + row_px(d) - 1) / row_px(d);
@@ -467,28 +469,28 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     if (SMEAR_WITH_LAYERS && method_has_layers(f.method))
         keep_layers(c, &f);
     f.layer = NULL;
-    c->camera = *frame->camera;
+    const smear_camera *now = frame->camera, *close = frame->close != NULL ? frame->close : now, *open = now;
     c->camera_moves = true;
-    c->camera_close = frame->close != NULL ? *frame->close : *frame->camera;
     if (frame->open != NULL)
-        c->camera_open = *frame->open;
+        open = frame->open;
     else if (c->has_kept_camera && !f.shutter_poses)
-        c->camera_open = c->kept_camera;
+        open = &c->kept_camera;
     else
         c->camera_moves = f.shutter_poses && frame->close != NULL;
-    if (!c->camera_moves || (f.shutter_poses && frame->open == NULL))
-        c->camera_open = *frame->camera;
     /* Between a perspective and an orthographic view there is no path: as after a cut. */
-    if (!same_kind(&c->camera_open, &c->camera) || !same_kind(&c->camera_close, &c->camera)) {
+    if (!same_kind(open, now) || !same_kind(close, now)) {
         c->camera_moves = false;
-        c->camera_open = c->camera_close = *frame->camera;
+        open = close = now;
     }
+    c->camera = *now;
+    c->camera_open = *open;
+    c->camera_close = *close;
     if (SMEAR_WITH_SCALES) {
         scale_camera(&c->camera_open, &c->camera, &f);
         scale_camera(&c->camera_close, &c->camera, &f);
     }
     c->half_exposure = half_exposure(&f);
-    c->kept_camera = *frame->camera;
+    c->kept_camera = *now;
     c->has_kept_camera = true;
     f.camera = f.open = f.close = NULL;
     f.shutter = NULL;

@@ -212,7 +212,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
         return;
     }
     /* Exact at multiples of 8 and at the span's ends; linear between. */
-    const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
+    static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
     int32_t x = p->a, at = p->at;
     int32_t here[2], next[2], stored[2], stored_next[2];
     displacement_at(s, x, p->y, here);

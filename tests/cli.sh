@@ -540,6 +540,7 @@ claim "of the height" same reach4.ppm reach12.ppm
 claim "the default reach is at most a tile" render "$plate" --size 64x240 --method reconstruct --tile 8 -o tile8.ppm
 claim "as large as it" render "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8 -o tile88.ppm
 claim "so" same tile8.ppm tile88.ppm
+claim "tiles of 4" render "$plate" --size 64x48 --method reconstruct --tile 4 -o tile4.ppm
 claim "1x1" render "$plate" --size 1x1 -o tiny.ppm
 claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
 claim "2048 high" render "$plate" --size 1x2048 -o high.ppm
@@ -741,8 +742,9 @@ for reach in 0 -1 nan 0% -5% 'nan%' '%' 12px 1.5 101% ''; do
 done
 usage --reach render "$plate" --reach 65
 usage --reach render "$plate" --reach 17 --tile 16
+usage --tile render "$plate" --method auto --tile 4
 usage --reach render "$plate" --reach 50%
-for tile in 0 4 12 128 16.0 -8 ''; do
+for tile in 0 2 12 128 16.0 -8 ''; do
     usage --tile render "$plate" --tile "$tile"
 done
 for target in 0 -1 nan inf 256 ''; do

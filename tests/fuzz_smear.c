@@ -345,7 +345,7 @@ static smear_desc take_desc(struct source *s)
     if (kind & 32)
         d.reach = (int16_t)take_range(s, 1, 64);
     if (kind & 64)
-        d.tile = (int16_t)(8 << take_range(s, 0, 3));
+        d.tile = (int16_t)(4 << take_range(s, 0, 4));
     d.timed = kind >> 7;
     if (!d.timed)
         d.band_rows = (int16_t)(take_range(s, 0, 8) * (d.sharp ? 8 : 2));

@@ -152,7 +152,7 @@ static void test_every_bad_field_of_a_desc_is_refused(void)
     static const struct { size_t offset, size; int32_t value; } bad[] = {
 #define BAD(field, value) { offsetof(smear_desc, field), sizeof ((smear_desc *)0)->field, value }
         BAD(width, 0), BAD(width, -1), BAD(width, 2049), BAD(height, 0), BAD(height, -5), BAD(height, 2049),
-        BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
+        BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 2), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
         BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(dither, SMEAR_DITHER_BLUE + 1), BAD(bands, 3),
         BAD(workers, 9), BAD(workers, 255), BAD(accumulate, 3), BAD(band_rows, 1), BAD(band_rows, 6), BAD(band_rows, 32), BAD(band_rows, -8), BAD(band_rows, 12),
         BAD(vertex_cache, 8), BAD(vertex_cache, 65), BAD(vertex_cache, 8192),

@@ -236,6 +236,7 @@ static void test_filter_is_its_port_at_every_size(void)
     static const struct { const char *what; struct port_case c; } cases[] = {
         {"linear", {0, 0, 0, SMEAR_LIGHT_LINEAR, 8}},
         {"linear, all", {15, 0, 0, SMEAR_LIGHT_LINEAR, 8}},
+        {"tile 4, reach 4", {0, 4, 4, SMEAR_LIGHT_ENCODED, 8}},
         {"tile 8, reach 8", {0, 8, 8, SMEAR_LIGHT_ENCODED, 8}},
         {"tile 32, reach 12", {0, 12, 32, SMEAR_LIGHT_ENCODED, 8}},
         {"tile 32, reach 24", {0, 24, 32, SMEAR_LIGHT_ENCODED, 8}},

@@ -100,7 +100,7 @@ static const char *const render_help[] = {
     "                        on other methods\n"
     "  --reach PX|PERCENT%   longest blur radius of reconstruct, in pixels or of the height; not\n"
     "                        above the tile [5%, at most a tile]\n"
-    "  --tile 8|16|32|64     [the smallest not below the reach]\n"
+    "  --tile 4|8|16|32|64   [8 or the smallest not below the reach]\n"
     "  --motion NODE=full|camera|none\n"
     "                        what moves the node (name or index) and all below it: all there is,\n"
     "                        the camera alone, nothing; may be repeated\n"

@@ -227,11 +227,11 @@ static const char *read_reach(void *to, const char *value)
 
 static const char *read_tile(void *to, const char *value)
 {
-    static const char *const names[] = { "8", "16", "32", "64", NULL };
+    static const char *const names[] = { "4", "8", "16", "32", "64", NULL };
     int found = read_name(value, names);
     if (found < 0)
-        return "needs 8, 16, 32 or 64";
-    ((struct render_options *)to)->tile = 8 << found;
+        return "needs 4, 8, 16, 32 or 64";
+    ((struct render_options *)to)->tile = 4 << found;
     return NULL;
 }
 

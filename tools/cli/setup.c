@@ -72,6 +72,8 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .layer = o->mask != NULL ? &masked : NULL, .layer_count = o->mask != NULL,
     };
     out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
+    if (o->tile == 4 && (is_timed_method(o) || is_layered_method(o) || o->scatter || o->method == SMEAR_HALF))
+        return say_bad_usage("--tile", "4 is for none, accumulate, reconstruct, camera and pingpong");
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
 
