@@ -463,11 +463,11 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* What a worker needs for a tile with `timed`: slots and lists, or sums and depths of instants. */
 #define SMEAR_TIMED_WORK_BYTES(tile) \
-    (SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) > 8192u ? SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) + 512u : 8192u)
+    (SMEAR_ALIGN8((size_t)(tile) * 64u * 20u) + 512u)
 
 /* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
 #define SMEAR_TIMED_BYTES(width, height, triangles, tile) \
-    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 10u) \
+    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 18u) \
      + SMEAR_TIMED_WORK_BYTES(tile) \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
      + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \

@@ -10,7 +10,7 @@
  * suite (make chart). */
 struct preset {
     int32_t target;             /* from this error on, 1/64 codes */
-    int32_t step;               /* travel from one instant to the next, 1/16 px */
+    int32_t step, spread;       /* from one instant to the next, 1/16 px: travel, and how unlike movers may go */
     int32_t least, most;        /* instants, however short the way; and up to which they are taken */
     int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
@@ -20,9 +20,18 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768, 2 },
-        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512, 3 },
-        { 0, 8, 6, 0, 32, 8, 256, 6 }
+#ifndef B_STEP
+#define B_STEP 64
+#define B_SPREAD 32
+#define F_STEP 32
+#define F_SPREAD 16
+#define B_LEAST 2
+#define F_LEAST 4
+#define B_MOST 64
+#endif
+        { SMEAR_DRAFT, 96, 64, 2, 64, 8, 2, 768, 2 },
+        { SMEAR_BALANCED, B_STEP, B_SPREAD, B_LEAST, B_MOST, 32, 7, 512, 3 },
+        { 0, F_STEP, F_SPREAD, F_LEAST, B_MOST, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -30,10 +39,45 @@ static const struct preset *preset_of(int32_t target)
     return p;
 }
 
+static int32_t largest(int32_t low, int32_t high)
+{
+    return max_i32(high, -low);
+}
+
+/* Longest way, 1/16 px. */
+static int32_t travel_of(const struct smear_tile_load *load)
+{
+    if (load->count == 0)
+        return 0;
+    int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
+    return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
+}
+
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
 static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
 {
-    return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
+    return min_i32(max_i32((travel_of(load) + 7) >> 3, 2), most);
+}
+
+/* How unlike movers go, 1/16 px of the whole exposure. */
+static int32_t spread_of(const struct smear_tile_load *load)
+{
+    return max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->bend;
+}
+
+static bool may_fill(const struct smear_tile_load *load)
+{
+    return load->count != 0 && (load->flags & TILE_BLENDED) == 0;
+}
+
+void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
+                       int32_t instants)
+{
+    *step = (struct smear_step){ 0, 0 };
+    if (chooser->method != SMEAR_AUTO || !may_fill(load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
+        return;
+    step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
+    step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
 }
 
 static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
@@ -62,7 +106,9 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         }
     } else {
         const struct preset *p = preset_of(chooser->target);
-        int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
+        int32_t instants = max_i32(travel_of(load) / (may_fill(load) ? p->step : 16) + 1, p->least);
+        if (may_fill(load))
+            instants = max_i32(instants, spread_of(load) / p->spread + 1);
         if (closed_form && instants > p->most) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
