@@ -21,6 +21,8 @@ static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
 #ifndef B_STEP
+#define D_STEP 96
+#define D_SPREAD 64
 #define B_STEP 64
 #define B_SPREAD 32
 #define F_STEP 32
@@ -29,7 +31,7 @@ static const struct preset *preset_of(int32_t target)
 #define F_LEAST 4
 #define B_MOST 64
 #endif
-        { SMEAR_DRAFT, 96, 64, 2, 64, 8, 2, 768, 2 },
+        { SMEAR_DRAFT, D_STEP, D_SPREAD, 2, 64, 8, 2, 768, 2 },
         { SMEAR_BALANCED, B_STEP, B_SPREAD, B_LEAST, B_MOST, 32, 7, 512, 3 },
         { 0, F_STEP, F_SPREAD, F_LEAST, B_MOST, 32, 8, 256, 6 }
     };

@@ -431,7 +431,7 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* The comb's gap, centred on a pixel: whole pixels of weight 1, or of weight 2 with ends of 1. Taps are in pairs, which
  * count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
-enum { PAIRS_MAX = 4 };
+enum { PAIRS_MAX = 8 };
 
 struct gap {
     int32_t pairs;
