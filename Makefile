@@ -46,13 +46,20 @@ CONVERT_SRC := $(wildcard tools/convert/*.c)
 CLI_SRC   := $(wildcard tools/cli/*.c)
 VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c)
+# Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c) $(MODEL_SRC) \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c palette.c png_read.c \
+        png_write.c ppm.c) \
+    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
+        present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
 BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
+
+CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
@@ -72,7 +79,8 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures of real models, in build/demo
-demo: $(BIN)/smear $(BIN)/smear-demo
+demo:
+	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
 
 ## every suite; names what it needs
@@ -96,7 +104,7 @@ chart-picture: $(BIN)/smear-bench
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-$(BIN)/smear-demo: $(call objects,$(DEMO_SRC) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear-demo: $(call objects,$(DEMO_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 # platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked

@@ -355,7 +355,9 @@ typedef struct smear_desc {
     uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
                                  * as many tile rows more are kept. Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    int16_t band_rows;          /* with `sharp`: rows drawn and flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile */
+    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile. With `sharp`: as many
+                                 * are drawn at once. With a window and without timed, layers and half it may divide the
+                                 * tile: a smaller band buffer, the same picture */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
                                  * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in

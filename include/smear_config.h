@@ -25,11 +25,14 @@
 #ifndef SMEAR_WITH_ACCUMULATE
 #define SMEAR_WITH_ACCUMULATE SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, smear_filter_begin, velocities; without it every desc is `sharp` */
+#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, velocities; without it every desc is `sharp` */
 #define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_FILTERS              /* SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF, other weights, camera_step, scatter */
 #define SMEAR_WITH_FILTERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
+#endif
+#ifndef SMEAR_WITH_FILTER_ALONE         /* smear_filter_begin, smear_filter_row */
+#define SMEAR_WITH_FILTER_ALONE (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
 #ifndef SMEAR_WITH_LAYERS               /* SMEAR_OBJECT, SMEAR_LAYERED */
 #define SMEAR_WITH_LAYERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
@@ -58,15 +61,30 @@
 #ifndef SMEAR_WITH_DEFORM               /* draws whose positions differ from pose to pose */
 #define SMEAR_WITH_DEFORM SMEAR_WITH_ALL
 #endif
+#ifndef SMEAR_WITH_BILLBOARDS           /* draws that turn with the camera */
+#define SMEAR_WITH_BILLBOARDS SMEAR_WITH_ALL
+#endif
 #ifndef SMEAR_WITH_LINEAR               /* linear light, and its table of 4 kB */
 #define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
 #endif
+#ifndef SMEAR_WITH_ORTHOGRAPHIC         /* cameras without perspective */
+#define SMEAR_WITH_ORTHOGRAPHIC SMEAR_WITH_ALL
+#endif
 
+#ifndef SMEAR_WITH_SCALES               /* turn_scale, way_scale, object_scale */
+#define SMEAR_WITH_SCALES SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_SHUTTER_MODES        /* shutter_us, and shutters at another rate than the frames' */
+#define SMEAR_WITH_SHUTTER_MODES SMEAR_WITH_ALL
+#endif
 #ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */
 #define SMEAR_WITH_IDS SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
 #define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_INSPECT              /* desc.inspect: what tests and tools look at */
+#define SMEAR_WITH_INSPECT SMEAR_WITH_ALL
 #endif
 
 /* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
@@ -107,8 +125,8 @@
 #if SMEAR_WITH_TIMEMASK && !SMEAR_WITH_SUBFRAMES
 #error "SMEAR_WITH_TIMEMASK needs SMEAR_WITH_SUBFRAMES"
 #endif
-#if (SMEAR_WITH_FILTERS || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
-#error "SMEAR_WITH_FILTERS and SMEAR_WITH_LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
+#if (SMEAR_WITH_FILTERS || SMEAR_WITH_FILTER_ALONE || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
+#error "SMEAR_WITH_FILTERS, _FILTER_ALONE and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
 #endif
 #if (SMEAR_WITH_BILINEAR && !SMEAR_WITH_TEXTURE) || (SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER)
 #error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"

@@ -164,6 +164,28 @@ print-footprint:
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR)
 
+# ---------------------------------------------------------------------- the smallest
+
+FILE_SRC ?= platform/host/file.c
+TINY_OBJ := $(PROGRAM_OBJ) $(FILE_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/tiny.o
+
+$(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
+
+.PHONY: tiny-firmware tiny-test tiny-cost
+## the smallest firmware, for TARGET=microbit
+tiny-firmware: $(BUILD)/tiny$(EXE)
+	$(if $(SIZE),$(SIZE) -A $< | grep -E 'text|rodata|data|bss|mesh')
+
+## its frames against the host's, and what it takes
+tiny-test: $(BUILD)/tiny$(EXE) $(RUN_NEEDS)
+	$(MAKE) --no-print-directory -s TARGET=host build/host/tiny
+	RUN="$(RUN)" SIZE="$(SIZE)" sh tests/target_tiny.sh $(BUILD)/tiny-test $< build/host/tiny
+
+## instructions per frame
+tiny-cost: $(BUILD)/tiny$(EXE)
+	$(RUN_BENCH) $< cost
+
 # ---------------------------------------------------------------------- a model of one's own
 
 # What `smear convert FILE --name model -o build/model.h` wrote.

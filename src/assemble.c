@@ -334,7 +334,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     b->segment = s;
     b->a->triangles_drawn++;
     if (count <= POINTS_MAX && b->points
-        && (!segment_colored(s) || s->flat_depth
+        && (!segment_colored(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, covered, count, area);

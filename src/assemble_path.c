@@ -431,7 +431,7 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         cut.projection[key] = placement_of(d, key)->now;
         near_codes |= codes[key] & OUT_NEAR;
     }
-    return near_codes != 0 && !d->at.now.orthographic ? add_pieces(b, corner, &cut, &face)
+    return near_codes != 0 && !is_orthographic(&d->at.now) ? add_pieces(b, corner, &cut, &face)
                                                       : add_cut(b, corner, &cut, &face);
 }
 

@@ -4,15 +4,21 @@
 
 #include "convert.h"
 
-void smear_row_target(const struct smear_context *c, int row, struct smear_raster_target *t)
+/* The window's rows [y0, y1). */
+static void window_target(const struct smear_context *c, int32_t y0, int32_t y1, struct smear_raster_target *t)
 {
     const struct smear_window *w = &c->window;
-    struct smear_plane_rows rows = { w->width, window_slot(w, row_top(c, row)), w->ring, 0 };
+    struct smear_plane_rows rows = { w->width, window_slot(w, y0), w->ring, 0 };
     *t = (struct smear_raster_target){
-        .x0 = 0, .y0 = row_top(c, row), .x1 = w->width, .y1 = row_bottom(c, row),
+        .x0 = 0, .y0 = y0, .x1 = w->width, .y1 = y1,
         .color = w->color, .color_rows = rows, .depth = w->depth, .window_rows = rows,
         .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
     };
+}
+
+void smear_row_target(const struct smear_context *c, int row, struct smear_raster_target *t)
+{
+    window_target(c, row_top(c, row), row_bottom(c, row), t);
 }
 
 void smear_job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1)
@@ -52,15 +58,22 @@ static void add_crc(struct smear_context *c, const uint8_t *band, uint32_t size)
 
 int smear_band_flush(struct smear_context *c, int row, uint8_t *band)
 {
+    const struct row_job job = { .c = c, .row = row, .band = band };
+    return smear_band_flush_part(&job);
+}
+
+int smear_band_flush_part(const struct row_job *r)
+{
+    struct smear_context *c = r->c;
     smear_format format = (smear_format)c->desc.format;
-    int32_t y = row_top(c, row), height = row_bottom(c, row) - y;
+    int32_t y = job_top(r), height = job_bottom(r) - y;
     smear_band b = {
-        .pixels = band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
+        .pixels = r->band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
         .stride = smear_convert_stride(c->window.width, format),
         .size = smear_convert_size(c->window.width, height, format)
     };
     if (c->desc.crc)
-        add_crc(c, band, b.size);
+        add_crc(c, r->band, b.size);
     c->bands_handed++;
     int result = c->desc.flush(c->desc.user, &b);
     if (result >= 0)
@@ -74,26 +87,26 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
 {
     const struct smear_context *c = r->c;
     smear_format format = (smear_format)c->desc.format;
-    smear_convert_row(r->band, smear_convert_stride(c->window.width, format), in, x1 - x0, x0, y, row_top(c, r->row),
+    smear_convert_row(r->band, smear_convert_stride(c->window.width, format), in, x1 - x0, x0, y, job_top(r),
                       format, (smear_dither)c->desc.dither);
 }
 
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1)
 {
-    for (int32_t y = row_top(r->c, r->row); x0 < x1 && y < row_bottom(r->c, r->row); y++)
+    for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
         convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
 {
     struct smear_raster_target t;
-    smear_row_target(r->c, r->row, &t);
+    window_target(r->c, job_top(r), job_bottom(r), &t);
     smear_band_convert_rows(r, &t, x0, x1);
 }
 
 void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile)
 {
-    for (int32_t y = row_top(r->c, r->row); y < row_bottom(r->c, r->row); y++, tile += r->c->window.tile)
+    for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += r->c->window.tile)
         convert(r, tile, tile_left(r->c, column), tile_right(r->c, column), y);
 }
 
@@ -101,7 +114,7 @@ void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)
 {
     const struct smear_context *c = r->c;
     struct smear_raster_target t;
-    smear_row_target(c, r->row, &t);
+    window_target(c, job_top(r), job_bottom(r), &t);
     t.x0 = tile_left(c, column);
     t.x1 = tile_right(c, column);
     t.color = tile;

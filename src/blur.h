@@ -23,10 +23,11 @@ struct smear_blur_settings {
 };
 
 /* Rows of the window by pixel row: offset of its first pixel in the planes, with rows beyond the frame standing for the
- * nearest inside it. Entry i is row first + i. */
+ * nearest inside it. Entry i is row first + i. Of a tile, rows [y0, y1) are to be done. */
 struct smear_row_table {
     const uint32_t *offset;
     int32_t first;
+    int32_t y0, y1;
 };
 
 /* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
@@ -47,8 +48,8 @@ static inline const struct smear_tile_neighborhood *tile_looked_up(const struct 
     return &window_around(w, clamp_i32(row, 0, w->rows - 1))[clamp_i32(column, 0, w->columns - 1)];
 }
 
-/* Reconstruction filter [McGuire12], [Guertin14], as in Post Processing Stack v2. Writes tile x tile pixels (those
- * inside the frame) to `out`, rows `tile` apart. Returns the taps taken. */
+/* Reconstruction filter [McGuire12], [Guertin14], as in Post Processing Stack v2. Writes the tile's rows (what is
+ * inside the frame) to `out`, `tile` apart. Returns the taps taken. */
 uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
                                 const struct smear_row_table *rows, int32_t row, int32_t column,
                                 const struct smear_blur_settings *settings);
@@ -64,6 +65,6 @@ uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const s
                             int32_t column, const struct smear_blur_settings *settings);
 
 /* The tile as it is. */
-void smear_blur_copy(uint32_t *out, const struct smear_window *w, int32_t row, int32_t column);
+void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column);
 
 #endif

@@ -184,7 +184,7 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
     struct own_depth *d = &g->depth;
     uint32_t step = 1;
     if (d->units != 0)
-        step = max_u32(g->orthographic ? part_of(g->far_units - d->units, share_20)
+        step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic ? part_of(g->far_units - d->units, share_20)
                                        : part_of(d->units, share_19), 1);
     d->front = d->units + step;
     d->front_scale = inverse_q30(step);
@@ -194,7 +194,7 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
-    uint32_t step = max_u32(g->orthographic ? part_of(g->far_units - d->units, share_19)
+    uint32_t step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic ? part_of(g->far_units - d->units, share_19)
                                             : part_of(d->units, share_20), 1);
     d->behind = d->units > step ? d->units - step : 0;
     d->behind_scale = inverse_q30(d->units - d->behind);
@@ -429,9 +429,9 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
                                   int32_t x0, int32_t y0, bool edge)
 {
     const struct smear_window *w = g->w;
-    int32_t x1 = min_i32(x0 + w->tile, w->width), y1 = min_i32(y0 + w->tile, w->height);
+    int32_t x1 = min_i32(x0 + w->tile, w->width);
     uint32_t taps = 0;
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+    for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
         uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
         uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
         for (int32_t x = x0; x < x1; x++, at++, inner += NOISE_X) {
@@ -464,11 +464,11 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
         .wanted = clamp_i32(settings->samples / 2, 1, 64)
     };
     struct choice choice;
-    if (settings->orthographic)
+    if (SMEAR_WITH_ORTHOGRAPHIC && settings->orthographic)
         g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     choice_make(&choice, &g, row, column);
     if (!choice.gathers) {
-        smear_blur_copy(out, w, row, column);
+        smear_blur_copy(out, w, rows, column);
         return 0;
     }
     int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift;

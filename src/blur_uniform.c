@@ -6,11 +6,10 @@
 #include "fixmath.h"
 #include "pixel.h"
 
-void smear_blur_copy(uint32_t *out, const struct smear_window *w, int32_t row, int32_t column)
+void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
         const uint32_t *in = w->color + window_slot(w, y) * w->width + x0;
         for (int32_t i = 0; i < x1 - x0; i++)
             out[i] = in[i];
@@ -86,14 +85,13 @@ static SMEAR_NOINLINE uint32_t mean_behind(const struct smear_window *w, const u
 }
 
 SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
-                                const struct smear_row_table *rows, int32_t row, int32_t column,
+                                const struct smear_row_table *rows, int32_t column,
                                 int32_t n, bool linear, bool held, bool edge)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
     uint32_t over = ((1u << 24) + (uint32_t)n - 1u) / (uint32_t)n, copied = 0, last_word = 0;
     struct uniform_taps taps = { 0, 0, 0, 0 };
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
         uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
         for (int32_t x = x0; x < x1; x++, at++) {
             uint32_t word = window_velocity_word(w, at);
@@ -108,7 +106,7 @@ SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
             if (word == 0) {
                 out[x - x0] = w->color[at];
                 copied++;
-            } else if (held) {
+            } else if (SMEAR_WITH_FILTERS && held) {
                 out[x - x0] = mean_behind(w, rows->offset, at, x, y - rows->first, &taps, n, over, linear);
             } else {
                 out[x - x0] = mean_along(w->color, rows->offset, x, y - rows->first, &taps, n,
@@ -116,7 +114,7 @@ SMEAR_INLINE uint32_t mean_tile(uint32_t *out, const struct smear_window *w,
             }
         }
     }
-    return (uint32_t)n * ((uint32_t)((x1 - x0) * (y1 - y0)) - copied);
+    return (uint32_t)n * ((uint32_t)((x1 - x0) * (rows->y1 - rows->y0)) - copied);
 }
 
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
@@ -126,7 +124,7 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     const struct smear_tile_motion *m = &window_motion(w, row)[column];
     /* Below 1 px the only pair, half way, would not leave the pixel. */
     if (max_i32(m->max_x, -m->min_x) < 8 && max_i32(m->max_y, -m->min_y) < 8) {
-        smear_blur_copy(out, w, row, column);
+        smear_blur_copy(out, w, rows, column);
         return 0;
     }
     /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In
@@ -136,8 +134,9 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     n = max_i32(n, 2);
     int32_t x0 = column << w->tile_shift;
     bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
-    if (settings->linear)
-        return mean_tile(out, w, rows, row, column, n, true, settings->held, true);
-    return edge || settings->held ? mean_tile(out, w, rows, row, column, n, false, settings->held, true)
-                                  : mean_tile(out, w, rows, row, column, n, false, false, false);
+    const bool held = SMEAR_WITH_FILTERS && settings->held;
+    if (SMEAR_WITH_LINEAR && settings->linear)
+        return mean_tile(out, w, rows, column, n, true, held, true);
+    return edge || held ? mean_tile(out, w, rows, column, n, false, held, true)
+                                  : mean_tile(out, w, rows, column, n, false, false, false);
 }

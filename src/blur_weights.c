@@ -109,7 +109,7 @@ static int32_t farther(const struct gathering *g, const struct sample *a, const 
     uint32_t difference = b->units - a->units, nearer = a->units;
     if (a->units >= b->units)
         return 0;
-    if (g->settings->orthographic)
+    if (SMEAR_WITH_ORTHOGRAPHIC && g->settings->orthographic)
         nearer = g->far_units - b->units;
     /* Perspective: 1/ua - 1/ub over 1/ub is (ub - ua) / ua. */
     if (nearer == 0 || difference >= nearer)
@@ -236,15 +236,15 @@ uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const s
     struct gathering g = { .w = w, .row = rows->offset, .settings = settings,
                            .taps = clamp_i32(settings->samples, 2, 64) };
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
+    int32_t tile_top = row << w->tile_shift;
     uint32_t taken = 0;
-    if (settings->orthographic)
+    if (SMEAR_WITH_ORTHOGRAPHIC && settings->orthographic)
         g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
-    for (int32_t y = y0; y < y1; y++, out += w->tile) {
+    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
         uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
         for (int32_t x = x0; x < x1; x++, at++) {
             uint32_t inner = (uint32_t)x * NOISE_X + (uint32_t)y * NOISE_Y;
-            const struct smear_tile_neighborhood *around = tile_looked_up(w, row, column, x - x0, y - y0, inner);
+            const struct smear_tile_neighborhood *around = tile_looked_up(w, row, column, x - x0, y - tile_top, inner);
             struct vector top = { around->x, around->y };
             int32_t length = length_of(top);
             if (length <= 128) {                                /* 1/2 px */

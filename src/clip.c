@@ -57,11 +57,11 @@ static void settle(struct smear_clip_vertex *v, const struct smear_projection *p
 {
     if (plane == PLANE_NEAR) {
         v->now.distance = p->near_distance;
-        if (!p->orthographic)
+        if (!is_orthographic(p))
             v->now.w = p->near_distance;
     } else if (plane == PLANE_FAR) {
         v->now.distance = p->far_distance;
-        if (!p->orthographic)
+        if (!is_orthographic(p))
             v->now.w = p->far_distance;
     } else if (v->now.w < 1) {
         v->now.w = 1;

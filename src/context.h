@@ -82,7 +82,7 @@ struct smear_context {
     struct smear_kept_pose *kept;
     struct smear_raster_draw *raster_draw;
     uint32_t draw_count;
-    smear_transform made[3];        /* poses of the draw at hand that are not the application's: now, open, close */
+    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];   /* poses of the draw at hand that are not the application's: now, open, close */
 
     /* stages */
     struct smear_geometry geometry;

@@ -173,7 +173,7 @@ static void object_poses(struct smear_context *c, const struct smear_submitted *
         if (d->close != NULL)
             p->object[2] = d->close;
     }
-    if (c->frame.object_scale != 256)
+    if (SMEAR_WITH_SCALES && c->frame.object_scale != 256)
         scale_object(p, c->made, c->frame.object_scale);
 }
 
@@ -201,7 +201,7 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
             p->camera[2] = &c->camera_close;
     }
     object_poses(c, s, p);
-    if (d->billboard != SMEAR_BILLBOARD_NONE)
+    if (SMEAR_WITH_BILLBOARDS && d->billboard != SMEAR_BILLBOARD_NONE)
         turn_billboard(p, c->made, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 
@@ -218,7 +218,7 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
     poses_of(c, s, &p);
     r->moves = pose_differs(&p, 1) || pose_differs(&p, 2);
     r->fixed = false;
-    if (c->raster.velocity_from_depth) {
+    if (SMEAR_WITH_FILTERS && c->raster.velocity_from_depth) {
         bool own = false, attached = true;
         for (int i = 1; i < 3; i++) {
             bool deforms = p.position[i] != p.position[0];
@@ -229,7 +229,7 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         r->moves = own && !attached;
     }
     c->blur.held = c->blur.held || r->fixed;
-    if (c->frame.method == SMEAR_CAMERA)
+    if (SMEAR_WITH_FILTERS && c->frame.method == SMEAR_CAMERA)
         r->moves = false;
     if (r->moves)
         c->stats.draws_moved++;
@@ -387,12 +387,12 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
         int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
         pixels_fill(w->color + at, clear, n);
         __builtin_memset(w->depth + at, 0, (size_t)n * 2);
-        int velocity = c->raster.velocity_from_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0;
+        int velocity = SMEAR_WITH_FILTERS && c->raster.velocity_from_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0;
         if (w->velocity8 != NULL)
             __builtin_memset(w->velocity8 + 2 * at, velocity, (size_t)n * 2);
         if (w->velocity16 != NULL)
             __builtin_memset(w->velocity16 + 2 * at, velocity, (size_t)n * 4);
-        if (c->inspect != NULL)
+        if (SMEAR_WITH_INSPECT && c->inspect != NULL)
             __builtin_memset(c->inspect + 2 * at, 0, (size_t)n * 8);
     }
 }
@@ -491,7 +491,7 @@ static void draw_row(struct smear_context *c, int row)
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
     smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
-    if (c->inspect != NULL)
+    if (SMEAR_WITH_INSPECT && c->inspect != NULL)
         inspect_rows(c, row);
     stage_end(c, &c->stats.time_raster, start);
 }
@@ -516,13 +516,30 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_window(r, x0, x1);
 }
 
+/* The tile row's next band, after job->y1; false when there is none. A windowed context may have bands of fewer rows than
+ * a tile. */
+static bool next_band(struct row_job *job)
+{
+    struct smear_context *c = job->c;
+    job->y0 = job->y1 != 0 ? job->y1 : row_top(c, job->row);
+    job->y1 = min_i32(job->y0 + c->desc.band_rows, row_bottom(c, job->row));
+    if (job->y0 >= job->y1)
+        return false;
+    job->band = smear_band_begin(c);
+    return true;
+}
+
 static int finish_sharp(struct smear_context *c, int row)
 {
-    uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
-    smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
-    stage_end(c, &c->stats.time_convert, start);
-    return smear_band_flush(c, row, job.band);
+    struct row_job job = { .c = c, .row = row };
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && next_band(&job)) {
+        uint32_t start = stage_start(c);
+        smear_jobs_run(&c->jobs, convert_job, &job, c->jobs.workers);
+        stage_end(c, &c->stats.time_convert, start);
+        result = smear_band_flush_part(&job);
+    }
+    return result;
 }
 
 /* ------------------------------------------------------------------ finishing with a filter */
@@ -566,9 +583,9 @@ static void reduce_row(struct smear_context *c, int row)
     stage_end(c, &c->stats.time_reduce, start);
 }
 
-static struct smear_row_table row_table(const struct smear_context *c, int row)
+static struct smear_row_table row_table(const struct smear_context *c, int row, int32_t y0, int32_t y1)
 {
-    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach };
+    return (struct smear_row_table){ c->row_offset, filtered_top(c, row) - c->filtered->reach, y0, y1 };
 }
 
 static bool is_still(const struct smear_window *w, int row, int column)
@@ -594,19 +611,19 @@ static const uint32_t *pass_input(const struct smear_context *c, int pass)
     return pass == 0 ? c->filtered->color : c->filtering->pass_plane[pass - 1];
 }
 
-/* The filter, over a tile of the window it reads; rows of `tile` are that window's tile apart. */
-static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int worker)
+/* The filter, over rows [y0, y1) of a tile of the window it reads; rows of `tile` are that window's tile apart. */
+static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int32_t y0, int32_t y1, int worker)
 {
     const struct smear_window *w = c->filtered;
-    struct smear_row_table rows = row_table(c, row);
+    struct smear_row_table rows = row_table(c, row, y0, y1);
     uint8_t kind = window_around(w, row)[column].kind;
     uint32_t samples = 0;
     if (kind == TILE_STILL)
-        smear_blur_copy(tile, w, row, column);
+        smear_blur_copy(tile, w, &rows, column);
     else if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG)
         samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows, &c->filtering->pass[c->filtering->passes - 1], row,
-                                      column, filtered_top(c, row), filtered_bottom(c, row), &c->blur);
-    else if (c->frame.filter == SMEAR_FILTER_MEAN
+                                      column, y0, y1, &c->blur);
+    else if ((SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_MEAN)
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
     else if (SMEAR_WITH_FILTERS && c->frame.weights != SMEAR_WEIGHTS_STACK)
@@ -625,14 +642,15 @@ static void tile_job(void *argument, int column, int worker)
         convert_still(r, column);
         return;
     }
-    uint32_t *tile = c->scratch + worker * c->window.tile * c->window.tile;
+    uint32_t *tile = c->scratch + worker * c->window.tile * c->desc.band_rows;
     if (!SMEAR_WITH_FILTERS || w != c->half) {
-        filter_tile(c, tile, r->row, column, worker);
+        filter_tile(c, tile, r->row, column, r->y0, r->y1, worker);
     } else if (is_still(w, r->row, column)) {
-        smear_blur_copy(tile, &c->window, r->row, column);
+        struct smear_row_table rows = row_table(c, r->row, r->y0, r->y1);
+        smear_blur_copy(tile, &c->window, &rows, column);
     } else {
         uint32_t *blurred = c->half_scratch + worker * w->tile * w->tile;
-        filter_tile(c, blurred, r->row, column, worker);
+        filter_tile(c, blurred, r->row, column, filtered_top(c, r->row), filtered_bottom(c, r->row), worker);
         smear_half_blend(tile, blurred, w, &c->window, r->row, column);
     }
     if (c->blend != SMEAR_NO_TRIANGLE)
@@ -653,7 +671,7 @@ static void pass_tile_job(void *argument, int column, int worker)
 {
     const struct pass_job *r = (const struct pass_job *)argument;
     struct smear_context *c = r->c;
-    struct smear_row_table rows = row_table(c, r->row);
+    struct smear_row_table rows = row_table(c, r->row, r->y0, r->y1);
     c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
                                                      &c->filtering->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
 }
@@ -693,7 +711,8 @@ static int32_t run_passes(struct smear_context *c, int known)
 static uint32_t *count_of(struct smear_context *c)
 {
     smear_stats *s = &c->stats;
-    return c->frame.method == SMEAR_CAMERA ? &s->tiles_camera : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
+    return !SMEAR_WITH_FILTERS ? &s->tiles_reconstruct
+         : c->frame.method == SMEAR_CAMERA ? &s->tiles_camera : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
          : c->frame.method == SMEAR_HALF ? &s->tiles_half : &s->tiles_reconstruct;
 }
 
@@ -724,17 +743,21 @@ static int finish_blurred(struct smear_context *c, int row, int known)
         smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(c, row);
     int32_t end = w->height;
-    if (c->frame.filter == SMEAR_FILTER_PINGPONG && c->filtering->passes > 1)
+    if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG && c->filtering->passes > 1)
         end = run_passes(c, known);
     fill_row_table(c, row, end);
     if (c->blends)
         c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
 
-    uint32_t start = stage_start(c);
-    struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
-    smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
-    stage_end(c, &c->stats.time_blur, start);
-    return smear_band_flush(c, row, job.band);
+    struct row_job job = { .c = c, .row = row };
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && next_band(&job)) {
+        uint32_t start = stage_start(c);
+        smear_jobs_run(&c->jobs, tile_job, &job, w->columns);
+        stage_end(c, &c->stats.time_blur, start);
+        result = smear_band_flush_part(&job);
+    }
+    return result;
 }
 
 /* ------------------------------------------------------------------ methods */
@@ -770,7 +793,7 @@ static int render_none(struct smear_context *c)
 static int roll(struct smear_context *c, int row)
 {
     reduce_row(c, row);
-    int lag = c->filtered->lag, result = SMEAR_OK;
+    int lag = SMEAR_WITH_FILTERS ? c->filtered->lag : 1, result = SMEAR_OK;
     if (row >= lag)
         result = finish_blurred(c, row - lag, row);
     if (row == c->window.rows - 1)
@@ -956,23 +979,23 @@ static void prepare(struct smear_context *c)
     c->raster.velocity_scale = c->frame.shutter_poses ? 32768 : c->half_exposure >> 8;
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
-    c->assembler.keep_motion = smear_method_is_filter(c->frame.method);
-    c->assembler.keep_paths = smear_method_is_timed(c->frame.method);
-    c->raster.velocity_from_depth = c->assembler.keep_motion && c->frame.camera_step != 0 && c->camera_moves
+    c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
+    c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
+    c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion && c->frame.camera_step != 0 && c->camera_moves
                                  && !c->frame.cut && c->state != STATE_FILTER
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
-    if (c->layers != NULL)
+    if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
-        .linear = linear, .orthographic = c->camera.half_height > 0, .samples = c->frame.samples,
+        .linear = linear, .orthographic = SMEAR_WITH_ORTHOGRAPHIC && c->camera.half_height > 0, .samples = c->frame.samples,
         .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct,
         .weights = c->frame.weights
     };
-    if (c->blur.orthographic) {
+    if (SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_ORTHOGRAPHIC && c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
         int zeros = count_leading_zeros(range);
         uint64_t over = (uint64_t)recip_norm_precise(range << zeros) * (uint32_t)c->camera.far_plane;

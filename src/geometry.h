@@ -71,6 +71,7 @@ struct smear_segment {
 };
 
 /* As they are, where the methods and surfaces that need them were compiled in. */
+static inline bool segment_flat_depth(const struct smear_segment *s) { return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth; }
 static inline bool segment_textured(const struct smear_segment *s) { return SMEAR_WITH_TEXTURE && s->uv != 0; }
 static inline bool segment_gouraud(const struct smear_segment *s)
 {

@@ -13,7 +13,7 @@ static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(
 static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }
 static inline void word_write(unsigned *word, unsigned value) { __atomic_store_n(word, value, __ATOMIC_RELEASE); }
 
-#define SMEAR_WORKERS_MAX 8
+#define SMEAR_WORKERS_MAX (SMEAR_WITH_WORKERS ? 8 : 1)
 
 typedef void smear_job_fn(void *argument, int job, int worker);
 

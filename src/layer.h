@@ -3,7 +3,8 @@
  *
  * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the exposure into
  * rows of its own: those of the tile row and as many above and below as the blur reads, and columns beyond the frame's
- * sides, so that what enters the frame is there before it does. These rows are drawn anew for each group and tile row. */
+ * sides, so that what enters the frame is there before it does. A tile row's last group keeps there what the next tile row
+ * needs of it, too. */
 #ifndef SMEAR_LAYER_H
 #define SMEAR_LAYER_H
 
@@ -38,6 +39,12 @@ struct smear_group {
     uint32_t marked_from;
 };
 
+/* The group that the rows hold, or null: of the store's rows [y0, y1), columns [x0, x1). */
+struct smear_held_rows {
+    const struct smear_group *group;
+    int32_t y0, y1, x0, x1;
+};
+
 /* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down there: the
  * store has triangles of layers at these places. */
 struct smear_layer_rows {
@@ -47,6 +54,7 @@ struct smear_layer_rows {
     int16_t *velocity16;
     uint8_t *moving;                    /* per tile: for the raster */
     struct smear_layer_cell *cell;      /* layered.h */
+    struct smear_held_rows held;
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
     uint32_t *over;                     /* of the tile row, where groups pass through each other (object.h) */
@@ -58,6 +66,9 @@ struct smear_layer_rows {
 };
 
 #define SMEAR_UNCOVERED 0xff000000u
+
+/* In smear_window.moving, of the tile row being finished: by what each tile is reached. */
+enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
 
 struct smear_layers {
     bool on;                    /* the frame has blurred layers */

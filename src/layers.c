@@ -267,7 +267,8 @@ struct layers_row {
     struct smear_streak_area area;
     struct smear_gather_area gather;
     int32_t vx, vy;             /* of taps: no farther than there are pixels */
-    struct smear_raster_target target;
+    struct smear_raster_target target;      /* rows that are drawn: */
+    int32_t kept, down;         /* as many before them are there, so many rows further down */
     struct smear_raster_frame frame;
 };
 
@@ -290,9 +291,39 @@ static void still_job(void *argument, int job, int worker)
         pixels_fill(t.color + at, r->row.c->frame.clear & 0xffffffu, t.x1 - t.x0);
         __builtin_memset(t.depth + at, 0, (size_t)(t.x1 - t.x0) * 2);
     }
+    t.cache = smear_raster_cache_of(&r->row.c->cache, job);
     smear_raster_list(&r->row.c->raster, &t, r->row.c->opaque);
     for (int32_t y = t.y0; r->mixes && y < t.y1; y++)
         pixels_fill(r->row.c->layers->rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
+}
+
+/* Columns [x0, x1) of a row of the target's planes. */
+static void clear_columns(const struct smear_raster_target *t, int32_t row, int32_t x0, int32_t x1)
+{
+    int32_t at = row * t->window_rows.stride + x0, n = x1 - x0;
+    if (n <= 0)
+        return;
+    pixels_fill(t->color + at, SMEAR_UNCOVERED, n);
+    __builtin_memset(t->depth + at, 0, (size_t)n * 2);
+    if (t->velocity8 != NULL)
+        __builtin_memset(t->velocity8 + 2 * at, 0, (size_t)n * 2);
+    if (t->velocity16 != NULL)
+        __builtin_memset(t->velocity16 + 2 * at, 0, (size_t)n * 4);
+}
+
+/* The same from `down` rows further down, where the planes have columns [had0, had1) drawn. */
+static void copy_columns(const struct smear_raster_target *t, int32_t row, int32_t down, int32_t had0, int32_t had1)
+{
+    const int32_t x0 = clamp_i32(had0, t->x0, t->x1), x1 = clamp_i32(had1, x0, t->x1), stride = t->window_rows.stride;
+    const size_t n = (size_t)(x1 - x0), to = (size_t)(row * stride + x0), from = to + (size_t)(down * stride);
+    clear_columns(t, row, t->x0, x0);
+    clear_columns(t, row, x1, t->x1);
+    __builtin_memcpy(t->color + to, t->color + from, n * 4);
+    __builtin_memcpy(t->depth + to, t->depth + from, n * 2);
+    if (t->velocity8 != NULL)
+        __builtin_memcpy(t->velocity8 + 2 * to, t->velocity8 + 2 * from, n * 2);
+    if (t->velocity16 != NULL)
+        __builtin_memcpy(t->velocity16 + 2 * to, t->velocity16 + 2 * from, n * 4);
 }
 
 /* Columns [x0, x1) of the group's rows, in as many cuts as there are workers. */
@@ -306,44 +337,52 @@ static void draw_job(void *argument, int job, int worker)
     t.x0 = x0 + units * job / n * 16;
     if (t.x0 >= t.x1)
         return;
-    for (int32_t y = t.y0; y < t.y1; y++) {
-        int32_t at = target_row(&t.window_rows, &t, y) + t.x0;
-        pixels_fill(t.color + at, SMEAR_UNCOVERED, t.x1 - t.x0);
-        __builtin_memset(t.depth + at, 0, (size_t)(t.x1 - t.x0) * 2);
-        if (t.velocity8 != NULL)
-            __builtin_memset(t.velocity8 + 2 * at, 0, (size_t)(t.x1 - t.x0) * 2);
-        if (t.velocity16 != NULL)
-            __builtin_memset(t.velocity16 + 2 * at, 0, (size_t)(t.x1 - t.x0) * 4);
-    }
+    const struct smear_layer_rows *rows = &r->row.c->layers->rows;
+    for (int32_t row = 0; row < r->kept; row++)
+        copy_columns(&t, row, r->down, rows->held.x0, rows->held.x1);
+    for (int32_t row = r->kept; row < r->area.rows; row++)
+        clear_columns(&t, row, t.x0, t.x1);
     smear_raster_list(&r->frame, &t, r->group->head);
 }
 
-/* Pixels say whether they are covered by what is on top: texels have written something else there. */
-static void clear_tops(const struct smear_layer_rows *rows, const struct smear_raster_target *t)
+/* Pixels of rows [y0, y1) say whether they are covered by what is on top: texels have written something else there. */
+static void clear_tops(const struct smear_layer_rows *rows, int32_t y0, int32_t y1)
 {
-    for (int32_t y = 0; y < t->y1 - t->y0; y++)
+    for (int32_t y = y0; y < y1; y++)
         for (int32_t x = rows->row_first[y], at = y * rows->width + x; x < rows->row_end[y]; x++, at++)
             rows->color[at] = rows->depth[at] != 0 ? rows->color[at] & 0xffffffu : SMEAR_UNCOVERED;
 }
 
-/* What is drawn in each row. */
-static void find_drawn(const struct smear_layer_rows *rows, const struct smear_raster_target *t)
+/* What is drawn in row y, of columns [x0, x1). */
+static void find_drawn(const struct smear_layer_rows *rows, int32_t y, int32_t x0, int32_t x1)
 {
-    for (int32_t y = 0; y < t->y1 - t->y0; y++) {
-        const uint16_t *depth = rows->depth + y * rows->width;
-        int32_t first = t->x0, end = t->x1;
-        uint64_t four = 0;
-        while (end - first >= 4 && (__builtin_memcpy(&four, depth + first, 8), four == 0))
-            first += 4;
-        while (end - first >= 4 && (__builtin_memcpy(&four, depth + end - 4, 8), four == 0))
-            end -= 4;
-        while (first < end && depth[first] == 0)
-            first++;
-        while (end > first && depth[end - 1] == 0)
-            end--;
-        rows->row_first[y] = (int16_t)first;
-        rows->row_end[y] = (int16_t)end;
+    const uint16_t *depth = rows->depth + y * rows->width;
+    int32_t first = x0, end = x1;
+    uint64_t four = 0;
+    while (end - first >= 4 && (__builtin_memcpy(&four, depth + first, 8), four == 0))
+        first += 4;
+    while (end - first >= 4 && (__builtin_memcpy(&four, depth + end - 4, 8), four == 0))
+        end -= 4;
+    while (first < end && depth[first] == 0)
+        first++;
+    while (end > first && depth[end - 1] == 0)
+        end--;
+    rows->row_first[y] = (int16_t)first;
+    rows->row_end[y] = (int16_t)end;
+}
+
+static void find_extents(const struct layers_row *r)
+{
+    const struct smear_layer_rows *rows = &r->row.c->layers->rows;
+    for (int32_t y = 0; y < r->kept; y++) {
+        bool any = rows->row_first[y + r->down] < rows->row_end[y + r->down];
+        rows->row_first[y] = any ? rows->row_first[y + r->down] : (int16_t)r->target.x1;
+        rows->row_end[y] = any ? rows->row_end[y + r->down] : (int16_t)r->target.x1;
     }
+    for (int32_t y = r->kept; y < r->area.rows; y++)
+        find_drawn(rows, y, r->target.x0, r->target.x1);
+    if (r->group->textured)
+        clear_tops(rows, r->kept, r->area.rows);
 }
 
 static void merge_job(void *argument, int job, int worker)
@@ -396,8 +435,6 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_rows(&r->row, &r->still, x0, x1);
 }
 
-enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
-
 /* Tile columns that the group's streaks reach. */
 static void mark_tiles(struct smear_context *c, const struct layers_row *r)
 {
@@ -442,7 +479,7 @@ static bool find_mixed(const struct smear_context *c)
 
 static void merge_group(struct smear_context *c, struct layers_row *r, struct smear_group *group)
 {
-    const struct smear_layer_rows *rows = &c->layers->rows;
+    struct smear_layer_rows *rows = &c->layers->rows;
     struct smear_streak *s = &r->streak;
     int32_t top = row_top(c, r->row.row) + c->window.tile, height = r->still.y1 - r->still.y0;
     const struct smear_layer_setting *setting = &c->layers->setting[group->layer];
@@ -466,15 +503,19 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .nearest = group->rank != 0 ? 65536u : group->nearest, .farthest = group->rank != 0 ? 65536u : group->farthest,
         .edge = rows->edge, .work = rows->work, .linear = c->raster.linear
     };
-    const struct smear_plane_rows plane = { rows->width, 0, rows->rows, 0 };
     /* Lines that go down, and taps, look beyond the drawn columns. */
     int32_t beside = s->upright || gathers ? (2 * s->reach_x + 15) & ~15 : 0;
+    /* Of the tile row above, if it was the last that was merged there. */
+    const int32_t y0 = top - s->reach_y, y1 = top + height + s->reach_y;
+    r->kept = rows->held.group == group ? clamp_i32(rows->held.y1 - y0, 0, y1 - y0) : 0;
+    r->down = y0 - rows->held.y0;
     r->target = (struct smear_raster_target){
-        .x0 = max_i32(group->x0 - beside, 0), .y0 = top - s->reach_y,
-        .x1 = min_i32(group->x1 + beside, rows->width), .y1 = top + height + s->reach_y,
-        .color = rows->color, .color_rows = plane, .depth = rows->depth, .window_rows = plane,
+        .x0 = max_i32(group->x0 - beside, 0), .y0 = y0 + r->kept,
+        .x1 = min_i32(group->x1 + beside, rows->width), .y1 = y1,
+        .color = rows->color, .depth = rows->depth,
         .tile_shift = (uint8_t)c->window.tile_shift
     };
+    r->target.color_rows = r->target.window_rows = (struct smear_plane_rows){ rows->width, r->kept, rows->rows, 0 };
     r->frame = c->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
@@ -490,15 +531,15 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
         .over = group->rank != 0
     };
-    smear_streak_edges(s, rows->edge, s->upright ? r->area.rows : rows->width);
+    if (rows->held.group != group)
+        smear_streak_edges(s, rows->edge, s->upright ? rows->rows : rows->width);
     struct smear_triangle *tail = geometry_triangle(&c->geometry, group->tail);
     uint32_t after = tail->next;
     tail->next = SMEAR_NO_TRIANGLE;
     smear_jobs_run(&c->jobs, draw_job, r, c->jobs.workers);
     tail->next = after;
-    find_drawn(rows, &r->target);
-    if (group->textured)
-        clear_tops(rows, &r->target);
+    find_extents(r);
+    rows->held = (struct smear_held_rows){ group, y0, y1, r->target.x0, r->target.x1 };
     if (group->method == SMEAR_LAYERED)
         smear_gather_cells(&r->gather);
     smear_jobs_run(&c->jobs, merge_job, r, c->jobs.workers);
@@ -565,6 +606,7 @@ static int finish_row(struct smear_context *c, int row, bool first)
 
 int smear_layers_rows(struct smear_context *c, int first, int end)
 {
+    c->layers->rows.held.group = NULL;
     for (int row = first; row < end; row++) {
         int result = finish_row(c, row, row == first);
         if (result != SMEAR_OK)

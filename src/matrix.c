@@ -136,7 +136,7 @@ static void set_distances(struct smear_projection *p, const smear_camera *camera
     p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
     p->far_distance = camera->far_plane == 0 ? INT32_MAX
                     : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
-    if (p->orthographic) {
+    if (is_orthographic(p)) {
         /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
         uint32_t range = (uint32_t)(p->far_distance - p->near_distance);
         int zeros = count_leading_zeros(range);
@@ -160,7 +160,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
 
     /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
     struct factor pixels;
-    if (p->orthographic) {
+    if (is_orthographic(p)) {
         struct factor half = factor_from(camera->half_height, -16);
         uint32_t r = recip_norm_precise((uint32_t)min_i32(half.mantissa, (1 << 30) - 1) << 2);
         pixels = factor_from((int64_t)r * height_px, -61 + 2 - 1 - half.exponent);
@@ -171,7 +171,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     /* The largest row decides the scale; the unit W of an orthographic camera must fit as well. */
     int bits = max_i32(row_bits(view, 0, pixels), row_bits(view, 1, pixels));
     int bits_z = row_bits(view, 2, one);
-    bits = p->orthographic ? max_i32(bits, 1) : max_i32(bits, bits_z);
+    bits = is_orthographic(p) ? max_i32(bits, 1) : max_i32(bits, bits_z);
     int scale = min_i32(30 - bits, 48);
     p->scale = (int16_t)scale;
     fill_row(p->m[0], view, 0, pixels, 1, scale);
@@ -179,8 +179,8 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
 
     for (int j = 0; j < 4; j++)
         p->m[3][j] = 0;
-    int32_t *distance = p->m[p->orthographic ? 3 : 2];
-    if (p->orthographic) {
+    int32_t *distance = p->m[is_orthographic(p) ? 3 : 2];
+    if (is_orthographic(p)) {
         for (int j = 0; j < 3; j++)
             p->m[2][j] = 0;
         p->m[2][3] = max_i32(1, scale_to_i32(1, scale));
@@ -197,7 +197,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
 static void weigh(struct smear_projection *p, int32_t weight, int scale, int distance_scale)
 {
     for (int row = 0; row < 4; row++) {
-        bool is_distance = row == 3 || (row == 2 && !p->orthographic);
+        bool is_distance = row == 3 || (row == 2 && !is_orthographic(p));
         int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
         for (int j = 0; j < 4; j++) {
             int32_t m = scale_to_i32((int64_t)p->m[row][j] * weight, shift - 24);
@@ -220,7 +220,7 @@ void smear_projection_weigh(struct smear_projection projection[], const int32_t 
     for (int i = 0; i < count; i++)
         weigh(&projection[i], weight[i], scale - 4, distance_scale - 4);
     /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
-    for (int i = 0; i < count && projection[0].orthographic; i++)
+    for (int i = 0; i < count && is_orthographic(&projection[0]); i++)
         projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - 4)) : 0;
     set_distances(&projection[0], camera);
 }

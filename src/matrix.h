@@ -27,6 +27,8 @@ struct smear_projection {
     bool orthographic;
 };
 
+static inline bool is_orthographic(const struct smear_projection *p) { return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic; }
+
 /* The mesh's own scale and the place of the draw, seen from a camera: camera space in blocks. */
 struct smear_view {
     int32_t basis[3][3];        /* camera x, y, z of one mesh step: basis 2^basis_exp */

@@ -51,7 +51,7 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->inner = (1u << shift) - s->rest;
     s->length = ((2u * (uint32_t)s->half + 1u) << shift) + 2u * s->rest;
     s->over = (1u << 22) / s->length + 1u;
-    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : 2;
+    s->node = s->upright || length < 8 << 8 ? 0 : length < 16 << 8 ? 1 : length < 32 << 8 ? 2 : 3;
     int32_t along = s->half + 1 + (1 << s->node);
     int32_t across = s->slope == 0 ? 0 : min_i32(1 + ((abs_i32(s->slope) * along + 0xffff) >> 16), reach);
     s->reach_x = s->upright ? across : s->half + 1;
@@ -138,9 +138,17 @@ static inline struct light light_of(uint32_t p)
 
 /* ------------------------------------------------------------------ what is worked on */
 
+/* Loops of their own for nodes 4 and 8 steps apart, where size does not count. */
+#ifdef __OPTIMIZE_SIZE__
+#define EACH_NODE 0
+#else
+#define EACH_NODE 1
+#endif
+
 enum {
     NODES = 70,                 /* of each row of a tile, at a time; half as many of linear light */
-    STEPS_MAX = 640             /* along a line, at a time; likewise */
+    STEPS_MAX = 640,            /* along a line, at a time; likewise */
+    NEAR = 5                    /* places where depth_near looks */
 };
 
 struct merge {
@@ -158,12 +166,12 @@ struct merge {
         struct light *light;
     } node;
     union {
-        lanes *codes;           /* of all before step sums_base + i */
+        lanes *codes;           /* of all before step line.base + i */
         struct light *light;
     } sums;
-    int32_t sums_base;
     /* Of each row that lies along the lines: the steps that are reached. Between nodes means would go on beyond. */
     int16_t first_of[64], end_of[64];
+    int16_t near_x[NEAR], near_y[NEAR];         /* from a pixel */
 };
 
 size_t smear_streak_work(int32_t tile)
@@ -171,33 +179,38 @@ size_t smear_streak_work(int32_t tile)
     return (size_t)(NODES * tile + STEPS_MAX) * sizeof(lanes);
 }
 
-/* A line and what may be drawn on it. */
+/* A line, and what may be drawn on it. */
 struct line {
     int32_t start;
-    int32_t from, to;
+    int32_t from, to;           /* steps */
+    int32_t place, by, runs;    /* where across it runs first, what to add for the next place, how many there are */
+    const int16_t *edge;        /* at which step it comes there; one more */
+    int32_t base;               /* sums begin at this step */
 };
 
-/* The steps at which a line runs along place `row` across, of those it runs along; what is drawn there, if any. */
-static inline bool run_of(const struct merge *m, const struct line *l, int32_t row, int32_t *first, int32_t *end)
-{
-    int32_t k = m->s->slope < 0 ? l->start - row : row - l->start;
-    *first = max_i32(m->a->edge[k], l->from);
-    *end = min_i32(m->a->edge[k + 1], l->to);
-    if (!m->s->upright) {
-        *first = max_i32(*first, m->a->row_first[row]);
-        *end = min_i32(*end, m->a->row_end[row]);
-    }
-    return *first < *end;
-}
-
-/* Places across that a line runs along from step l->from to l->to. */
-static void places_of(const struct merge *m, const struct line *l, int32_t *low, int32_t *high)
+/* The places across that a line runs along from step from to step to. */
+static void find_runs(const struct merge *m, struct line *l)
 {
     int32_t a = l->start + ((passes(m->s, l->from) + 0x8000) >> 16);
     int32_t b = l->start + ((passes(m->s, l->to - 1) + 0x8000) >> 16);
     int32_t most = m->s->upright ? m->a->stride : m->a->rows;
-    *low = clamp_i32(min_i32(a, b), 0, most);
-    *high = clamp_i32(max_i32(a, b) + 1, 0, most);
+    int32_t low = clamp_i32(min_i32(a, b), 0, most), high = clamp_i32(max_i32(a, b) + 1, 0, most);
+    l->by = m->s->slope < 0 ? -1 : 1;
+    l->place = m->s->slope < 0 ? high - 1 : low;
+    l->runs = high - low;
+    l->edge = m->a->edge + abs_i32(l->place - l->start);
+}
+
+/* The steps of run k; whether something may be drawn there. */
+static inline bool run_of(const struct merge *m, const struct line *l, int32_t k, int32_t *first, int32_t *end)
+{
+    *first = max_i32(l->edge[k], l->from);
+    *end = min_i32(l->edge[k + 1], l->to);
+    if (!m->s->upright) {
+        *first = max_i32(*first, m->a->row_first[l->place + l->by * k]);
+        *end = min_i32(*end, m->a->row_end[l->place + l->by * k]);
+    }
+    return *first < *end;
 }
 
 static inline lanes *fill(lanes *out, const lanes *end, lanes value)
@@ -212,16 +225,14 @@ static inline lanes *fill(lanes *out, const lanes *end, lanes value)
 /* Sums of steps [base, base + count) of a line. */
 static void gather_codes(const struct merge *m, const struct line *l, int32_t count)
 {
-    lanes sum = 0, *out = m->sums.codes, *const zero = out - m->sums_base;
-    const int32_t step = m->step;
-    int32_t low, high;
-    places_of(m, l, &low, &high);
-    for (int32_t k = 0; k < high - low; k++) {
-        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
-        if (!run_of(m, l, row, &first, &end))
+    lanes sum = 0, *out = m->sums.codes, *const zero = out - l->base;
+    const int32_t step = m->step, runs = l->runs, side = l->by * m->side;
+    const uint32_t *place = m->a->color + l->place * m->side;
+    for (int32_t k = 0, first, end; k < runs; k++, place += side) {
+        if (!run_of(m, l, k, &first, &end))
             continue;
         out = fill(out, zero + first, sum);
-        const uint32_t *in = m->a->color + row * m->side + first * step;
+        const uint32_t *in = place + first * step;
         for (lanes *const stop = zero + end; out < stop; in += step) {
             *out++ = sum;
             sum += lanes_of(*in) ^ (lanes)0xff << 48;
@@ -233,16 +244,14 @@ static void gather_codes(const struct merge *m, const struct line *l, int32_t co
 static void gather_light(const struct merge *m, const struct line *l, int32_t count)
 {
     struct light sum = { 0, 0, 0, 0 }, *out = m->sums.light;
-    int32_t low, high, at = 0;
-    places_of(m, l, &low, &high);
-    for (int32_t k = 0; k < high - low; k++) {
-        int32_t row = m->s->slope < 0 ? high - 1 - k : low + k, first, end;
-        if (!run_of(m, l, row, &first, &end))
+    int32_t at = 0;
+    for (int32_t k = 0, first, end; k < l->runs; k++) {
+        if (!run_of(m, l, k, &first, &end))
             continue;
-        for (; at < first - m->sums_base; at++)
+        for (; at < first - l->base; at++)
             out[at] = sum;
-        const uint32_t *in = m->a->color + row * m->side + first * m->step;
-        for (; at < end - m->sums_base; at++, in += m->step) {
+        const uint32_t *in = m->a->color + (l->place + l->by * k) * m->side + first * m->step;
+        for (; at < end - l->base; at++, in += m->step) {
             out[at] = sum;
             if (*in >> 24 != 0)
                 continue;
@@ -265,25 +274,38 @@ static inline lanes mean_codes(lanes weighed, uint32_t over)
          | (lanes_times(weighed >> 16 & every_other, over) >> 22 & code) << 16;
 }
 
+/* The mean around a node: *right is the sum up to the pixel after its last whole one, *left the sum up to the first. */
+static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest, lanes half, uint32_t over)
+{
+    return mean_codes(lanes_times(right[0] - left[0], inner) + lanes_times(right[1] - left[-1], rest) + half, over);
+}
+
 /* Nodes of the line at steps first, first + n ..., to the places across above and below it. */
 static void means_codes(const struct merge *m, const struct line *l, int32_t first, int32_t end)
 {
-    const struct smear_streak s = *m->s;
-    const lanes half = (s.length >> 1) * 0x0001000100010001u;
-    const lanes *left = m->sums.codes + (first - s.half - m->sums_base), *right = left + (2 * s.half + 1);
-    const int32_t n = 1 << s.node;
-    const int32_t across = m->across, last = (m->high - m->low - 1) * 65536;
-    int32_t at = ((first - m->first) >> s.node) * m->along, place = (l->start - m->low) * 65536 + passes(&s, first);
-    for (int32_t i = first; i < end; i += n, left += n, right += n, at += m->along, place += s.slope * n) {
-        lanes w = lanes_times(right[0] - left[0], s.inner) + lanes_times(right[1] - left[-1], s.rest) + half;
-        lanes mean = mean_codes(w, s.over), *out = m->node.codes + (place >> 16) * across + at;
-        uint32_t part = (uint32_t)place >> 8 & 255u;
+    const struct smear_streak *s = m->s;
+    const uint32_t inner = s->inner, rest = s->rest, over = s->over;
+    const lanes half = (s->length >> 1) * 0x0001000100010001u;
+    const int32_t n = 1 << s->node, to_right = 2 * s->half + 1, along = m->along, across = m->across;
+    const int32_t last = (m->high - m->low - 1) * 65536, climb = s->slope * n;
+    const lanes *left = m->sums.codes + (first - s->half - l->base), *const stop = left + (end - first);
+    lanes *out = m->node.codes + ((first - m->first) >> s->node) * along;
+    int32_t place = (l->start - m->low) * 65536 + passes(s, first);
+    if (climb == 0) {           /* the line is a row */
+        for (out += l->start * across - m->low * across; left < stop; left += n, out += along)
+            *out += mean_around(left, left + to_right, inner, rest, half, over) << 8;
+        return;
+    }
+    for (; left < stop; left += n, out += along, place += climb) {
+        lanes mean = mean_around(left, left + to_right, inner, rest, half, over);
         if (mean >> 48 == 0)
             continue;
+        lanes *to = out + (place >> 16) * across;
+        uint32_t part = (uint32_t)place >> 8 & 255u;
         if (place >= 0)
-            out[0] += lanes_times(mean, 256u - part);
-        if (part != 0 && place < last)
-            out[across] += lanes_times(mean, part);
+            to[0] += lanes_times(mean, 256u - part);
+        if (place < last)
+            to[across] += lanes_times(mean, part);
     }
 }
 
@@ -305,7 +327,7 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
     const struct smear_streak *s = m->s;
     const int32_t n = 1 << s->node;
     for (int32_t i = first; i < end; i += n) {
-        const struct light *p = m->sums.light + (i - s->half - m->sums_base), *q = p + 2 * s->half + 1;
+        const struct light *p = m->sums.light + (i - s->half - l->base), *q = p + 2 * s->half + 1;
         struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r), mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
                               mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b), mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
         int32_t place = (l->start - m->low) * 65536 + passes(s, i);
@@ -320,46 +342,46 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
 
 /* ------------------------------------------------------------------ lines, all of them */
 
-static void add_line(const struct merge *base, int32_t start)
+static void add_line(const struct merge *m, int32_t start)
 {
-    struct merge m = *base;
-    const struct smear_streak *s = m.s;
+    const struct smear_streak *s = m->s;
     const int32_t n = 1 << s->node;
     /* Nodes that pass by a place. */
-    int32_t first = m.first, end = m.first + ((m.nodes - 1) << s->node) + 1;
-    steps_within(s, start, m.low - 1, m.high, 0, &first, &end);
+    int32_t first = m->first, end = m->first + ((m->nodes - 1) << s->node) + 1;
+    steps_within(s, start, m->low - 1, m->high, 0, &first, &end);
     first = (first + n - 1) & -n;
     if (first >= end)
         return;
-    struct line l = { start, max_i32(first - s->half - 1, s->upright ? 0 : m.a->x0),
-                      min_i32(end + s->half + 1, s->upright ? m.a->rows : m.a->x1) };
-    /* What is drawn there: from the first of its runs to the last. */
-    int32_t low, high, from, to, none;
+    struct line l = { .start = start, .from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->x0),
+                      .to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->x1) };
     if (l.from >= l.to)
         return;
-    places_of(&m, &l, &low, &high);
-    const int32_t turn = s->slope < 0 ? high - 1 : low, by = s->slope < 0 ? -1 : 1;
-    int32_t k = 0, last = high - low - 1;
-    while (k <= last && !run_of(&m, &l, turn + by * k, &from, &none))
+    find_runs(m, &l);
+    /* What is drawn there: from the first of its runs to the last. */
+    int32_t from, to, none, k = 0;
+    while (k < l.runs && !run_of(m, &l, k, &from, &none))
         k++;
-    if (k > last)
+    if (k >= l.runs)
         return;
-    while (!run_of(&m, &l, turn + by * last, &none, &to))
-        last--;
+    while (!run_of(m, &l, l.runs - 1, &none, &to))
+        l.runs--;
+    l.place += l.by * k;
+    l.edge += k;
+    l.runs -= k;
     l.from = from;
     l.to = to;
     first = max_i32(first, (from - s->half - 1 + n - 1) & -n);
     end = min_i32(end, to + s->half + 1);
     if (first >= end)
         return;
-    m.sums_base = first - s->half - 1;
+    l.base = first - s->half - 1;
     int32_t count = end - first + 2 * s->half + 3;
-    if (m.a->linear) {
-        gather_light(&m, &l, count);
-        means_light(&m, &l, first, end);
+    if (m->a->linear) {
+        gather_light(m, &l, count);
+        means_light(m, &l, first, end);
     } else {
-        gather_codes(&m, &l, count);
-        means_codes(&m, &l, first, end);
+        gather_codes(m, &l, count);
+        means_codes(m, &l, first, end);
     }
 }
 
@@ -425,18 +447,29 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, 
 /* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of five. */
 static SMEAR_NOINLINE uint32_t depth_near(const struct merge *m, int32_t x, int32_t y)
 {
-    const struct smear_streak *s = m->s;
-    const int32_t n = (s->half + 1) >> 1;
-    for (int32_t k = 0; k < 5; k++) {
-        int32_t t = k & 1 ? n * ((k + 1) >> 1) : -n * (k >> 1), side = (s->slope * t + 0x8000) >> 16;
-        int32_t px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
-        if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+    const struct smear_streak_area *a = m->a;
+    const uint32_t width = (uint32_t)(a->x1 - a->x0), rows = (uint32_t)a->rows;
+    for (int k = 0; k < NEAR; k++) {
+        int32_t px = x + m->near_x[k], py = y + m->near_y[k];
+        if ((uint32_t)(px - a->x0) >= width || (uint32_t)py >= rows)
             continue;
-        uint32_t depth = m->a->depth[py * m->a->stride + px];
+        uint32_t depth = a->depth[py * a->stride + px];
         if (depth != 0)
             return depth;
     }
-    return (m->a->nearest + m->a->farthest) >> 1;      /* not what find_range leaves: that may come later */
+    return (a->nearest + a->farthest) >> 1;     /* not what find_range leaves: that may come later */
+}
+
+/* The middle, and half and all of the way to either side. */
+static void find_near(struct merge *m)
+{
+    const struct smear_streak *s = m->s;
+    const int32_t n = (s->half + 1) >> 1;
+    for (int k = 0; k < NEAR; k++) {
+        int32_t t = k & 1 ? n * ((k + 1) >> 1) : -n * (k >> 1), side = (s->slope * t + 0x8000) >> 16;
+        m->near_x[k] = (int16_t)(s->upright ? side : t);
+        m->near_y[k] = (int16_t)(s->upright ? t : side);
+    }
 }
 
 /* Both have their coverage on top. */
@@ -573,14 +606,17 @@ static void finish_light(struct merge *m, const struct light *p, const struct li
         finish_pixel(m, &mean, x, y, at);
 }
 
-static void along_light(struct merge *m, int32_t y, int32_t row)
+static void along_light(struct merge *m)
 {
     const int32_t node = m->s->node;
-    const int32_t first = max_i32(max_i32(m->first, m->a->left + m->a->margin), m->first_of[y - m->low]);
-    const struct light *l = m->node.light + (y - m->low) * m->nodes;
-    for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
-        int32_t k = (x - m->first) >> node;
-        finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
+    for (int32_t y = m->low; y < m->high; y++) {
+        const int32_t row = (y - m->a->top) * m->a->still_stride - m->a->margin;
+        const int32_t first = max_i32(max_i32(m->first, m->a->left + m->a->margin), m->first_of[y - m->low]);
+        const struct light *l = m->node.light + (y - m->low) * m->nodes;
+        for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
+            int32_t k = (x - m->first) >> node;
+            finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
+        }
     }
 }
 
@@ -606,80 +642,99 @@ SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t
 }
 
 /* The same where groups pass through each other. */
-SMEAR_INLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
+SMEAR_INLINE void between_mixed_by(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
 {
     const struct smear_streak_area *a = m->a;
-    uint32_t *over = a->over + row, any = 0, nearest = 0;
-    uint16_t *over_depth = a->over_depth + row;
-    const int32_t end = x + (1 << node), middle = x + (1 << node >> 1);
-    for (int32_t i = x; i < end; i++)
-        if (over[i] != 0) {
-            any = 1;
-            nearest = max_u32(nearest, over_depth[i]);
-        }
-    if (any == 0 && !a->marks) {
+    const bool marks = a->marks;
+    const int32_t n = 1 << node, middle = x + (n >> 1);
+    uint32_t *over = a->over + row + x, any = 0, nearest = 0;
+    uint16_t *over_depth = a->over_depth + row + x;
+    for (int32_t i = 0; i < n; i++)
+        any |= over[i];
+    if (any == 0 && !marks) {
         between_codes(m, here, next, x, y, row, node);
         return;
     }
+    for (int32_t i = 0; i < n && any != 0; i++)
+        nearest = max_u32(nearest, over[i] != 0 ? over_depth[i] : 0);
     uint32_t near = middle >= a->x0 && middle < a->x1 ? a->depth[y * a->stride + middle] : 0;
     if (near == 0)
         near = depth_near(m, middle, y);
-    if (near >= nearest && !a->marks) {
+    if (near >= nearest && !marks) {
         between_codes(m, here, next, x, y, row, node);
         return;
     }
+    const uint32_t farthest = m->farthest;
+    const lanes step = next - here;
+    uint32_t *still = a->still + row + x;
+    const uint16_t *still_depth = a->still_depth + row + x;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
-    for (; x < end; x++, sum += next - here) {
-        struct mean mean = { .codes = sum >> node & all_codes };
-        if (a->still_depth[row + x] >= m->farthest) {
-            finish_codes(m, mean.codes, x, y, row + x);
-        } else if (any != 0 && mean.codes >> 48 != 0) {
-            merge_mixed(m, &mean, near, row + x);
+    for (int32_t i = 0; i < n; i++, sum += step) {
+        lanes codes = sum >> node & all_codes;
+        if (still_depth[i] >= farthest) {
+            finish_codes(m, codes, x + i, y, row + x + i);
+        } else if (any != 0 && codes >> 48 != 0) {
+            struct mean mean = { .codes = codes };
+            merge_mixed(m, &mean, near, row + x + i);
         } else {
-            a->still[row + x] = codes_over(mean.codes, a->still[row + x]);
-            over[x] = (uint32_t)(mean.codes | mean.codes >> 24);
-            over_depth[x] = (uint16_t)near;
+            still[i] = codes_over(codes, still[i]);
+            over[i] = (uint32_t)(codes | codes >> 24);
+            over_depth[i] = (uint16_t)near;
         }
     }
 }
 
-SMEAR_INLINE void along_codes(struct merge *m, int32_t y, int32_t row, int32_t node)
+/* Out of line: what it needs would not leave registers to the loops around it. */
+static SMEAR_NOINLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
 {
-    const int32_t n = 1 << node, left = max_i32(m->a->left + m->a->margin, m->first_of[y - m->low]);
-    const int32_t last = m->end, end = min_i32(last, m->end_of[y - m->low]);
-    const lanes *c = m->node.codes + (y - m->low) * m->nodes;
-    lanes here = node_codes(*c);
-    for (int32_t x = m->first; x < end; x += n) {
-        lanes next = node == 0 && x + n >= last ? 0 : node_codes(*++c);
-        if (((here | next) >> 48) != 0) {
-            bool whole = x >= left && x + n <= end;
-            if (whole && (x >= m->a->mixed1 || x + n <= m->a->mixed0))
-                between_codes(m, here, next, x, y, row, node);
-            else if (whole)
-                between_mixed(m, here, next, x, y, row, node);
-            else    /* the nodes before the frame's first pixel and after its last, too */
+    if (EACH_NODE && m->s->node == 3)
+        between_mixed_by(m, here, next, x, y, row, 3);
+    else if (EACH_NODE && m->s->node == 2)
+        between_mixed_by(m, here, next, x, y, row, 2);
+    else
+        between_mixed_by(m, here, next, x, y, row, m->s->node);
+}
+
+SMEAR_INLINE void along_codes_by(struct merge *m, int32_t node)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t n = 1 << node, last = m->end, mixed0 = a->mixed0, mixed1 = a->mixed1;
+    for (int32_t y = m->low; y < m->high; y++) {
+        const int32_t row = (y - a->top) * a->still_stride - a->margin;
+        const int32_t left = max_i32(a->left + a->margin, m->first_of[y - m->low]);
+        const int32_t end = min_i32(last, m->end_of[y - m->low]);
+        const lanes *c = m->node.codes + (y - m->low) * m->nodes;
+        lanes here = node_codes(*c), next;
+        for (int32_t x = m->first; x < end; x += n, here = next) {
+            next = node == 0 && x + n >= last ? 0 : node_codes(*++c);
+            if (((here | next) >> 48) == 0)
+                continue;
+            if (x < left || x + n > end)    /* the nodes before the frame's first pixel and after its last, too */
                 for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
                     finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, row + i);
+            else if (x >= mixed1 || x + n <= mixed0)
+                between_codes(m, here, next, x, y, row, node);
+            else
+                between_mixed(m, here, next, x, y, row);
         }
-        here = next;
     }
 }
+
+static SMEAR_NOINLINE void along_codes_8(struct merge *m) { along_codes_by(m, 3); }
+static SMEAR_NOINLINE void along_codes_4(struct merge *m) { along_codes_by(m, 2); }
+static SMEAR_NOINLINE void along_codes(struct merge *m) { along_codes_by(m, m->s->node); }
 
 /* Rows whose nodes lie along them. */
 static void finish_along(struct merge *m)
 {
-    const struct smear_streak_area *a = m->a;
-    for (int32_t y = m->low; y < m->high; y++) {
-        int32_t row = (y - a->top) * a->still_stride - a->margin;
-        if (a->linear)
-            along_light(m, y, row);
-        else if (m->s->node == 2)
-            along_codes(m, y, row, 2);
-        else if (m->s->node == 1)
-            along_codes(m, y, row, 1);
-        else
-            along_codes(m, y, row, 0);
-    }
+    if (m->a->linear)
+        along_light(m);
+    else if (EACH_NODE && m->s->node == 3)
+        along_codes_8(m);
+    else if (EACH_NODE && m->s->node == 2)
+        along_codes_4(m);
+    else
+        along_codes(m);
 }
 
 /* Rows across the lines. */
@@ -726,7 +781,7 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);
     int32_t last = m->first + ((m->nodes - 1) << s->node);
     int32_t place0 = passes(s, m->first) >> 16, place1 = passes(s, last) >> 16;
-    for (int32_t start = low - 1 - max_i32(place0, place1); start < high - min_i32(place0, place1); start++)
+    for (int32_t start = low - (s->slope != 0) - max_i32(place0, place1); start < high - min_i32(place0, place1); start++)
         add_line(m, start);
     if (s->upright)
         finish_across(m);
@@ -750,8 +805,10 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
     }
     if (left >= right)
         return 0;
-    if (a->mixed0 < a->mixed1)          /* at once: what is mixed must not depend on the pixels before */
-        find_range(&m);
+    if (a->mixed0 < a->mixed1) {
+        find_near(&m);
+        find_range(&m);                 /* at once: what is mixed must not depend on the pixels before */
+    }
     a->marks = a->marks && m.nearest > a->marked_from;
     if (s->upright) {
         int32_t nodes = ((bottom - top) >> s->node) + 2, part = room / nodes;

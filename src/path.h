@@ -17,7 +17,7 @@
 /* When each slot begins, time[SHUTTER_SLOTS] when the last one ends. A box shutter has even steps; where a shutter lets
  * through less light, slots are longer. */
 struct smear_shutter {
-    int32_t time[SHUTTER_SLOTS + 1];
+    int32_t time[(SMEAR_WITH_SUBFRAMES ? SHUTTER_SLOTS : 0) + 1];
 };
 
 /* Record of a vertex with a path (struct smear_segment.path): the place in the middle at VERTEX_X .. VERTEX_DEPTH, then at

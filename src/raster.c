@@ -13,6 +13,9 @@
 #include "span.h"
 #include "tiny.h"
 
+/* Nothing else was compiled in. */
+#define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA)
+
 /* ------------------------------------------------------------------ rows */
 
 /* Where the pixels of a row lie, and depth at its pixel 0. */
@@ -507,7 +510,7 @@ enum { TINY_PIXELS = 32 };
 static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
     return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && draw_is_opaque(s->draw)
-        && (!segment_gouraud(s->segment) || s->segment->flat_depth
+        && (!segment_gouraud(s->segment) || segment_flat_depth(s->segment)
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 
@@ -584,7 +587,7 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
-    if (segment_textured(s->segment) || !draw_is_opaque(s->draw))
+    if (!ALWAYS_FLAT && (segment_textured(s->segment) || !draw_is_opaque(s->draw)))
         return false;
     if (!segment_gouraud(s->segment))
         return true;
@@ -629,9 +632,9 @@ static void setup_all(struct setup *s, uint64_t area)
     smear_setup_depth(s);
     s->flat = is_flat(s);
     s->has_velocity = false;
-    if (!s->flat)
+    if (!ALWAYS_FLAT && !s->flat)
         smear_setup_color(s);
-    if (s->segment->uv != 0)
+    if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
         smear_setup_texture(s);
 }
 
@@ -660,7 +663,7 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
         }
     }
 #endif
-    smear_span_fn *write = s->flat ? smear_span_flat : smear_span_general;
+    smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (small)
         cover_small(s, (int32_t)setup_edges(s), left, right, top, bottom, write);
     else
@@ -711,9 +714,9 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
     s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
-                      && !draw_is_blended(s->draw) && (segment_moves(segment) != 0 || s->draw->fixed || *moved);
-    s->velocity_unknown = frame->velocity_from_depth && !s->draw->fixed;
-    if (segment_moves(segment) != 0 || s->draw->fixed)
+                      && !draw_is_blended(s->draw) && (segment_moves(segment) != 0 || draw_is_fixed(s->draw) || *moved);
+    s->velocity_unknown = frame_has_depth_velocity(frame) && !draw_is_fixed(s->draw);
+    if (segment_moves(segment) != 0 || draw_is_fixed(s->draw))
         *moved = true;
     if (!known) {
         uint64_t area = setup_edges(s);
@@ -746,7 +749,7 @@ static inline void draw_point(const struct smear_raster_frame *frame, const stru
     target->depth[at] = t->vertex[POINT_DEPTH];
     target_put(target, at, t->color);
     if (SMEAR_WITH_RECONSTRUCT && moved && (target->velocity8 != NULL || target->velocity16 != NULL))
-        smear_velocity_still(target, at, frame->velocity_from_depth);
+        smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }
 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,

@@ -39,7 +39,7 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
     }
     s->shade = per_vertex ? SHADE_GOURAUD
              : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
-    s->flat_depth = d->at.now.orthographic;
+    s->flat_depth = is_orthographic(&d->at.now);
     s->stride = (uint8_t)at;
     return s;
 }

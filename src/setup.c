@@ -176,7 +176,7 @@ void smear_setup_color(struct setup *s)
             range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
     }
     /* Interpolated on the screen, a value is off by at most range x change of 1/w / 4: half a code is TEXTURE_OFF. */
-    if (!s->segment->flat_depth && range != 0)
+    if (!segment_flat_depth(s->segment) && range != 0)
         s->perspective_color = smear_times_over((uint32_t)(high_q - low_q), range >> 8, (uint32_t)low_q)
                              > 4u * 128u;
     if (s->perspective_color) {     /* and one within a block, where 1/w changes by no more than this */
@@ -438,7 +438,7 @@ void smear_setup_texture(struct setup *s)
         uint32_t dv = magnitude_i32(smear_sampler_texel_v(m, (v[i] - v[j]) * 16384) >> 10);
         travel = max_u32(travel, max_u32(du, dv));
     }
-    uint32_t error = s->segment->flat_depth ? 0
+    uint32_t error = segment_flat_depth(s->segment) ? 0
                    : smear_times_over((uint32_t)(high_q - low_q), travel, (uint32_t)low_q) >> 2;
     if (error <= TEXTURE_OFF) {
         setup_affine(s, u, v);

@@ -27,12 +27,19 @@ static bool has_method(int method)
 
 static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
+static inline bool has_half(const smear_desc *d) { return SMEAR_WITH_FILTERS && d->half; }
 static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
+
+/* Rows are drawn a tile at a time; else a band at a time. */
+static inline bool has_tiles(const smear_desc *d) { return has_window(d) || is_timed(d) || is_layered(d); }
+/* Pixel rows that are drawn together. */
+static inline int32_t row_px(const smear_desc *d) { return has_tiles(d) ? d->tile : d->band_rows; }
 
 /* Fills in defaults; false when something is out of range. */
 static bool resolve(smear_desc *d)
 {
     if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2
+        || (d->inspect != NULL && !SMEAR_WITH_INSPECT)
         || (d->layers && !SMEAR_WITH_LAYERS) || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
         return false;
     if (!SMEAR_WITH_RECONSTRUCT)
@@ -51,8 +58,11 @@ static bool resolve(smear_desc *d)
         return false;
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0)
-        || ((has_window(d) || is_timed(d) || is_layered(d)) && d->band_rows != d->tile))
+    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0))
+        return false;
+    /* Tiles may be finished in strips, by filters that read the window alone. */
+    if (has_tiles(d) && d->band_rows != d->tile
+        && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -68,7 +78,7 @@ static bool resolve(smear_desc *d)
         d->vertex_cache = 64;
     if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && !has_window(d)))
         return false;
-    return d->bands <= 2 && d->workers <= (SMEAR_WITH_WORKERS ? SMEAR_WORKERS_MAX : 1) && smear_convert_has(d->format, d->dither)
+    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_convert_has(d->format, d->dither)
         && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
@@ -119,9 +129,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     for (w->tile_shift = 3; 1 << w->tile_shift < d->tile;)
         w->tile_shift++;
     w->columns = (d->width + d->tile - 1) / d->tile;
-    w->rows = (d->height + d->band_rows - 1) / d->band_rows;
+    w->rows = (d->height + row_px(d) - 1) / row_px(d);
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(d->band_rows, d->height);
+    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
@@ -139,20 +149,20 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *c->row_offset);
     }
     c->filtering = has_window(d) ? arena_take(a, 1, sizeof *c->filtering) : NULL;
-    for (int i = 0; i + 1 < d->passes; i++) {
+    for (int i = 0; SMEAR_WITH_FILTERS && i + 1 < d->passes; i++) {
         uint32_t *pass = arena_take(a, plane, 4);
         if (c->filtering != NULL)
             c->filtering->pass_plane[i] = pass;
     }
     c->half = NULL;
-    if (d->half) {
+    if (has_half(d)) {
         c->half = arena_take(a, 1, sizeof *c->half);
         layout_half(c->half != NULL ? c->half : &spare, a, w);
         c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
     }
     c->strip = is_timed(d) ? max_i32(d->tile, STRIP) : d->tile;
     if (has_window(d) || is_timed(d))
-        c->scratch = arena_take(a, (size_t)d->workers * (size_t)c->strip * (size_t)d->tile, 4);
+        c->scratch = arena_take(a, (size_t)d->workers * (size_t)c->strip * (size_t)d->band_rows, 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
@@ -198,10 +208,10 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         l->layer_of = arena_take(a, d->max_draws, sizeof *l->layer_of);
         l->setting = arena_take(a, SMEAR_LAYERS_MAX, sizeof *l->setting);
     }
-    c->inspect = d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
+    c->inspect = SMEAR_WITH_INSPECT && d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
     c->sums = NULL;
     if (SMEAR_WITH_ACCUMULATE && d->accumulate)
-        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : d->band_rows), 3 * sizeof *c->sums);
+        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : row_px(d)), 3 * sizeof *c->sums);
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
@@ -212,7 +222,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 
     struct smear_geometry *g = &c->geometry;
-    g->row_px = d->band_rows;
+    g->row_px = row_px(d);
     g->row_count = w->rows;
     g->pool_words = pool_words(d);
     g->pool = arena_take(a, g->pool_words, 4);
@@ -282,7 +292,7 @@ static bool is_camera(const smear_camera *c)
             return false;
     if (c->near_plane <= 0 || (c->far_plane != 0 && c->far_plane <= c->near_plane))
         return false;
-    return c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
+    return SMEAR_WITH_ORTHOGRAPHIC && c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
 }
 
 /* a / b in q24, at most 100 of them. */
@@ -298,18 +308,18 @@ static int32_t half_exposure(smear_frame *f)
 {
     const int32_t whole = 1 << 24, longest = 10 << 24;
     int32_t exposure;
-    if (f->shutter_us != 0) {
+    if (SMEAR_WITH_SHUTTER_MODES && f->shutter_us != 0) {
         exposure = ratio_q24(f->shutter_us, f->frame_us);
         if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
             exposure = min_i32(exposure, whole);
     } else {
         /* Frames in which the shutter is to be as it is in one at the rate of reference. */
         int32_t frames = whole;
-        if (f->shutter_mode != SMEAR_SHUTTER_NATIVE)
+        if (SMEAR_WITH_SHUTTER_MODES && f->shutter_mode != SMEAR_SHUTTER_NATIVE)
             frames = ratio_q24(1000000, f->reference_hz * f->frame_us);
-        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+        if (SMEAR_WITH_SHUTTER_MODES && f->shutter_mode == SMEAR_SHUTTER_CAPPED)
             frames = min_i32(frames, whole);
-        if (frames == whole)
+        if (!SMEAR_WITH_SHUTTER_MODES || frames == whole)
             return (int32_t)(((uint32_t)f->shutter_degrees << 20) / 45u);
         uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;             /* 2^32 / 360 = 11930465 */
         degrees = (degrees >> 8) * 11930465u >> 24;
@@ -320,14 +330,14 @@ static int32_t half_exposure(smear_frame *f)
     return exposure / 2;
 }
 
-/* A scale of motion as it is used. False when out of range. */
+/* A scale of motion as it is used. False when out of range, or left out. */
 static bool resolve_scale(uint16_t *scale)
 {
     if (*scale == 0)
         *scale = 256;
     else if (*scale == SMEAR_SCALE_NONE)
         *scale = 0;
-    return *scale <= 16128;
+    return SMEAR_WITH_SCALES ? *scale <= 16128 : *scale == 256;
 }
 
 /* Brings a camera's pose nearer to that of now, or farther: its turn and its way each by their scale. */
@@ -359,41 +369,42 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->target = SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
-    if (f->method == SMEAR_CAMERA && f->camera_step == 0)
+    if (SMEAR_WITH_FILTERS && f->method == SMEAR_CAMERA && f->camera_step == 0)
         f->camera_step = 1;
-    if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
+    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
         f->filter = SMEAR_FILTER_RECONSTRUCT;
     else if (f->method == SMEAR_PINGPONG)
         f->filter = SMEAR_FILTER_PINGPONG;
     else if (f->filter == SMEAR_FILTER_DEFAULT)
         f->filter = SMEAR_FILTER_MEAN;
-    if (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4)
+    if (SMEAR_WITH_FILTERS && (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4))
         return false;
     if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
         || f->samples > 1024 || f->shutter_degrees > 3600)
         return false;
-    if (!SMEAR_WITH_FILTERS && (f->camera_step != 0 || f->weights != 0 || (smear_method_is_filter(f->method)
-                                                                         && f->filter != SMEAR_FILTER_RECONSTRUCT)))
+    if (!SMEAR_WITH_FILTERS && (f->camera_step != 0 || f->weights != 0))
         return false;
     if (SMEAR_WITH_FILTERS && !smear_pingpong_resolve(&f->pingpong))
         return false;
-    if (f->reference_hz == 0)
+    if (SMEAR_WITH_SHUTTER_MODES && f->reference_hz == 0)
         f->reference_hz = 30;
-    if (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
-        || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0))
+    if (!SMEAR_WITH_SHUTTER_MODES && (f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0))
+        return false;
+    if (SMEAR_WITH_SHUTTER_MODES && (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
+        || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0)))
         return false;
     if (!resolve_scale(&f->turn_scale) || !resolve_scale(&f->way_scale) || !resolve_scale(&f->object_scale))
         return false;
-    if (smear_method_is_filter(f->method) && c->desc.sharp)
+    if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(f->method) && c->desc.sharp)
         return false;
-    if (smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG && f->pingpong.passes > c->desc.passes)
+    if (SMEAR_WITH_FILTERS && smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG && f->pingpong.passes > c->desc.passes)
         return false;
-    if (f->method == SMEAR_HALF && !c->desc.half)
+    if (SMEAR_WITH_FILTERS && f->method == SMEAR_HALF && !c->desc.half)
         return false;
-    if (method_has_layers(f->method) && !c->desc.layers)
+    if (SMEAR_WITH_LAYERS && method_has_layers(f->method) && !c->desc.layers)
         return false;
-    if (smear_method_is_timed(f->method) && !c->desc.timed)
+    if (SMEAR_WITH_SUBFRAMES && smear_method_is_timed(f->method) && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || (c->desc.accumulate != 0 && f->samples <= SUM_SAMPLES_MAX);
 }
@@ -408,6 +419,8 @@ static bool is_layer(const smear_layer *l)
 
 static bool are_layers(const smear_frame *f)
 {
+    if (!SMEAR_WITH_LAYERS)
+        return f->layer == NULL && f->layer_count == 0;
     if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MAX)
         return false;
     for (int i = 0; i < f->layer_count; i++)
@@ -440,7 +453,7 @@ static void keep_layers(struct smear_context *c, const smear_frame *f)
 
 static bool same_kind(const smear_camera *a, const smear_camera *b)
 {
-    return (a->half_height > 0) == (b->half_height > 0);
+    return !SMEAR_WITH_ORTHOGRAPHIC || (a->half_height > 0) == (b->half_height > 0);
 }
 
 int smear_begin(smear_context *c, const smear_frame *frame)
@@ -452,7 +465,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     smear_frame f = *frame;
     if (!resolve_frame(c, &f) || !are_layers(&f) || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->shutter, f.shutter)))
         return SMEAR_ERR_ARG;
-    if (method_has_layers(f.method))
+    if (SMEAR_WITH_LAYERS && method_has_layers(f.method))
         keep_layers(c, &f);
     f.layer = NULL;
     c->camera = *frame->camera;
@@ -471,8 +484,10 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         c->camera_moves = false;
         c->camera_open = c->camera_close = *frame->camera;
     }
-    scale_camera(&c->camera_open, &c->camera, &f);
-    scale_camera(&c->camera_close, &c->camera, &f);
+    if (SMEAR_WITH_SCALES) {
+        scale_camera(&c->camera_open, &c->camera, &f);
+        scale_camera(&c->camera_close, &c->camera, &f);
+    }
     c->half_exposure = half_exposure(&f);
     c->kept_camera = *frame->camera;
     c->has_kept_camera = true;
@@ -543,7 +558,7 @@ static int32_t keep_pose(struct smear_context *c, const smear_draw *draw)
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
     if (c == NULL || draw == NULL || !is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE
-        || draw->billboard > SMEAR_BILLBOARD_UPRIGHT)
+        || draw->billboard > (SMEAR_WITH_BILLBOARDS ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_NONE))
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
     if ((!SMEAR_WITH_IDS && draw->id != 0) || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
@@ -594,7 +609,7 @@ void smear_get_stats(const smear_context *c, smear_stats *stats)
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
+    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
     if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA || c->desc.workers > 1)
@@ -613,7 +628,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
 int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth,
                      const int16_t *velocity)
 {
-    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || color == NULL || depth == NULL || velocity == NULL)
+    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || color == NULL || depth == NULL || velocity == NULL)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_FILTER)
         return SMEAR_ERR_ORDER;

@@ -56,6 +56,8 @@ struct smear_raster_target {
 #endif
 #endif
 
+/* Tests and tools look at velocities. */
+static inline bool target_is_inspected(const struct smear_raster_target *t) { return SMEAR_WITH_INSPECT && t->inspect != NULL; }
 static inline bool target_is_direct(const struct smear_raster_target *t) { return SMEAR_DIRECT && t->direct != NULL; }
 
 /* A working pixel as the target has it. */
@@ -104,6 +106,10 @@ struct smear_raster_frame {
     bool velocity_from_depth;       /* what has no motion of its own moves as its depth tells */
     int32_t reach_q3;               /* longest stored velocity, 1/8 px */
 };
+
+/* Its velocity is told by the frame's depth and cameras, or known to be zero (smear_frame.camera_step). */
+static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f) { return SMEAR_WITH_FILTERS && f->velocity_from_depth; }
+static inline bool draw_is_fixed(const struct smear_raster_draw *d) { return SMEAR_WITH_FILTERS && d->fixed; }
 
 static inline bool frame_is_linear(const struct smear_raster_frame *f) { return SMEAR_WITH_LINEAR && f->linear; }
 

@@ -352,7 +352,7 @@ int smear_timed_rows(struct smear_context *c, int first, int end)
 {
     for (int row = first; row < end; row++) {
         uint32_t start = stage_start(c);
-        struct row_job job = { c, row, NULL };
+        struct row_job job = { .c = c, .row = row };
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
         smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
         list_movers(c, row);

@@ -62,7 +62,7 @@ static inline void smear_transform_vertex(struct smear_homogeneous *out,
     out->x = transform_row(p->m[0], v);
     out->y = transform_row(p->m[1], v);
     out->w = transform_row(p->m[2], v);
-    out->distance = p->orthographic ? transform_row(p->m[3], v) : out->w;
+    out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
 }
 
 /* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product first, so nothing is lost but the last bits. */
@@ -102,7 +102,7 @@ static inline void project(struct smear_screen *out, const struct smear_projecti
     out->y = (viewport->height << 7) + y;
 
     int32_t depth;
-    if (p->orthographic)
+    if (is_orthographic(p))
         depth = times_recip(sub_wrap(p->far_distance, in->distance), (uint32_t)p->depth_mantissa, p->depth_shift);
     else
         depth = times_recip(p->depth_mantissa, r, p->depth_shift + zeros);

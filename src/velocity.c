@@ -185,7 +185,7 @@ void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool 
 {
     int32_t still = !unknown ? 0 : t->velocity8 != NULL ? SMEAR_VELOCITY_UNKNOWN8 : SMEAR_VELOCITY_UNKNOWN16;
     velocity_write(t, at, still, still);
-    if (t->inspect != NULL)
+    if (target_is_inspected(t))
         t->inspect[2 * at] = t->inspect[2 * at + 1] = 0;
 }
 
@@ -218,7 +218,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
                 step[i] = (int32_t)(((int64_t)(stored_next[i] - stored[i]) * inverse[n] + 0x8000) >> 16);
-                if (t->inspect != NULL)
+                if (target_is_inspected(t))
                     wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }
         }
@@ -227,7 +227,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
         for (; x < stop; x++, at++, z += (uint32_t)p->dz) {
             if (is_drawn(p, x - p->a, z, depth)) {
                 velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
-                if (t->inspect != NULL) {
+                if (target_is_inspected(t)) {
                     t->inspect[2 * at] = (int32_t)((int64_t)ix * s->frame->inspect_scale >> 22);
                     t->inspect[2 * at + 1] = (int32_t)((int64_t)iy * s->frame->inspect_scale >> 22);
                 }

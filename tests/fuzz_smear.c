@@ -347,8 +347,8 @@ static smear_desc take_desc(struct source *s)
     if (kind & 64)
         d.tile = (int16_t)(8 << take_range(s, 0, 3));
     d.timed = kind >> 7;
-    if (d.sharp && !d.timed)
-        d.band_rows = (int16_t)(take_range(s, 0, 8) * 8);
+    if (!d.timed)
+        d.band_rows = (int16_t)(take_range(s, 0, 8) * (d.sharp ? 8 : 2));
     return d;
 }
 

@@ -46,6 +46,10 @@ static enum outcome outcome_of(const struct tape *tape)
             return REFUSED;
         if (f->frame->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
             return REFUSED;
+        if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
+            || ((f->frame->turn_scale | f->frame->way_scale | f->frame->object_scale) != 0 && !SMEAR_WITH_SCALES)
+            || ((f->frame->shutter_mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter_us != 0) && !SMEAR_WITH_SHUTTER_MODES))
+            return REFUSED;
         if (method == SMEAR_DEFAULT_METHOD && !d->timed && !d->sharp && !SMEAR_WITH_RECONSTRUCT)
             outcome = OTHER_METHODS;
         if (d->timed && (method == SMEAR_DEFAULT_METHOD || method == SMEAR_AUTO)
@@ -54,7 +58,7 @@ static enum outcome outcome_of(const struct tape *tape)
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;
-            if (draw->id != 0 && !SMEAR_WITH_IDS)
+            if ((draw->id != 0 && !SMEAR_WITH_IDS) || (draw->billboard != 0 && !SMEAR_WITH_BILLBOARDS))
                 return REFUSED;
             if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
                 || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))

@@ -591,11 +591,12 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     desc.passes = o->method == SMEAR_PINGPONG ? 2 : 0;
     desc.half = o->method == SMEAR_HALF;
     desc.accumulate = o->method == SMEAR_ACCUMULATE;
+    desc.layers = o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED;
     desc.flush = note_band;
     desc.user = &n;
     size_t bytes = smear_memory_size(&desc);
     void *memory = malloc(bytes);
-    uint32_t count[TILES_METHODS] = { 0 };
+    uint32_t count[TILES_METHODS] = { 0 }, kinds[TILES_KINDS] = { 0 };
     smear_stats s;
     CHECK_EQ(smear_init(&n.ctx, &desc, memory, bytes), SMEAR_OK);
     CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
@@ -604,6 +605,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     for (int i = 0; i < n.tiles.columns * n.tiles.rows; i++) {
         const struct tile_note *tile = &n.tiles.note[i];
         count[tile->method]++;
+        kinds[tile->kind]++;
         CHECK(tile->method == TILES_NONE ? tile->samples == 1 : tile->samples > 1);
     }
     CHECK_EQ(count[TILES_NONE], s.tiles_none);
@@ -615,6 +617,13 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     CHECK_EQ(count[TILES_SMOOTH], s.tiles_smooth);
     CHECK_EQ(count[TILES_SUBFRAMES], s.tiles_subframes);
     CHECK_EQ(count[TILES_TIMEMASK], s.tiles_timemask);
+    CHECK_EQ(count[TILES_OBJECT], s.tiles_object);
+    CHECK_EQ(count[TILES_LAYERED], s.tiles_layered);
+    CHECK_EQ(kinds[TILES_STILL], s.tiles_still);
+    CHECK_EQ(kinds[TILES_UNIFORM], s.tiles_uniform);
+    CHECK_EQ(kinds[TILES_COMPLEX], s.tiles_complex);
+    /* one of the scenes has a still camera */
+    CHECK(o->method == SMEAR_NONE || o->method == SMEAR_CAMERA || kinds[TILES_UNIFORM] + kinds[TILES_COMPLEX] > 0);
     free(memory);
     tiles_close(&n.tiles);
 }
@@ -622,7 +631,8 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
 static void test_tiles_are_noted_as_they_are_counted(void)
 {
     static const smear_method methods[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES,
-                                            SMEAR_TIMEMASK, SMEAR_AUTO, SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF };
+                                            SMEAR_TIMEMASK, SMEAR_AUTO, SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF,
+                                            SMEAR_OBJECT, SMEAR_LAYERED };
     static const char *const scenes[] = { "demo/drone", "suite/textured" };
     struct failure f = { "" };
     for (int k = 0; k < 2; k++) {

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRIANGLES = 12000, MAX_FRAMES = 128, ROUNDS = 20000 };
+enum { TRIANGLES = 12000, MAX_FRAMES = 200, ROUNDS = 20000 };
 
 static const char *const scenes[] = { "demo/race", "demo/drone", "suite/arena", "suite/dolly",
                                       "suite/propeller", "suite/swarm", "peer/E", "peer/B64" };
@@ -28,6 +28,9 @@ static const struct {
     { "none", SMEAR_NONE, 0 },           { "accumulate", SMEAR_ACCUMULATE, 4 },
     { "reconstruct", SMEAR_RECONSTRUCT, 0 }, { "subframes", SMEAR_SUBFRAMES, 0 },
     { "timemask", SMEAR_TIMEMASK, 0 },   { "auto", SMEAR_AUTO, 0 },
+    { "camera", SMEAR_CAMERA, 0 },       { "pingpong", SMEAR_PINGPONG, 0 },
+    { "half", SMEAR_HALF, 0 },           { "object", SMEAR_OBJECT, 0 },
+    { "layered", SMEAR_LAYERED, 0 },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes, METHODS = sizeof methods / sizeof *methods };
 
@@ -79,9 +82,12 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.format = SMEAR_RGB565;
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
-        desc.sharp = methods[m].method != SMEAR_RECONSTRUCT;
+        desc.sharp = !smear_method_is_filter(methods[m].method);
         desc.timed = smear_method_is_timed(methods[m].method);
         desc.accumulate = methods[m].method == SMEAR_ACCUMULATE;
+        desc.passes = methods[m].method == SMEAR_PINGPONG ? 2 : 0;
+        desc.half = methods[m].method == SMEAR_HALF;
+        desc.layers = methods[m].method == SMEAR_OBJECT || methods[m].method == SMEAR_LAYERED;
         desc.flush = throw_away;
         snprintf(name, sizeof name, "%.5s-%d-%s", strchr(scene_name, '/') + 1, size[0],
                  methods[m].name);

@@ -115,6 +115,10 @@ png_to_text() {
 claim "pixels are enlarged by whole numbers" enlarged
 claim "SIGTERM ends it" end
 
+claim "a picture that stands does not tear" eval 'start $race --zoom 1 --paused --bus 3000000 --panel-hz 60 &&
+    key 0x2e && shows --frames 1-1'
+claim "ends after it" end
+
 timed() { # OPTIONS...: view's figures
     "$smear" view $race --out x11 --size 640x480 --frames 12 --times "$@" >times || return 1
     sed 's/.*window_percent=\([0-9.]*\) screen=\(.*\)/\1 \2/' times

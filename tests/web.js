@@ -148,6 +148,7 @@ const tests = {
     },
     "equal bits with SIMD, without, and on the host": async () => {
         const settings = ["", "&scene=drone", "&method=timemask", "&method=reconstruct&quality=fine", "&method=accumulate", "&method=subframes&shutter=360", "&method=none",
+            "&method=camera", "&method=pingpong", "&method=half&quality=draft", "&method=object", "&method=layered&quality=fine",
             "&fps=10&quality=fine", "&light=encoded", "&panel=grey", "&panel=oled&method=none", "&panel=rp2040&method=reconstruct", "&panel=round&method=reconstruct",
             "&panel=gba&method=reconstruct", "&panel=memlcd", "&panel=fb320&scene=drone"];
         const seen = new Set();
@@ -189,7 +190,7 @@ const tests = {
             check(await picture("right") !== before, id + " does not change the picture");
             last = now;
         }
-        for (const [label, key, value] of [["Shutter 0\u00b0", "shutter", 0], ["Method auto", "method", 5], ["Shutter 360\u00b0", "shutter", 360], ["Quality fine", "quality", 2], ["Frame rate 15 per second", "fps", 15]]) {
+        for (const [label, key, value] of [["Shutter 0\u00b0", "shutter", 0], ["Method auto", "method", 10], ["Shutter 360\u00b0", "shutter", 360], ["Quality fine", "quality", 2], ["Frame rate 15 per second", "fps", 15]]) {
             await browser.click('[aria-label="' + label + '"]');
             equal(await browser.run("return S." + key), value, label);
             await sameAsHost(label);
@@ -202,7 +203,7 @@ const tests = {
     },
     "settings are in the address, and come back": async () => {
         await open();
-        await browser.run("set({ shutter: 90, method: 4, quality: 0, fps: 60, panel: 'rp2040', scene: 'drone' }); S.split = 20; pause(true); step(1)");
+        await browser.run("set({ shutter: 90, method: methodNamed('timemask'), quality: 0, fps: 60, panel: 'rp2040', scene: 'drone' }); S.split = 20; pause(true); step(1)");
         await crc();
         const hash = await browser.run("return location.hash"), before = await crc();
         for (const part of ["shutter=90", "method=timemask", "quality=draft", "fps=60", "panel=rp2040", "scene=drone", "split=20", "paused=1", "frame="])
@@ -388,6 +389,12 @@ const tests = {
             await sameAsHost(label);
         }
         equal(seen.size, 4, "places of the ring");
+        const read = await browser.run("return readChart('setting,cost,rmse\\nnone,1,10\\nobject,2,3\\nobject plain 4,2,4\\nwarp 8,2,3\\ncamera 8,x,3\\ncamera 8,2,3\\npingpong spread,2,3\\nauto 2.8,2,3').map(r => r.setting + ':' + r.quality).join()");
+        equal(read, "none:3,object:3,camera 8:1,auto 2.8:-1", "a chart with methods that the page does not know");
+        const names = await browser.run("return METHODS.map(m => m.name).sort().join()");
+        const there = execFileSync(smear, ["help", "render"], { encoding: "utf8" });
+        for (const name of names.split(",")) check(there.includes(name), name + " is no method");
+        equal(names.split(",").length, 11, "methods");
     },
     "on a phone: nothing is cut off, and fingers find it": async () => {
         await browser.devtools("Emulation.setDeviceMetricsOverride", { width: 360, height: 740, deviceScaleFactor: 2, mobile: true });

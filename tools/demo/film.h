@@ -19,10 +19,7 @@ enum film_look {
     FILM_EXACT                  /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
 };
 
-enum {
-    FILM_INSTANTS = 64,
-    FILM_THREADS = 2
-};
+enum { FILM_INSTANTS = 64 };
 
 struct film {
     struct scene *scene;

@@ -2,8 +2,6 @@
 /* gallery.c - see gallery.h. */
 #include "gallery.h"
 
-#include "../cli/say.h"
-
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -50,7 +48,6 @@ static bool path_of(const struct gallery *gallery, const char *name, char path[M
 
 static void tell(const char *path, const char *what)
 {
-    say_progress_end();
     printf("%-34s %s\n", path, what);
     fflush(stdout);
 }
@@ -106,7 +103,6 @@ bool gallery_show(const struct gallery *gallery, const char *name, const char *w
             animation_cancel(writer);
             return false;
         }
-        say_progress(i + 1, count, "frame");
     }
     if (writer == NULL)
         return fail(f, "has no frames");

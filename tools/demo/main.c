@@ -14,10 +14,14 @@
 #include "night.h"
 
 #include "../cli/say.h"
+#include "../scenes/builtin.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 /* ------------------------------------------------------------------ exhibits */
 
@@ -39,9 +43,9 @@ struct exhibit {
     double time;                /* or, with 0, at the scene's */
 };
 
-/* A scene and what is shown of it. */
+/* A scene and what is shown of it: what one process does at a time. */
 struct room {
-    const char *builtin;        /* a name of the catalog, or */
+    const char *builtin;        /* demo/..., or */
     bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo, or */
     const struct diorama_kind *diorama;                     /* one made of assets */
     const struct exhibit *exhibit;
@@ -61,6 +65,9 @@ static const struct exhibit race[] = {
     { .name = "race-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
     { .name = "race-640.png", .kind = BLURRED, .width = 640, .height = 480,
       .what = "blurred, 640x480" },
+};
+
+static const struct exhibit race_film[] = {
     { .name = "race.gif", .kind = BLURRED, .width = 240, .height = 180, .frames = 60,
       .what = "blurred, a loop of two seconds" },
 };
@@ -91,6 +98,9 @@ static const struct exhibit rally[] = {
     { .name = "rally-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
     { .name = "rally-640.png", .kind = BLURRED, .width = 640, .height = 480,
       .what = "blurred, 640x480" },
+};
+
+static const struct exhibit rally_film[] = {
     { .name = "rally.gif", .kind = BLURRED, .width = 240, .height = 180,
       .frames = RALLY_LOOP_FRAMES, .what = "blurred, a loop of two seconds" },
 };
@@ -118,11 +128,14 @@ static const struct exhibit coins[] = {
     { .name = "coins-pair.png", .kind = PAIR, .what = "a jump for turning coins: sharp | blurred" },
 };
 
+/* The longest first, so that all cores end about together. */
 static const struct room demo_rooms[] = {
+    { .builtin = "demo/race", .exhibit = race_film, .count = COUNT_OF(race_film) },
+    { .diorama = &diorama_rally, .exhibit = rally_film, .count = COUNT_OF(rally_film) },
+    { .diorama = &diorama_rally, .exhibit = rally, .count = COUNT_OF(rally) },
     { .builtin = "demo/race", .exhibit = race, .count = COUNT_OF(race) },
     { .builtin = "demo/drone", .exhibit = drone, .count = COUNT_OF(drone) },
     { .open = night_open, .exhibit = night, .count = COUNT_OF(night) },
-    { .diorama = &diorama_rally, .exhibit = rally, .count = COUNT_OF(rally) },
     { .diorama = &diorama_pass, .exhibit = pass, .count = COUNT_OF(pass) },
     { .diorama = &diorama_chase, .exhibit = chase, .count = COUNT_OF(chase) },
     { .diorama = &diorama_dance, .exhibit = dance, .count = COUNT_OF(dance) },
@@ -265,7 +278,7 @@ static bool open_room(const struct room *room, const char *assets, struct scene 
 {
     if (room->diorama != NULL)
         return diorama_open(room->diorama, assets, out, f);
-    return room->open != NULL ? room->open(out, f) : scene_builtin(room->builtin, out, f);
+    return room->open != NULL ? room->open(out, f) : demo_make(room->builtin, out, f);
 }
 
 /* Missing models are no error of the demo. */
@@ -298,6 +311,76 @@ static int show_room(const struct room *room, const char *assets, const struct g
     return status;
 }
 
+/* ------------------------------------------------------------------ on every core */
+
+struct tour {
+    const struct room *room;
+    int count;
+    const char *assets;
+    const struct gallery *gallery;
+};
+
+/* Rooms whose numbers come out of the queue, until it is empty. */
+static int show_from(const struct tour *tour, int queue)
+{
+    unsigned char number;
+    int status = STATUS_OK;
+    for (;;) {
+        ssize_t got = read(queue, &number, 1);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got != 1)
+            return status;
+        int result = show_room(&tour->room[number], tour->assets, tour->gallery);
+        if (result != STATUS_OK)
+            status = result;
+    }
+}
+
+static int core_count(void)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : cores > 64 ? 64 : (int)cores;
+}
+
+/* A process per core. They take the rooms' numbers from a pipe. */
+static int show_all(const struct tour *tour)
+{
+    int queue[2], helpers = 0, status;
+    if (pipe(queue) != 0) {
+        struct failure f = { "" };
+        fail(&f, "no pipe (%s)", strerror(errno));
+        return say_bad_input("demo", &f);
+    }
+    for (int i = 0; i < tour->count; i++) {
+        unsigned char number = (unsigned char)i;
+        while (write(queue[1], &number, 1) < 0 && errno == EINTR)
+            continue;
+    }
+    close(queue[1]);
+    fflush(stdout);
+    while (helpers < core_count() - 1 && helpers < tour->count - 1) {
+        pid_t process = fork();
+        if (process == 0)
+            _exit(show_from(tour, queue[0]));
+        if (process < 0)
+            break;                      /* the rest have more to do */
+        helpers++;
+    }
+    status = show_from(tour, queue[0]);
+    for (; helpers > 0; helpers--) {
+        int result;
+        while (wait(&result) < 0 && errno == EINTR)
+            continue;
+        if (!WIFEXITED(result))
+            status = STATUS_BAD_INPUT;
+        else if (WEXITSTATUS(result) != STATUS_OK)
+            status = WEXITSTATUS(result);
+    }
+    close(queue[0]);
+    return status;
+}
+
 /* Null when there are none. */
 static const char *find_assets(const char *name)
 {
@@ -314,21 +397,16 @@ int main(int argc, char **argv)
 {
     struct gallery gallery;
     struct failure f = { "" };
-    int status = STATUS_OK;
     bool is_readme = argc > 1 && strcmp(argv[1], "--readme") == 0;
     if (argc != (is_readme ? 4 : 3) || argv[argc - 1][0] == '-')
         return say_bad_usage("usage", "smear-demo [--readme] ASSETS|- FOLDER");
     const char *folder = argv[argc - 1];
     if (!gallery_open(&gallery, folder, &f))
         return say_bad_input(folder, &f);
-    const char *assets = find_assets(argv[argc - 2]);
-    const struct room *room = is_readme ? readme_rooms : demo_rooms;
-    int count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms);
-    for (int i = 0; i < count; i++) {
-        int result = show_room(&room[i], assets, &gallery);
-        if (result != STATUS_OK)
-            status = result;
-    }
+    const struct tour tour = { .room = is_readme ? readme_rooms : demo_rooms,
+                               .count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms),
+                               .assets = find_assets(argv[argc - 2]), .gallery = &gallery };
+    int status = show_all(&tour);
     printf("pictures in %s\n", folder);
     return status;
 }

@@ -3,8 +3,6 @@
 #include "builtin.h"
 #include "failures.h"
 
-#include <string.h>
-
 const struct scene_entry scene_catalog[] = {
     {"demo/race", "racing car chased by a drone, loops after 60 frames", demo_make},
     {"demo/drone", "drone and passing car before a still camera, loops after 60 frames", demo_make},
@@ -88,11 +86,3 @@ const struct scene_entry scene_catalog[] = {
 };
 
 const int scene_catalog_count = sizeof scene_catalog / sizeof *scene_catalog;
-
-bool scene_builtin(const char *name, struct scene *out, struct failure *f)
-{
-    for (int i = 0; i < scene_catalog_count; i++)
-        if (strcmp(scene_catalog[i].name, name) == 0)
-            return scene_catalog[i].make(name, out, f);
-    return fail(f, "there is no built-in scene of this name");
-}

@@ -13,11 +13,11 @@
 #include <string.h>
 
 const struct cost_core cost_cores[] = {
-    { "cortex-m0plus", { 0, 1437, 2180, 314, 483, 30565, 706, 1999, 250 }, 1.4 },
-    { "cortex-m3", { 0, 564, 1516, 202, 257, 12652, 378, 938, 95 }, 1.3 },
-    { "cortex-m4", { 0, 561, 1543, 202, 255, 12679, 375, 946, 95 }, 1.3 },
-    { "cortex-m7", { 0, 561, 1543, 202, 255, 12679, 375, 946, 95 }, 0.8 },
-    { "arm7tdmi", { 0, 564, 1516, 202, 257, 12652, 378, 938, 95 }, 3.0 },
+    { "cortex-m0plus", { 0, 1240, 3177, 114, 681, 20366, 180, 117, 418, 91, 0, 488, 691, 583, 744 }, 1.4 },
+    { "cortex-m3", { 0, 413, 2247, 62, 343, 9110, 54, 69, 161, 48, 0, 274, 331, 290, 415 }, 1.3 },
+    { "cortex-m4", { 0, 414, 2252, 62, 341, 9155, 53, 69, 160, 48, 0, 274, 330, 289, 421 }, 1.3 },
+    { "cortex-m7", { 0, 414, 2252, 62, 341, 9155, 53, 69, 160, 48, 0, 274, 330, 289, 421 }, 0.8 },
+    { "arm7tdmi", { 0, 413, 2247, 62, 343, 9110, 54, 69, 161, 48, 0, 274, 331, 290, 415 }, 3.0 },
     { NULL, { 0 }, 0 },
 };
 
@@ -31,24 +31,33 @@ const struct cost_core *cost_find(const char *name)
 
 void cost_count(const smear_stats *s, double work[COST_WORKS])
 {
-    double timed_tiles = s->tiles_subframes + s->tiles_timemask, instants = 1.0;
-    double samples[3] = { s->samples, 0.0, 0.0 };       /* taps, of subframes, of timemask */
-    bool accumulates = s->tiles_accumulate > 0;
-    if (accumulates && s->pixels > 0)
+    const struct {
+        enum cost_work work;
+        uint32_t tiles;
+    } method[] = {
+        { COST_ACCUMULATE, s->tiles_accumulate }, { COST_RECONSTRUCT, s->tiles_reconstruct },
+        { COST_CAMERA, s->tiles_camera },         { COST_PINGPONG, s->tiles_pingpong },
+        { COST_HALF, s->tiles_half },             { COST_OBJECT, s->tiles_object },
+        { COST_LAYERED, s->tiles_layered },       { COST_SUBFRAMES, s->tiles_subframes },
+        { COST_TIMEMASK, s->tiles_timemask + s->tiles_smooth },
+    };
+    enum { METHODS = sizeof method / sizeof *method };
+    const bool is_timed = s->tiles_subframes + s->tiles_timemask + s->tiles_smooth > 0;
+    const bool is_filtered = s->tiles_reconstruct + s->tiles_camera + s->tiles_pingpong + s->tiles_half > 0;
+    double tiles = 0.0, instants = 1.0;
+    if (s->tiles_accumulate > 0 && s->pixels > 0)
         instants = (double)s->samples / s->pixels;
-    if (timed_tiles > 0.0) {
-        samples[1] = s->samples * (s->tiles_subframes / timed_tiles);
-        samples[2] = s->samples - samples[1];
-    }
+    memset(work, 0, COST_WORKS * sizeof *work);
     work[COST_FRAME] = 1.0;
     work[COST_TRIANGLE_IN] = s->triangles_in * instants;
     work[COST_TRIANGLE_DRAWN] = s->triangles_drawn;
     work[COST_PIXEL] = s->pixels;
-    work[COST_TAP] = accumulates || timed_tiles > 0.0 ? 0.0 : samples[0];
-    work[COST_TIMED_TRIANGLE] = timed_tiles > 0.0 ? s->triangles_drawn : 0.0;
-    work[COST_SUBFRAMES] = samples[1];
-    work[COST_TIMEMASK] = samples[2];
-    work[COST_ACCUMULATED] = accumulates ? s->samples : 0.0;
+    work[COST_WINDOW] = is_filtered ? s->pixels : 0.0;
+    work[COST_TIMED_TRIANGLE] = is_timed ? s->triangles_drawn : 0.0;
+    for (int i = 0; i < METHODS; i++)
+        tiles += method[i].tiles;
+    for (int i = 0; i < METHODS && tiles > 0.0; i++)
+        work[method[i].work] = s->samples * (method[i].tiles / tiles);
 }
 
 double cost_us(const struct cost_core *core, double hz, const smear_stats *stats)

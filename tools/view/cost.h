@@ -12,11 +12,11 @@ enum cost_work {
     COST_TRIANGLE_IN,           /* submitted, once per instant */
     COST_TRIANGLE_DRAWN,
     COST_PIXEL,                 /* of the frame */
-    COST_TAP,                   /* of filters */
+    COST_WINDOW,                /* pixels of a frame that a filter has looked at */
     COST_TIMED_TRIANGLE,        /* drawn by a time-resolved method */
-    COST_SUBFRAMES,             /* samples, shared between these two by tiles */
+    /* samples, shared between methods by their tiles */
+    COST_ACCUMULATE, COST_RECONSTRUCT, COST_CAMERA, COST_PINGPONG, COST_HALF, COST_OBJECT, COST_LAYERED, COST_SUBFRAMES,
     COST_TIMEMASK,
-    COST_ACCUMULATED,           /* pixels of instants that are averaged */
     COST_WORKS
 };
 

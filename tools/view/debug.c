@@ -15,14 +15,12 @@ const char *const debug_legends[] = {
     [DEBUG_PICTURE] = NULL,
     [DEBUG_VELOCITY] = "colour: direction; bright: fast",
     [DEBUG_DEPTH] = "bright: near; blue: nothing",
-    [DEBUG_TILES] = "green still, yellow to red streaks, violet beyond reach",
-    [DEBUG_METHODS] = "grey none, warm filters, green smooth, blue subframes, violet timemask",
+    [DEBUG_TILES] = "green still, yellow uniform, red complex; violet edges: beyond reach",
+    [DEBUG_METHODS] = "grey none, warm filters, green smooth, blue subframes, violet timemask, pinks layers",
     [DEBUG_SAMPLES] = "black 1 a pixel, blue to yellow to white 64",
     [DEBUG_BANDS] = NULL,
     [DEBUG_WIRE] = NULL,
 };
-
-enum { BAR_WIDTH = 4 };
 
 /* ------------------------------------------------------------------ colours */
 
@@ -115,19 +113,11 @@ static void show_depth(const struct debug *d, const struct lane *lane, uint32_t 
 
 /* ------------------------------------------------------------------ tiles */
 
-static int tile_edge(const struct lane *lane)
-{
-    int edge = lane->setup.tile > 0 ? lane->setup.tile : 8;
-    while (lane->setup.tile == 0 && edge < lane->setup.reach)
-        edge *= 2;
-    return edge;
-}
-
 /* Longest displacement within the exposure in each tile, in pixels. */
-static void longest_of(const struct debug *d, const struct lane *lane, int edge, int columns,
-                       double *longest)
+static void longest_of(const struct debug *d, const struct lane *lane, double *longest)
 {
     const float *v = d->planes.velocity.value;
+    const int edge = lane->tiles.edge, columns = lane->tiles.columns;
     double open = lane->setup.present.shutter_degrees / 360.0;
     for (int y = 0; y < lane->setup.height; y++)
         for (int x = 0; x < lane->setup.width; x++, v += 3) {
@@ -145,85 +135,20 @@ static double around(const double *longest, int columns, int rows, int column, i
     return most;
 }
 
-/* Green: nothing within reach moves by half a pixel; yellow to red: the longest streak within
- * reach, up to the reach; violet: beyond it, so that a filter shortens it. */
-static uint32_t tile_color(double streak, int reach)
+static uint32_t kind_color(const struct tile_note *tile)
 {
-    double share = streak / (2.0 * reach);
-    if (streak < 0.5)
-        return 0x207040;
-    return share <= 1.0 ? rgb(0.9, 0.8 * (1.0 - share), 0.1) : 0xa030d0;
+    static const uint32_t color[TILES_KINDS] = { 0x207040, 0xe0c020, 0xe03018 };
+    return color[tile->kind];
 }
 
-/* Shares of a band's height, one above the other, in columns [x0, x1). */
-static void draw_bar(const struct lane *lane, const struct lane_band *b, int x0, int x1,
-                     const uint32_t *count, const uint32_t *color, int kinds, uint32_t *picture)
-{
-    uint32_t all = 0;
-    for (int k = 0; k < kinds; k++)
-        all += count[k];
-    for (int y = 0; y < b->height && all > 0; y++) {
-        double at = (y + 0.5) / b->height * all;
-        int kind = 0;
-        for (double end = count[0]; kind < kinds - 1 && at >= end; end += count[kind])
-            kind++;
-        for (int x = x0 > 0 ? x0 : 0; x < x1 && x < lane->setup.width; x++)
-            picture[(size_t)(b->y + y) * (size_t)lane->setup.width + (size_t)x] = color[kind];
-    }
-}
-
-/* What the library counted of each row of tiles. Left: green still, yellow uniform, red complex.
- * Right, by method: grey none, white accumulate, yellow reconstruct, blue subframes, violet
- * timemask. */
-static void draw_counts(const struct lane *lane, uint32_t *picture)
-{
-    static const uint32_t class_color[3] = { 0x30ff70, 0xffe030, 0xff4020 };
-    static const uint32_t method_color[5] = { 0x808080, 0xffffff, 0xffe030, 0x2080ff, 0xc040ff };
-    const smear_stats none = { 0 };
-    for (int i = 0; i < lane->band_count; i++) {
-        const smear_stats *to = &lane->band[i].counts;
-        const smear_stats *from = i > 0 ? &lane->band[i - 1].counts : &none;
-        const uint32_t classes[3] = { to->tiles_still - from->tiles_still,
-                                      to->tiles_uniform - from->tiles_uniform,
-                                      to->tiles_complex - from->tiles_complex };
-        const uint32_t methods[5] = { to->tiles_none - from->tiles_none,
-                                      to->tiles_accumulate - from->tiles_accumulate,
-                                      to->tiles_reconstruct - from->tiles_reconstruct,
-                                      to->tiles_subframes - from->tiles_subframes,
-                                      to->tiles_timemask - from->tiles_timemask };
-        draw_bar(lane, &lane->band[i], 0, BAR_WIDTH, classes, class_color, 3, picture);
-        draw_bar(lane, &lane->band[i], lane->setup.width - BAR_WIDTH, lane->setup.width, methods,
-                 method_color, 5, picture);
-    }
-}
-
-static bool show_tiles(const struct debug *d, const struct lane *lane, uint32_t *picture,
-                       struct failure *f)
-{
-    int edge = tile_edge(lane), width = lane->setup.width, height = lane->setup.height;
-    int columns = (width + edge - 1) / edge, rows = (height + edge - 1) / edge;
-    double *longest = calloc((size_t)columns * (size_t)rows, sizeof *longest);
-    if (longest == NULL)
-        return fail(f, "out of memory");
-    longest_of(d, lane, edge, columns, longest);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            uint32_t *p = &picture[(size_t)y * (size_t)width + (size_t)x];
-            double streak = around(longest, columns, rows, x / edge, y / edge);
-            *p = blend(grey_of(*p), tile_color(streak, lane->setup.reach),
-                       x % edge == 0 || y % edge == 0 ? 200 : 110);
-        }
-    draw_counts(lane, picture);
-    free(longest);
-    return true;
-}
-
-/* Grey none, white accumulate, yellow reconstruct, orange, brown and red the other filters, green smooth, blue
- * subframes, violet timemask. */
 static uint32_t method_color(const struct tile_note *tile)
 {
-    static const uint32_t color[] = { 0x505050, 0xffffff, 0xffe030, 0xff9020, 0xb07040, 0xff4020, 0x30d060,
-                                      0x2080ff, 0xc040ff };
+    static const uint32_t color[TILES_METHODS] = {
+        [TILES_NONE] = 0x505050,      [TILES_ACCUMULATE] = 0xffffff, [TILES_RECONSTRUCT] = 0xffe030,
+        [TILES_CAMERA] = 0xff9020,    [TILES_PINGPONG] = 0xb07040,   [TILES_HALF] = 0xff4020,
+        [TILES_SMOOTH] = 0x30d060,    [TILES_SUBFRAMES] = 0x2080ff,  [TILES_TIMEMASK] = 0xc040ff,
+        [TILES_OBJECT] = 0xffb0d8,    [TILES_LAYERED] = 0xff30a0,
+    };
     return color[tile->method];
 }
 
@@ -245,6 +170,26 @@ static void show_notes(const struct lane *lane, uint32_t (*color)(const struct t
             bool is_border = x % t->edge == 0 || y % t->edge == 0;
             *p = blend(grey_of(*p), is_border ? 0x000000 : color(tile), is_border ? 120 : 150);
         }
+}
+
+/* A streak longer than twice the reach is shortened by filters: the edges of tiles that hold one, or lie beside one that
+ * does, are violet. */
+static bool show_kinds(const struct debug *d, const struct lane *lane, uint32_t *picture, struct failure *f)
+{
+    const struct tiles *t = &lane->tiles;
+    const int width = lane->setup.width;
+    double *longest = calloc((size_t)t->columns * (size_t)t->rows, sizeof *longest);
+    if (longest == NULL)
+        return fail(f, "out of memory");
+    longest_of(d, lane, longest);
+    show_notes(lane, kind_color, picture);
+    for (int y = 0; y < lane->setup.height; y++)
+        for (int x = 0; x < width; x++)
+            if ((x % t->edge == 0 || y % t->edge == 0)
+                && around(longest, t->columns, t->rows, x / t->edge, y / t->edge) > 2.0 * lane->setup.reach)
+                picture[(size_t)y * (size_t)width + (size_t)x] = 0xa030d0;
+    free(longest);
+    return true;
 }
 
 /* ------------------------------------------------------------------ bands, wires */
@@ -281,7 +226,7 @@ bool debug_draw(struct debug *d, enum debug_kind kind, const struct lane *lane,
     switch (kind) {
     case DEBUG_VELOCITY: show_velocity(d, lane, picture); return true;
     case DEBUG_DEPTH: show_depth(d, lane, picture); return true;
-    case DEBUG_TILES: return show_tiles(d, lane, picture, f);
+    case DEBUG_TILES: return show_kinds(d, lane, picture, f);
     case DEBUG_METHODS: show_notes(lane, method_color, picture); return true;
     case DEBUG_SAMPLES: show_notes(lane, samples_color, picture); return true;
     case DEBUG_BANDS: show_bands(lane, picture); return true;

@@ -12,8 +12,7 @@ enum debug_kind {
     DEBUG_PICTURE,
     DEBUG_VELOCITY,             /* colour: direction; brightness: length */
     DEBUG_DEPTH,
-    DEBUG_TILES,                /* longest velocity in and around each tile; of each row of tiles the
-                                 * share of classes (left edge) and of methods (right edge) */
+    DEBUG_TILES,                /* how what each tile shows moves */
     DEBUG_METHODS,              /* what each tile got */
     DEBUG_SAMPLES,              /* and how many samples per pixel: brightness, by powers of two */
     DEBUG_BANDS,                /* what is handed to the display at once */

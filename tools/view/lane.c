@@ -16,9 +16,7 @@ static void note_band(void *user, const smear_band *band)
     tiles_note(&lane->tiles, lane->device.ctx, band);
     if (lane->band_count == LANE_MAX_BANDS)
         return;
-    struct lane_band *b = &lane->band[lane->band_count++];
-    *b = (struct lane_band){ .y = band->y, .height = band->height, .bytes = band->size };
-    smear_get_stats(lane->device.ctx, &b->counts);
+    lane->band[lane->band_count++] = (struct lane_band){ .y = band->y, .height = band->height };
 }
 
 static bool open_parts(struct lane *lane, struct failure *f)

@@ -17,8 +17,6 @@ enum { LANE_MAX_BANDS = 256 };      /* rows of 8 pixels at a height of 2048 */
 
 struct lane_band {
     int y, height;
-    uint32_t bytes;
-    smear_stats counts;             /* of the frame, up to this band */
 };
 
 struct lane {

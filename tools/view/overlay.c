@@ -76,6 +76,28 @@ static void add_stages(struct page *p, const struct view *v)
         ms(s->time_convert));
 }
 
+/* Tiles by the methods that they got. */
+static void add_methods(struct page *p, const smear_stats *s)
+{
+    const struct {
+        const char *name;
+        uint32_t tiles;
+    } list[] = {
+        { "none", s->tiles_none },           { "accumulate", s->tiles_accumulate },
+        { "reconstruct", s->tiles_reconstruct }, { "camera", s->tiles_camera },
+        { "pingpong", s->tiles_pingpong },   { "half", s->tiles_half },
+        { "smooth", s->tiles_smooth },       { "subframes", s->tiles_subframes },
+        { "timemask", s->tiles_timemask },   { "object", s->tiles_object },
+        { "layered", s->tiles_layered },
+    };
+    char line[TEXT_COLUMNS + 1] = " ";
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        if (list[i].tiles > 0)
+            snprintf(line + strlen(line), sizeof line - strlen(line), " %s %lu", list[i].name,
+                     (unsigned long)list[i].tiles);
+    add(p, "%s", line);
+}
+
 static void add_counts(struct page *p, const struct view *v)
 {
     const smear_stats *s = &v->main.stats;
@@ -85,13 +107,7 @@ static void add_counts(struct page *p, const struct view *v)
         add(p, "  drawn in parts: split %lu times", (unsigned long)s->triangles_split);
     add(p, "tiles %lu still %lu uniform %lu complex", (unsigned long)s->tiles_still,
         (unsigned long)s->tiles_uniform, (unsigned long)s->tiles_complex);
-    add(p, "  none %lu reconstruct %lu smooth %lu", (unsigned long)s->tiles_none,
-        (unsigned long)s->tiles_reconstruct, (unsigned long)s->tiles_smooth);
-    if (s->tiles_camera + s->tiles_pingpong + s->tiles_half > 0)
-        add(p, "  camera %lu pingpong %lu half %lu", (unsigned long)s->tiles_camera,
-            (unsigned long)s->tiles_pingpong, (unsigned long)s->tiles_half);
-    add(p, "  subframes %lu timemask %lu", (unsigned long)s->tiles_subframes,
-        (unsigned long)s->tiles_timemask);
+    add_methods(p, s);
     add(p, "samples %lu, %.1f per pixel", (unsigned long)s->samples,
         (double)s->samples / s->pixels);
     if (v->main.options.arena > 0)

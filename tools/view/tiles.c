@@ -23,37 +23,52 @@ void tiles_close(struct tiles *t)
     *t = (struct tiles){ .note = NULL };
 }
 
+static const struct tile_note still = { TILES_NONE, TILES_STILL, 1 };
+
 /* The chooser is asked again for what it has said of this tile. */
 static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
 {
     struct smear_tile_choice choice;
     if (load->method == TILE_COPY)
-        return (struct tile_note){ TILES_NONE, 1 };
+        return still;
     smear_choose(&choice, &c->chooser, load);
     if (load->method == TILE_SUBFRAMES)
-        return (struct tile_note){ TILES_SUBFRAMES, (uint16_t)choice.instants };
-    return (struct tile_note){ load->method == TILE_SMOOTH ? TILES_SMOOTH : TILES_TIMEMASK,
-                               (uint16_t)choice.timemask.slots };
+        return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
+    if (load->method == TILE_SMOOTH)
+        return (struct tile_note){ TILES_SMOOTH, TILES_UNIFORM, (uint16_t)choice.timemask.slots };
+    return (struct tile_note){ TILES_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
 }
 
 /* The window that the method filters knows which tiles motion reaches. */
 static struct tile_note filtered_tile(const smear_context *c, int row, int column)
 {
+    const uint8_t kind = window_around(c->filtered, row)[column].kind;
     uint8_t method = c->frame.method == SMEAR_CAMERA     ? TILES_CAMERA
                      : c->frame.method == SMEAR_PINGPONG ? TILES_PINGPONG
                      : c->frame.method == SMEAR_HALF     ? TILES_HALF
                                                          : TILES_RECONSTRUCT;
-    if (window_around(c->filtered, row)[column].kind == TILE_STILL)
-        return (struct tile_note){ TILES_NONE, 1 };
-    return (struct tile_note){ method, c->frame.samples > 1 ? c->frame.samples : 2 };
+    if (kind == TILE_STILL)
+        return still;
+    return (struct tile_note){ method, kind == TILE_UNIFORM ? TILES_UNIFORM : TILES_COMPLEX,
+                               c->frame.samples > 1 ? c->frame.samples : 2 };
+}
+
+/* Running sums take one pixel in and one out, however long the streak. */
+static struct tile_note layers_tile(const smear_context *c, int column)
+{
+    const uint8_t reached = c->window.moving[column];
+    if (reached == 0)
+        return still;
+    if ((reached & TILE_LAYERED) == 0)
+        return (struct tile_note){ TILES_OBJECT, TILES_UNIFORM, 2 };
+    return (struct tile_note){ TILES_LAYERED, TILES_COMPLEX, c->frame.samples > 1 ? c->frame.samples : 2 };
 }
 
 static struct tile_note tile_of(const smear_context *c, int row, int column)
 {
-    const uint16_t samples = c->frame.samples > 0 ? c->frame.samples : 8;
     switch (c->frame.method) {
     case SMEAR_ACCUMULATE:
-        return (struct tile_note){ TILES_ACCUMULATE, samples };
+        return (struct tile_note){ TILES_ACCUMULATE, TILES_COMPLEX, c->frame.samples > 0 ? c->frame.samples : 8 };
     case SMEAR_RECONSTRUCT:
     case SMEAR_CAMERA:
     case SMEAR_PINGPONG:
@@ -63,8 +78,11 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO:
         return timed_tile(c, &c->row_movers.load[column]);
+    case SMEAR_OBJECT:
+    case SMEAR_LAYERED:
+        return layers_tile(c, column);
     default:
-        return (struct tile_note){ TILES_NONE, 1 };
+        return still;
     }
 }
 

@@ -253,7 +253,7 @@ static bool draw_left(struct view *v, const struct instant *instant, struct fail
 }
 
 /* What the bus makes of the frame: rows that the panel has read too early are those of the frame
- * before. */
+ * before. A picture that stands is read again, and what is not the frame itself is no panel's. */
 static void send(struct view *v)
 {
     size_t row_bytes = (size_t)v->width * sizeof *v->picture;
@@ -264,9 +264,9 @@ static void send(struct view *v)
         v->board_us = cost_us(v->wish.core, v->wish.cpu_hz, &v->main.stats);
     double write_us = v->board_us + v->wire_us, frame_us = fmax(write_us, 1e6 / view_fps(v));
     int tear = bus_tear(&v->wish.bus, v->tick, frame_us, write_us, v->height, &old_above);
-    bool is_first = v->tick == 0;
+    bool is_whole = v->tick == 0 || v->is_paused || v->debug_kind != DEBUG_PICTURE;
     for (int y = 0; y < v->height; y++) {
-        bool is_old = !is_first && tear < v->height && (y < tear) == old_above;
+        bool is_old = !is_whole && tear < v->height && (y < tear) == old_above;
         size_t at = (size_t)y * (size_t)v->width;
         memcpy(v->picture + at, (is_old ? v->before : v->whole) + at, row_bytes);
     }

@@ -8,29 +8,35 @@
 
 "use strict";
 const $ = id => document.getElementById(id);
-const scriptStart = performance.now();
 
 // ------------------------------------------------------------------ settings
 
+// samples: of each quality; 0: the method has none to choose.
 const METHODS = [
     { name: "none", label: "sharp", hint: "One instant. What every small renderer shows.", samples: [0, 0, 0] },
     { name: "accumulate", label: "accumulate", hint: "The mean of whole sharp frames: what you would write yourself.", samples: [4, 8, 16] },
     { name: "reconstruct", label: "reconstruct", hint: "The filter of GPU engines: one sharp frame, smeared along its motion.", samples: [4, 8, 16] },
+    { name: "camera", label: "camera", hint: "The camera's motion alone, told from depth: nothing is done per vertex.", samples: [4, 8, 16] },
+    { name: "pingpong", label: "ping-pong", hint: "Few taps, twice over: the second round smooths the first.", samples: [0, 0, 0] },
+    { name: "half", label: "half", hint: "reconstruct at half the size, mixed in by the amount of motion.", samples: [4, 8, 16] },
+    { name: "object", label: "object", hint: "Each moving object along its one velocity, over the still scene: long streaks cost no more.", samples: [0, 0, 0] },
+    { name: "layered", label: "layered", hint: "What moves, by velocities of its pixels, over the still scene.", samples: [4, 8, 16] },
     { name: "subframes", label: "subframes", hint: "Only tiles in which something moves are drawn at several instants.", samples: [8, 16, 32] },
     { name: "timemask", label: "timemask", hint: "For each pixel, the time each triangle covers it, in closed form.", samples: [8, 16, 32] },
-    { name: "auto", label: "auto", hint: "Each tile gets the cheapest of these that is good enough.", samples: [0, 0, 0] },
+    { name: "auto", label: "auto", hint: "Each tile gets the cheapest method that is good enough.", samples: [0, 0, 0] },
 ];
+const methodNamed = name => METHODS.findIndex(m => m.name === name);
 const QUALITIES = ["draft", "balanced", "fine"];
 const RATES = [10, 15, 30, 60];
 const PANELS = [                        // those of boards are added when the module has told them
-    { name: "pocket", label: "240\u00d7240 colour LCD, RGB565", shell: "pocket", words: ["--size", "240x240", "--format", "rgb565"], board: -1 },
+    { name: "pocket", label: "240\u00d7240 LCD, RGB565", shell: "pocket", words: ["--size", "240x240", "--format", "rgb565"], board: -1 },
     { name: "grey", label: "128\u00d764 OLED of 16 greys, L4", shell: "board", words: ["--size", "128x64", "--format", "l4"], board: -1 },
 ];
 const SHELLS = { oled: "board", rp2040: "pocket", round: "watch", gba: "gba", memlcd: "memlcd", fb320: "linux" };
 const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
     memlcd: "400\u00d7240 memory LCD, 1 bit", fb320: "320\u00d7240 framebuffer" };
 const SCENES = [{ name: "race", label: "Racing car, chased" }, { name: "drone", label: "Drone, fixed camera" }];
-const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: 5, quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
+const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: methodNamed("auto"), quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
 
 let S = { ...DEFAULTS };
 let model = null;                       // { name, files } of what has been dropped
@@ -99,7 +105,7 @@ class Engine {
         this.worker = new Worker(workerUrl);
         this.worker.onmessage = e => this.take(e.data);
         this.worker.onerror = e => { e.preventDefault(); this.die(e.message || "the worker stopped"); };
-        const first = compiled ? { module: compiled } : { text: $("packText").textContent.trim(), simd: hasSimd };
+        const first = compiled ? { module: compiled } : { unlzma: packed("unlzma"), text: packed("modules"), simd: hasSimd };
         this.started = this.ask("start", first, 20000).then(a => {
             if (a.module) compiled = a.module;
             return a;
@@ -384,7 +390,8 @@ function showNumbers(f) {
 }
 
 function tilesText(s) {
-    const parts = [["still", s.still], ["smooth", s.smooth], ["subframes", s.subframes], ["timemask", s.timemask], ["filtered", s.reconstruct]];
+    const parts = [["still", s.still], ["smooth", s.smooth], ["subframes", s.subframes], ["timemask", s.timemask], ["filtered", s.filtered],
+        ["object", s.object], ["layered", s.layered]];
     return parts.filter(p => p[1] > 0).map(p => count(p[1]) + " " + p[0]).join(", ") || "whole frames";
 }
 
@@ -459,7 +466,8 @@ const knobs = [
       hint: v => {
           const m = METHODS[S.method];
           if (m.name === "auto") return "Error aimed at: " + ["4", "1.5", "0.5"][v] + " of 255 codes.";
-          return m.samples[v] ? m.samples[v] + " samples." : "A sharp frame has none.";
+          if (m.name === "none") return "A sharp frame has none.";
+          return m.samples[v] ? m.samples[v] + " samples." : "This method has but one.";
       } },
     { key: "fps", label: "Frame rate", min: 0, max: 3, step: 1, stops: RATES, text: v => v + " per second", list: RATES,
       hint: v => v <= 15 ? "What small machines manage: the sharp side stutters."
@@ -534,7 +542,7 @@ function showScene() {
     $("right").setAttribute("aria-label", "The scene as the panel shows it, " + scene.width + " by " + scene.height + " pixels, blurred");
 }
 
-let blurred = 5;
+let blurred = DEFAULTS.method;
 function toggleBlur() {
     if (S.method !== 0) blurred = S.method;
     set({ method: S.method !== 0 ? 0 : blurred });
@@ -665,17 +673,30 @@ function bindControls() {
 
 // ------------------------------------------------------------------ chart
 
-const CURVES = [["accumulate", "accumulate: N whole frames", "#a9b2c3"], ["reconstruct", "reconstruct: N taps", "#f0b429"], ["subframes", "subframes: up to N", "#35c48d"],
+const CURVES = [["accumulate", "accumulate: N whole frames", "#a9b2c3"], ["reconstruct", "reconstruct: N taps", "#f0b429"],
+    ["camera", "camera: from depth", "#d8875a"], ["pingpong", "ping-pong: 8 and 8 taps", "#a6d854"], ["half", "half: at half the size", "#e59ad6"],
+    ["object", "object: one velocity each", "#66d9ef"], ["layered", "layered: N taps", "#b79cf0"], ["subframes", "subframes: up to N", "#35c48d"],
     ["timemask", "timemask: N slots", "#5aa9f5"], ["auto", "auto", "#ff7ab8"]];
 
-// [{ setting, method, quality or -1, cost, rmse }]
-const chartRows = pageTexts[2].trim().split("\n").slice(1).map(line => {
-    const [setting, cost, rmse] = line.split(","), [method, at] = setting.split(" "), index = METHODS.findIndex(m => m.name === method);
-    const quality = method === "auto" ? QUALITIES.indexOf(at) : method === "none" ? 0 : METHODS[index].samples.indexOf(+at);
-    return { setting, method, index, quality, label: at || "sharp", cost: +cost, rmse: +rmse };
-}).filter(r => !r.setting.includes("mended"));
+const ANY = 3;                          // quality, of methods that have but one
 
-const current = () => chartRows.find(r => METHODS[S.method].name === "none" || S.shutter === 0 ? r.method === "none" : r.index === S.method && r.quality === S.quality);
+// [{ setting, method, index, quality, label, cost, rmse }] of chart.csv; what the page does not offer is left out.
+function readChart(text) {
+    const rows = text.trim().split("\n").slice(1).map(line => {
+        const [setting, cost, rmse] = line.split(","), [method, at, more] = setting.split(" "), index = methodNamed(method);
+        if (index < 0 || more || !(cost > 0) || !(rmse > 0)) return null;
+        const samples = METHODS[index].samples, quality = method === "auto" ? QUALITIES.indexOf(at) : at ? samples.indexOf(+at) : samples[0] ? -1 : ANY;
+        return method !== "auto" && at && !(+at > 0) ? null : { setting, method, index, quality, label: at || METHODS[index].label, cost: +cost, rmse: +rmse };
+    });
+    return rows.filter(r => r);
+}
+
+const chartRows = readChart(pageTexts[2]), sharpRow = chartRows.find(r => r.method === "none");
+
+function current() {
+    const method = S.shutter === 0 ? 0 : S.method;
+    return chartRows.find(r => r.index === method && (r.quality === S.quality || r.quality === ANY));
+}
 
 function svg(name, attributes, text) {
     const e = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -698,13 +719,16 @@ function buildChart() {
     c.append(svg("text", { x: (LEFT + RIGHT) / 2, y: BOTTOM + 38, "text-anchor": "middle" }, "cost of a frame, relative to the sharp one"));
     const middle = (TOP + BOTTOM) / 2;
     c.append(svg("text", { x: 14, y: middle, "text-anchor": "middle", transform: "rotate(-90 14 " + middle + ")" }, "error against the truth, in codes of 255"));
-    CURVES.forEach(([method, label, color], i) => {
+    let legend = 0;
+    CURVES.forEach(([method, label, color]) => {
         const rows = chartRows.filter(r => r.method === method).sort((a, b) => a.cost - b.cost);
+        if (rows.length === 0) return;
         c.append(svg("polyline", { points: rows.map(r => toX(r.cost) + "," + toY(r.rmse)).join(" "), fill: "none", stroke: color, "stroke-width": method === "auto" ? 3 : 1.6 }));
-        c.append(svg("circle", { cx: RIGHT - 178, cy: TOP + 14 + 19 * i, r: 5, fill: color }), svg("text", { x: RIGHT - 166, y: TOP + 18 + 19 * i }, label));
+        c.append(svg("circle", { cx: RIGHT - 178, cy: TOP + 12 + legend, r: 5, fill: color }), svg("text", { x: RIGHT - 166, y: TOP + 16 + legend }, label));
+        legend += 17;
         rows.forEach(r => addPoint(c, r, color));
     });
-    addPoint(c, chartRows.find(r => r.method === "none"), "#ffffff");
+    if (sharpRow) addPoint(c, sharpRow, "#ffffff");
     c.append(svg("circle", { id: "ring", r: 13, fill: "none", stroke: "#ffffff", "stroke-width": 2.5, "pointer-events": "none" }));
     const rows = [["setting", "cost", "error"], ...chartRows.map(r => [r.setting, r.cost.toFixed(2) + "\u00d7", r.rmse.toFixed(2)])];
     const table = document.createElement("table");
@@ -718,7 +742,7 @@ function addPoint(c, r, color) {
     const title = r.setting + ": " + r.cost.toFixed(1) + " times the sharp frame, error " + r.rmse.toFixed(2) + " codes";
     point.append(svg("title", {}, title));
     if (usable) {
-        const pick = () => set({ method: r.index, quality: r.method === "none" ? S.quality : r.quality, shutter: S.shutter || 180 });
+        const pick = () => set({ method: r.index, quality: r.quality === ANY ? S.quality : r.quality, shutter: S.shutter || 180 });
         point.setAttribute("tabindex", 0);
         point.setAttribute("role", "button");
         point.setAttribute("aria-label", title);
@@ -734,11 +758,11 @@ function addPoint(c, r, color) {
 function showChart() {
     const r = current();
     $("ring").setAttribute("visibility", r ? "visible" : "hidden");
-    if (!r) return;
+    if (!r || !sharpRow) { $("chartText").textContent = "Now: a setting that has not been measured."; return; }
     $("ring").setAttribute("cx", toX(r.cost));
     $("ring").setAttribute("cy", toY(r.rmse));
-    const sharp = chartRows.find(row => row.method === "none"), by = (sharp.rmse / r.rmse).toFixed(0);
-    $("chartText").textContent = r === sharp ? "Now: the sharp frame, " + sharp.rmse.toFixed(1) + " codes from what a camera would see."
+    const times = sharpRow.rmse / r.rmse, by = times.toFixed(times < 3 ? 1 : 0);
+    $("chartText").textContent = r === sharpRow ? "Now: the sharp frame, " + sharpRow.rmse.toFixed(1) + " codes from what a camera would see."
         : "Now: " + r.setting + ", " + r.cost.toFixed(1) + " times the instructions of the sharp frame, " + by + " times nearer to the truth.";
 }
 
@@ -876,17 +900,7 @@ function poolSize() {
     return cores >= 8 ? 4 : cores >= 4 ? 3 : cores >= 2 ? 2 : 1;
 }
 
-function fatal(text) {
-    $("fatal").textContent = text;
-    $("main").hidden = true;
-}
-
 async function begin() {
-    if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
-        fatal("This browser has no WebAssembly, or it is switched off. The page runs a C library, so it has nothing to show here. "
-            + "Any browser since 2018 has it; or run the library itself: make && build/smear view.");
-        return;
-    }
     hasSimd = WebAssembly.validate(new Uint8Array(SIMD_PROBE)) && !/[?&]simd=0/.test(location.search);
     workerUrl = URL.createObjectURL(new Blob([$("unpack").textContent, pageTexts[1]], { type: "text/javascript" }));
     engines = [new Engine()];
@@ -896,7 +910,7 @@ async function begin() {
     answer.boards.forEach((b, i) => {
         const drawn = ["--size", "--format", "--dither", "--arena"], list = [];
         b.options.forEach((o, k) => { if (drawn.includes(o)) list.push(o, b.options[k + 1]); });
-        const own = METHODS.findIndex(m => m.name === b.options[b.options.indexOf("--method") + 1]);
+        const own = methodNamed(b.options[b.options.indexOf("--method") + 1]);
         PANELS.push({ name: b.name, label: LABELS[b.name] || b.name, what: b.what, shell: SHELLS[b.name] || "board", words: list, board: i, method: own });
     });
     readAddress();

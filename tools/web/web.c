@@ -350,14 +350,15 @@ EXPORT(web_stats) void web_stats(void)
              "{\"crc\":\"%08lx\",\"us\":%.1f,\"sharp_us\":%.1f,\"board_us\":%.0f,"
              "\"board_sharp_us\":%.0f,\"wire_us\":%.0f,\"in\":%lu,\"drawn\":%lu,\"dropped\":%lu,"
              "\"arena\":%lu,\"limit\":%zu,\"samples\":%lu,\"still\":%lu,\"smooth\":%lu,"
-             "\"subframes\":%lu,\"timemask\":%lu,\"reconstruct\":%lu}",
+             "\"subframes\":%lu,\"timemask\":%lu,\"filtered\":%lu,\"object\":%lu,\"layered\":%lu}",
              (unsigned long)s->crc32, shown.main.wall_us, shown.left.wall_us, board_us, sharp_us,
              bus_wire_us(&shown.bus, shown.main.device.size), (unsigned long)s->triangles_in,
              (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped,
              (unsigned long)s->arena_bytes, shown.main.options.arena, (unsigned long)s->samples,
              (unsigned long)s->tiles_none, (unsigned long)s->tiles_smooth,
              (unsigned long)s->tiles_subframes, (unsigned long)s->tiles_timemask,
-             (unsigned long)s->tiles_reconstruct);
+             (unsigned long)(s->tiles_reconstruct + s->tiles_camera + s->tiles_pingpong + s->tiles_half),
+             (unsigned long)s->tiles_object, (unsigned long)s->tiles_layered);
 }
 
 /* ------------------------------------------------------------------ what there is */

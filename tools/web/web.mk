@@ -1,43 +1,52 @@
 # SPDX-License-Identifier: MIT
-# The web page: build/web/index.html, one file. Needs clang-14 and wasm-ld-14 (packages clang-14, lld-14).
+# The web page: build/web/index.html, one file. Needs clang-14, wasm-ld-14 and xz (packages clang-14, lld-14, xz-utils).
 
 WEB_CC ?= clang-14
 WEB_LD ?= wasm-ld-14
+WEB_XZ ?= xz
 WEB    := build/web
 
 # What the page needs of the tools, and scenes that are to be looked at in place of all.
 WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
     $(filter-out $(addprefix tools/image/,apng.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
-    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
+    $(addprefix tools/scenes/,build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
     $(filter-out $(addprefix tools/cli/,compare.c crew.c exact.c help.c info.c main.c measure.c memory.c planes.c render.c sink.c \
         stats.c view.c),$(CLI_SRC)) \
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
-WEB_FAST := $(filter src/blur% src/convert.c src/light.c src/pixel.c src/raster.c src/smooth.c src/span.c src/subframes.c \
-    src/texture.c src/rows.c src/timemask% src/tilemax.c src/setup.c src/band.c src/timed.c,$(LIB_SRC))
+WEB_FAST := $(filter src/blur% src/camera.c src/convert.c src/half.c src/layer% src/light.c src/object.c src/pingpong.c \
+    src/raster.c src/reproject.c src/span.c src/subframes.c src/texture.c src/rows.c src/timemask% src/tilemax.c src/setup.c \
+    src/band.c src/timed.c,$(LIB_SRC))
 
-# The page offers neither filters beyond reconstruct nor layers: it has to be small.
-WEB_SWITCHES := -DSMEAR_WITH_FILTERS=0 -DSMEAR_WITH_LAYERS=0
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
-    -Iinclude -Isrc $(WEB_SWITCHES) -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
 .PHONY: web web-chart web-bench
-## the web page: build/web/index.html (needs clang-14 and lld-14)
+## the web page: build/web/index.html (needs clang-14, lld-14 and xz)
 web: $(WEB)/index.html
 
-$(WEB)/index.html: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm $(wildcard tools/web/*.html tools/web/*.js tools/web/*.css) \
-    $(WEB)/chart.csv
-	$(WEB)/pack tools/web/page.html $@
+$(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.css unpack.js begin.js) \
+    $(addprefix $(WEB)/,unlzma.wasm modules.lzma texts.lzma)
+	$(WEB)/pack page tools/web/page.html $@
+
+$(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
+$(WEB)/texts.joined: $(WEB)/pack tools/web/app.js tools/web/worker.js $(WEB)/chart.csv
+$(WEB)/%.joined:
+	$(WEB)/pack join $@ $(filter-out $<,$^)
+
+$(WEB)/%.lzma: $(WEB)/%.joined
+	$(WEB_XZ) --format=lzma --lzma1=preset=9e,nice=273,pb=0 --stdout $< > $@.part
+	mv $@.part $@
 
 $(call web_objects,scalar) $(call web_objects,simd): WEB_OPT = -Oz
 $(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
 $(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -Oz -fno-builtin
 $(foreach v,scalar simd,$(WEB)/$(v)/tools/web/libc/libc.o): WEB_OPT = -O2 -fno-builtin
 # Loops over pixels that the compiler makes vectors of; nothing else gains.
-WEB_VECTORS := $(filter src/blur% src/convert.c src/smooth.c src/band.c src/tilemax.c src/frame.c,$(LIB_SRC))
+WEB_VECTORS := $(filter src/blur% src/convert.c src/band.c src/tilemax.c src/frame.c,$(LIB_SRC))
 $(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
 
 $(WEB)/scalar/%.o: %.c
@@ -56,7 +65,12 @@ $(WEB)/scalar.wasm: $(call web_objects,scalar)
 $(WEB)/simd.wasm: $(call web_objects,simd)
 	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
 
-$(WEB)/pack: $(call objects,tools/web/pack.c $(IMAGE_SRC))
+$(WEB)/unlzma.wasm: tools/web/unlzma.c
+	@mkdir -p $(@D)
+	$(WEB_CC) --target=wasm32 -std=c11 -ffreestanding -Oz -Wall -Wextra -c -o $(WEB)/unlzma.o $<
+	$(WEB_LD) --no-entry --strip-all --gc-sections -O2 -o $@ $(WEB)/unlzma.o
+
+$(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c))
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
@@ -66,7 +80,7 @@ $(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) to
 	$(if $(filter build/%,$<),awk -f tools/web/chart.awk $< > $@,cp $< $@)
 
 # Of the settings that the page has, measured anew under valgrind in some minutes.
-WEB_SETTINGS := none,auto draft,auto balanced,auto fine,timemask,subframes,accumulate 2,accumulate 4,accumulate 8,accumulate 16,reconstruct 4,reconstruct 8,reconstruct 16
+WEB_SETTINGS := none,auto draft,auto balanced,auto fine,timemask,subframes,accumulate 2,accumulate 4,accumulate 8,accumulate 16,reconstruct 4,reconstruct 8,reconstruct 16,camera 8,pingpong,half 8,object,layered 4,layered 8,layered 16
 ## the kept numbers of the page's chart, measured again (needs valgrind)
 web-chart: $(BIN)/smear-bench
 	$(BIN)/smear-bench chart --quick --methods '$(WEB_SETTINGS)' > /dev/null

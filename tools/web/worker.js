@@ -111,7 +111,7 @@ const todo = {
 };
 
 async function start(m) {
-    const module = m.module || await WebAssembly.compile(moduleBytes(m.text, m.simd));
+    const module = m.module || await WebAssembly.compile((await filesOf(m.unlzma, m.text))[m.simd ? 1 : 0]);
     const instance = await WebAssembly.instantiate(module, { page: { clock_us: () => performance.now() * 1000 } });
     wasm = instance.exports;
     return { status: 0, module };
