@@ -31,7 +31,7 @@ static const struct preset *preset_of(int32_t target)
 #define F_LEAST 4
 #define B_MOST 64
 #endif
-        { SMEAR_DRAFT, D_STEP, D_SPREAD, 2, 64, 8, 2, 768, 2 },
+        { SMEAR_DRAFT, D_STEP, D_SPREAD, D_LEAST, 64, 8, 2, 768, 2 },
         { SMEAR_BALANCED, B_STEP, B_SPREAD, B_LEAST, B_MOST, 32, 7, 512, 3 },
         { 0, F_STEP, F_SPREAD, F_LEAST, B_MOST, 32, 8, 256, 6 }
     };
@@ -108,9 +108,12 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         }
     } else {
         const struct preset *p = preset_of(chooser->target);
-        int32_t instants = max_i32(travel_of(load) / (may_fill(load) ? p->step : 16) + 1, p->least);
-        if (may_fill(load))
-            instants = max_i32(instants, spread_of(load) / p->spread + 1);
+        const int32_t travel = travel_of(load);
+        int32_t instants = travel / 16 + 1;
+        if (may_fill(load)) {
+            instants = min_i32(1 + travel * 3 / 16, p->least + travel / p->step);
+            instants = max_i32(max_i32(instants, 2), spread_of(load) / p->spread + 1);
+        }
         if (closed_form && instants > p->most) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,

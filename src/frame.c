@@ -369,7 +369,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
-    if (SMEAR_RASTER_CACHE && !c->assembler.keep_paths)
+    if (SMEAR_RASTER_CACHE)
         cache_free_pool(c);
     for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);

@@ -133,18 +133,35 @@ static void copy_color(const struct subframes *f, const struct box *b)
                          (size_t)(b->x1 - b->x0) * sizeof *s->color);
 }
 
-static void find_depths(struct subframes *f)
+/* Least and greatest of a plane of depth codes. */
+static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height, uint32_t *low, uint32_t *high)
 {
-    const struct smear_raster_target *s = &f->t->still;
-    f->lowest = UINT16_MAX;
-    f->highest = 0;
-    for (int32_t y = s->y0; y < s->y1; y++) {
-        const uint16_t *depth = s->depth + still_row(s, &s->window_rows, y);
-        for (int32_t x = s->x0; x < s->x1; x++) {
-            f->lowest = min_u32(f->lowest, depth[x]);
-            f->highest = max_u32(f->highest, depth[x]);
+    uint32_t least = UINT16_MAX, most = 0;
+#if SMEAR_VECTORS
+    smear_v8i low8 = v8i_all(INT16_MAX), high8 = v8i_all(INT16_MIN);
+#endif
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        int32_t x = 0;
+#if SMEAR_VECTORS
+        for (; x + 8 <= width; x += 8) {
+            const smear_v8i d = v8i_load(depth + x) ^ v8i_all(INT16_MIN);      /* in the order of signed numbers */
+            low8 = v8i_min(low8, d);
+            high8 = v8i_max(high8, d);
+        }
+#endif
+        for (; x < width; x++) {
+            least = min_u32(least, depth[x]);
+            most = max_u32(most, depth[x]);
         }
     }
+#if SMEAR_VECTORS
+    for (int i = 0; i < 8; i++) {
+        least = min_u32(least, (uint16_t)low8[i] ^ 0x8000u);
+        most = max_u32(most, (uint16_t)high8[i] ^ 0x8000u);
+    }
+#endif
+    *low = least;
+    *high = most;
 }
 
 /* ------------------------------------------------------------------ triangles at an instant */
@@ -261,7 +278,7 @@ static bool list(struct subframes *f)
     const struct smear_geometry *g = t->frame->geometry;
     uint32_t n = 0;
     bool moves = false;
-    find_depths(f);
+    find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
     f->nearest = 0;
     for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
         const struct smear_mover *m = &t->mover[f->mover_rest];
@@ -270,8 +287,9 @@ static bool list(struct subframes *f)
             f->nearest = max_u32(f->nearest, m->nearest);
         }
     }
-    if (f->mover_rest < t->mover_count)
-        f->nearest = UINT16_MAX;
+    for (uint32_t i = f->mover_rest; i < t->mover_count; i++)
+        if (is_seen(f, &t->mover[i]))
+            f->nearest = max_u32(f->nearest, t->mover[i].nearest);
     moves = n != 0;
     f->movers_listed = n;
     f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
@@ -429,14 +447,16 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* ------------------------------------------------------------------ means */
 
-/* The comb's gap, centred on a pixel: whole pixels of weight 1, or of weight 2 with ends of 1. Taps are in pairs, which
- * count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
+/* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
+ * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
 enum { PAIRS_MAX = 8 };
 
 struct gap {
     int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
-    uint32_t inner, last;                   /* weights */
+    int32_t offset[PAIRS_MAX];              /* the same in the planes */
+    uint32_t unit, last;                    /* weights: of all taps (1, 2 or 4), but the last pair's */
+    int unit_log2;
     uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
     struct narrow_mean mean[PAIRS_MAX + 1];
 };
@@ -448,22 +468,31 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
 
 static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
-    int32_t x = step->x, y = step->y, length = max_i32(abs_i32(x), abs_i32(y));
-    int32_t whole = min_i32((length + 8) >> 4, 2 * PAIRS_MAX + 1);
-    if (f->packed)
-        whole = min_i32(whole, (int32_t)(PACKED_MAX / 2 / f->instants));
-    gap->pairs = whole >> 1;
-    gap->inner = (whole & 1) == 0 || f->instants == 1 ? 2 : 1;
-    gap->last = whole & 1 ? gap->inner : 1;
-    for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), length);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), length);
+    const int32_t x = step->x, y = step->y;
+    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
+    uint32_t whole;
+    for (gap->unit = 4;; gap->unit >>= 1) {
+        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* rest on both sides alike */
+        if (gap->unit == 1)
+            whole |= 1u;
+        if (gap->unit == 1 || !f->packed || whole * f->instants <= PACKED_MAX)
+            break;
     }
+    if (f->packed && whole * f->instants > PACKED_MAX)
+        whole = gap->unit;
+    const uint32_t side = (whole - gap->unit) >> 1;
+    gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
+    gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
+    for (int32_t i = 0; i < gap->pairs; i++) {
+        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
+        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
+    }
+    if (gap->pairs == 0)
+        gap->unit = f->instants == 1 ? 2 : 1;
+    gap->unit_log2 = 31 - count_leading_zeros(gap->unit);
     for (int32_t pairs = 0; pairs <= gap->pairs; pairs++) {
-        uint32_t weight = gap->inner * (2 * (uint32_t)pairs + 1);
-        if (pairs == gap->pairs && pairs != 0)
-            weight -= 2 * (gap->inner - gap->last);
-        gap->weight[pairs] = f->instants * weight;
+        gap->weight[pairs] = f->instants * (pairs == gap->pairs && pairs != 0 ? whole : gap->unit * (2 * (uint32_t)pairs + 1));
         if (f->packed)
             gap->mean[pairs] = narrow_mean_make(gap->weight[pairs]);
     }
@@ -484,16 +513,16 @@ struct stretch {
 
 static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
 {
-    return i + 1 == gap->pairs ? gap->last : gap->inner;
+    return i + 1 == gap->pairs ? gap->last : gap->unit;
 }
 
 /* Sum of a plane over the gap at pixel `at`. Where movers are hidden is not where they are not: there they go on as at
  * the pixel. */
 static inline uint32_t gap_sum(const struct subframes *f, const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs)
 {
-    uint32_t all = sum[at] * gap->inner;
+    uint32_t all = sum[at] * gap->unit;
     for (int32_t i = 0; i < pairs; i++) {
-        const int32_t offset = gap->y[i] * f->t->pitch + gap->x[i];
+        const int32_t offset = gap->offset[i];
         const int32_t before = f->work.depth[at - offset] > f->nearest ? at : at - offset;
         const int32_t after = f->work.depth[at + offset] > f->nearest ? at : at + offset;
         all += (sum[before] + sum[after]) * pair_weight(gap, i);
@@ -510,21 +539,26 @@ static inline uint32_t mixed_packed(uint32_t rb, uint32_t gn, const struct narro
 }
 
 #if SMEAR_VECTORS
-static inline smear_v4u gap_sum4(const uint32_t *sum, const struct gap *gap, int32_t pairs, int32_t pitch)
+/* Of both packed planes. */
+static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t *gn, const struct gap *gap, int32_t pairs)
 {
-    smear_v4u all = v4u_load(sum);
-    for (int32_t i = 0; i < pairs - 1; i++) {
-        const int32_t offset = gap->y[i] * pitch + gap->x[i];
-        all += v4u_load(sum + offset) + v4u_load(sum - offset);
+    smear_v4u a = v4u_load(rb), b = v4u_load(gn);
+    const int32_t *offset = gap->offset;
+    for (int32_t i = 1; i < pairs; i++, offset++) {
+        a += v4u_load(rb + *offset) + v4u_load(rb - *offset);
+        b += v4u_load(gn + *offset) + v4u_load(gn - *offset);
     }
-    if (gap->inner == 2)
-        all += all;
+    a <<= gap->unit_log2;
+    b <<= gap->unit_log2;
     if (pairs > 0) {
-        const int32_t offset = gap->y[pairs - 1] * pitch + gap->x[pairs - 1];
-        smear_v4u ends = v4u_load(sum + offset) + v4u_load(sum - offset);
-        all += pair_weight(gap, pairs - 1) == 2 ? ends + ends : ends;
+        const smear_v4u end_a = v4u_load(rb + *offset) + v4u_load(rb - *offset);
+        const smear_v4u end_b = v4u_load(gn + *offset) + v4u_load(gn - *offset);
+        const uint32_t last = pair_weight(gap, pairs - 1);
+        a += v4u_mul16(end_a, (smear_v4u){ 0, 0, 0, 0 } + last * 0x10001u);
+        b += v4u_mul16(end_b, (smear_v4u){ 0, 0, 0, 0 } + last * 0x10001u);
     }
-    return all;
+    out[0] = a;
+    out[1] = b;
 }
 
 static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_mean *m, smear_v4u still)
@@ -538,21 +572,23 @@ static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_m
 }
 #endif
 
-static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap)
+/* `hidden`: some pixels there lie before all movers. */
+static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, bool hidden)
 {
     const struct narrow_mean *m = &gap->mean[s->pairs];
-    const int32_t pitch = f->t->pitch;
     uint32_t *out = f->work.color;
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
     const int32_t end = s->at + s->n;
     int32_t i = s->at;
 #if SMEAR_VECTORS
-    for (; f->highest <= f->nearest && i + 4 <= end; i += 4)
-        v4u_store(out + i, mixed4(gap_sum4(rb + i, gap, s->pairs, pitch), gap_sum4(gn + i, gap, s->pairs, pitch), m,
-                                  v4u_load(out + i)));
+    for (; !hidden && i + 4 <= end; i += 4) {
+        smear_v4u sum[2];
+        gap_sum4(sum, rb + i, gn + i, gap, s->pairs);
+        v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
+    }
 #endif
     for (; i < end; i++)
-        if (f->work.depth[i] <= f->nearest)
+        if (!hidden || f->work.depth[i] <= f->nearest)
             out[i] = mixed_packed(gap_sum(f, rb, i, gap, s->pairs), gap_sum(f, gn, i, gap, s->pairs), m, out[i]);
 }
 
@@ -573,10 +609,22 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
     }
 }
 
+/* Whether what is still hides all movers somewhere in or near the box. */
+static bool hides(const struct subframes *f, const struct box *b)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
+                        min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
+    uint32_t low, high;
+    find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
+    return high > f->nearest;
+}
+
 /* Columns [x0, x1) of the box, which lie in one tile: rows, cut where fewer pairs count. */
 static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->still;
+    const bool hidden = f->highest > f->nearest && hides(f, b);
     for (int32_t y = b->y0; y < b->y1; y++) {
         const int32_t row_pairs = pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
         const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
@@ -586,7 +634,7 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
             stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
             stretch.pairs = pairs_within(row_pairs, gap->x, near);
             if (f->packed)
-                average_packed(f, &stretch, gap);
+                average_packed(f, &stretch, gap, hidden);
             else
                 average_wide(f, &stretch, gap);
         }

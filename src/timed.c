@@ -193,6 +193,7 @@ static void still_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear(&t, r->c->frame.clear & 0xffffffu);
+    t.cache = smear_raster_cache_of(&r->c->cache, job);
     smear_raster_list(&r->c->raster, &t, r->c->opaque);
 }
 
@@ -336,13 +337,24 @@ static void count_tiles(struct smear_context *c)
     }
 }
 
+static bool row_is_still(const struct smear_context *c)
+{
+    for (int32_t i = 0; i < c->window.columns; i++)
+        if (!is_still(&c->row_movers.load[i]))
+            return false;
+    return true;
+}
+
 static int finish_row(struct smear_context *c, int row)
 {
     uint32_t start = stage_start(c);
     struct finish finish = { .row = { c, row, smear_band_begin(c) } };
     smear_row_target(c, row, &finish.still);
     list_blended(c, row);
-    smear_jobs_run(&c->jobs, finish_job, &finish, (c->window.width + c->strip - 1) / c->strip);
+    if (c->jobs.workers == 1 && row_is_still(c))
+        finish_still(&finish, 0, c->window.columns);
+    else
+        smear_jobs_run(&c->jobs, finish_job, &finish, (c->window.width + c->strip - 1) / c->strip);
     count_tiles(c);
     stage_end(c, &c->stats.time_blur, start);
     return smear_band_flush(c, row, finish.row.band);

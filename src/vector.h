@@ -33,6 +33,40 @@ static inline void v4u_store(uint32_t *p, smear_v4u v)
     __builtin_memcpy(p, &v, sizeof v);
 }
 
+typedef int16_t smear_v8i __attribute__((vector_size(16)));
+
+static inline smear_v8i v8i_load(const uint16_t *p)
+{
+    smear_v8i v;
+    __builtin_memcpy(&v, p, sizeof v);
+    return v;
+}
+
+static inline smear_v8i v8i_all(int16_t a)
+{
+    return (smear_v8i){ a, a, a, a, a, a, a, a };
+}
+
+static inline smear_v8i v8i_min(smear_v8i a, smear_v8i b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_min_epi16((__m128i)a, (__m128i)b);
+#else
+    smear_v8i less = (smear_v8i)(a < b);
+    return (a & less) | (b & ~less);
+#endif
+}
+
+static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_max_epi16((__m128i)a, (__m128i)b);
+#else
+    smear_v8i less = (smear_v8i)(a < b);
+    return (b & less) | (a & ~less);
+#endif
+}
+
 /* Of 16-bit halves: a b, and a b / 2^16. */
 static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b)
 {
