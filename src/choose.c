@@ -6,12 +6,13 @@
 
 #include "fixmath.h"
 
-/* Few instants cost less than a time mask: its closed forms pay from `most` on. Measured on the scenes of the quality
- * suite (make chart). */
+/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in; on the shortest
+ * ways there are not so many pixels to tell apart. Where movers go apart, as many as keep a step of one within `spread`
+ * of that of another; from `most` on a time mask, whose closed forms do not care how long a way is, costs less. Measured
+ * on the scenes of the quality suite (make chart). */
 struct preset {
-    int32_t target;             /* from this error on, 1/64 codes */
-    int32_t step, spread;       /* from one instant to the next, 1/16 px: travel, and how unlike movers may go */
-    int32_t least, most;        /* instants, however short the way; and up to which they are taken */
+    int32_t target;                     /* from this error on, 1/64 codes */
+    int32_t least, step, spread, most;  /* 1/16 px */
     int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
@@ -20,20 +21,14 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-#ifndef B_STEP
-#define D_STEP 96
-#define D_SPREAD 64
-#define B_STEP 64
-#define B_SPREAD 32
-#define F_STEP 32
-#define F_SPREAD 16
-#define B_LEAST 2
-#define F_LEAST 4
-#define B_MOST 64
-#endif
-        { SMEAR_DRAFT, D_STEP, D_SPREAD, D_LEAST, 64, 8, 2, 768, 2 },
-        { SMEAR_BALANCED, B_STEP, B_SPREAD, B_LEAST, B_MOST, 32, 7, 512, 3 },
-        { 0, F_STEP, F_SPREAD, F_LEAST, B_MOST, 32, 8, 256, 6 }
+        { 512, 2, 640, 512, 32, 8, 2, 768, 2 },
+        { SMEAR_DRAFT, 2, 400, 400, 32, 8, 2, 768, 2 },
+        { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
+        { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
+        { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
+        { SMEAR_FINE, 7, 112, 64, 48, 32, 8, 256, 6 },
+        { 20, 9, 80, 40, 48, 32, 8, 256, 6 },
+        { 0, 13, 56, 24, 64, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -49,7 +44,7 @@ static int32_t largest(int32_t low, int32_t high)
 /* Longest way, 1/16 px. */
 static int32_t travel_of(const struct smear_tile_load *load)
 {
-    if (load->count == 0)
+    if ((load->flags & TILE_MOVES) == 0)
         return 0;
     int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
     return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
@@ -69,7 +64,7 @@ static int32_t spread_of(const struct smear_tile_load *load)
 
 static bool may_fill(const struct smear_tile_load *load)
 {
-    return load->count != 0 && (load->flags & TILE_BLENDED) == 0;
+    return (load->flags & TILE_MOVES) != 0 && (load->flags & TILE_BLENDED) == 0;
 }
 
 void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
@@ -94,7 +89,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
                   const struct smear_tile_load *load)
 {
     bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
-    if (load->count == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
+    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
     } else if (chooser->method == SMEAR_SUBFRAMES) {
         choice->method = TILE_SUBFRAMES;
@@ -110,10 +105,9 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         const struct preset *p = preset_of(chooser->target);
         const int32_t travel = travel_of(load);
         int32_t instants = travel / 16 + 1;
-        if (may_fill(load)) {
-            instants = min_i32(1 + travel * 3 / 16, p->least + travel / p->step);
-            instants = max_i32(max_i32(instants, 2), spread_of(load) / p->spread + 1);
-        }
+        if (may_fill(load))
+            instants = max_i32(min_i32(p->least + travel / p->step, 1 + travel * 3 / 16), spread_of(load) / p->spread + 1);
+        instants = max_i32(instants, 2);
         if (closed_form && instants > p->most) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,

@@ -12,12 +12,12 @@ enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 struct smear_tile_load {
     int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px; about, within large triangles */
     uint16_t bend;              /* largest, 1/16 px */
-    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_BLENDED */
-    uint16_t count;             /* triangles */
+    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
     uint8_t method;             /* smear_tile_method it got in the end */
 };
 
 enum {
+    TILE_MOVES = 0x200,             /* there are movers */
     TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
     PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
 };

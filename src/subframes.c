@@ -71,7 +71,7 @@ struct subframes {
     uint32_t movers_listed, all_listed;
     uint32_t mover_rest, blend_rest;
     uint32_t lowest, highest;   /* depth codes of what is still */
-    uint32_t nearest;           /* no mover comes nearer */
+    uint32_t nearest;           /* nothing that is not still comes nearer */
 };
 
 size_t smear_subframes_work(int32_t width, int32_t height)
@@ -303,6 +303,8 @@ static bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
+    if (f->blends)
+        f->nearest = UINT16_MAX;
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
 

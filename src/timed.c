@@ -105,9 +105,8 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
         load->flags |= flags;
         if (b == NULL)
             continue;
-        load->flags |= b->flags;
+        load->flags |= (uint16_t)(b->flags | TILE_MOVES);
         load->bend = (uint16_t)max_i32(load->bend, b->bend);
-        load->count++;
         way_in(load, way, column << w->tile_shift, w->tile);
     }
 }
@@ -207,7 +206,7 @@ struct finish {
 
 static bool is_still(const struct smear_tile_load *load)
 {
-    return load->count == 0 && (load->flags & PATH_WITHOUT_MASK) == 0;
+    return (load->flags & (TILE_MOVES | PATH_WITHOUT_MASK)) == 0;
 }
 
 /* Blended draws over a tile without movers. */
