@@ -6,8 +6,7 @@
 
 #include "fixmath.h"
 
-/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in; on the shortest
- * ways there are not so many pixels to tell apart. Where movers go apart, as many as keep a step of one within `spread`
+/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where movers go apart, as many as keep a step of one within `spread`
  * of that of another; from `most` on a time mask, whose closed forms do not care how long a way is, costs less. Measured
  * on the scenes of the quality suite (make chart). */
 struct preset {
@@ -26,9 +25,9 @@ static const struct preset *preset_of(int32_t target)
         { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
         { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
         { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
-        { SMEAR_FINE, 7, 112, 64, 48, 32, 8, 256, 6 },
-        { 20, 9, 80, 40, 48, 32, 8, 256, 6 },
-        { 0, 13, 56, 24, 64, 32, 8, 256, 6 }
+        { SMEAR_FINE, 8, 104, 60, 48, 32, 8, 256, 6 },
+        { 20, 13, 64, 36, 48, 32, 8, 256, 6 },
+        { 0, 17, 48, 24, 64, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -62,16 +61,16 @@ static int32_t spread_of(const struct smear_tile_load *load)
     return max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->bend;
 }
 
-static bool may_fill(const struct smear_tile_load *load)
+static bool may_fill(const struct smear_chooser *chooser, const struct smear_tile_load *load)
 {
-    return (load->flags & TILE_MOVES) != 0 && (load->flags & TILE_BLENDED) == 0;
+    return chooser->fills && (load->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
 }
 
 void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
                        int32_t instants)
 {
     *step = (struct smear_step){ 0, 0 };
-    if (chooser->method != SMEAR_AUTO || !may_fill(load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
+    if (chooser->method != SMEAR_AUTO || !may_fill(chooser, load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
         return;
     step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
     step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
@@ -105,10 +104,9 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         const struct preset *p = preset_of(chooser->target);
         const int32_t travel = travel_of(load);
         int32_t instants = travel / 16 + 1;
-        if (may_fill(load))
-            instants = max_i32(min_i32(p->least + travel / p->step, 1 + travel * 3 / 16), spread_of(load) / p->spread + 1);
-        instants = max_i32(instants, 2);
-        if (closed_form && instants > p->most) {
+        if (may_fill(chooser, load))
+            instants = max_i32(p->least + travel / p->step, spread_of(load) / p->spread + 1);
+        if (closed_form && (instants > p->most || !chooser->fills)) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
                             p->tap, p->sparse);

@@ -35,6 +35,7 @@ struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
     int32_t target;             /* 1/64 codes */
+    bool fills;                 /* gaps between instants may be closed: the frame is not all border */
 };
 
 /* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */

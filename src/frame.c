@@ -985,7 +985,8 @@ static void prepare(struct smear_context *c)
                                  && !c->frame.cut && c->state != STATE_FILTER
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
-    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
+                                         min_i32(w->width, w->height) >= 24 };
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;

@@ -457,7 +457,7 @@ struct gap {
     int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
     int32_t offset[PAIRS_MAX];              /* the same in the planes */
-    uint32_t unit, last;                    /* weights: of all taps (1, 2 or 4), but the last pair's */
+    uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
     int unit_log2;
     uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
     struct narrow_mean mean[PAIRS_MAX + 1];
@@ -473,8 +473,8 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
     const int32_t x = step->x, y = step->y;
     const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
     uint32_t whole;
-    for (gap->unit = 4;; gap->unit >>= 1) {
-        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* rest on both sides alike */
+    for (gap->unit = 16;; gap->unit >>= 1) {
+        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
         if (gap->unit == 1)
             whole |= 1u;
         if (gap->unit == 1 || !f->packed || whole * f->instants <= PACKED_MAX)
