@@ -349,6 +349,9 @@ typedef struct smear_desc {
     uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose rows are
                                  * assembled anew at every instant: small and slow. 6 bytes without SMEAR_WITH_LINEAR */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
+    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16 tiles; 0 means
+                                 * SMEAR_STRIP, or one tile where that is wider. Wider is faster, up to a point, and takes
+                                 * 22 bytes per pixel for each worker. The picture depends on it, a little */
     uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
                                  * each but the last; 0 and 1: none. In any case one pass may be had */
     uint8_t half;               /* 1: room for SMEAR_HALF */
@@ -453,6 +456,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* ------------------------------------------------------------------ memory in detail */
 
+#define SMEAR_STRIP 64                      /* desc.strip by default, pixels */
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
@@ -463,20 +467,21 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 
-/* What a worker needs for a tile with `timed`: slots and lists, or sums and depths of instants. */
-#define SMEAR_TIMED_WORK_BYTES(tile) \
-    (SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) > 8192u ? SMEAR_ALIGN8((size_t)(tile) * (tile) * 16u) + 512u : 8192u)
+/* What a worker needs with `timed`: finished pixels, then sums and depths of instants, or slots and lists. */
+#define SMEAR_TIMED_WORK_BYTES(tile, strip) \
+    (SMEAR_ALIGN8((size_t)(strip) * (tile) * 4u) \
+     + (SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u > 8192u ? SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u : 8192u))
 
 /* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
-#define SMEAR_TIMED_BYTES(width, height, triangles, tile) \
-    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 10u) \
-     + SMEAR_TIMED_WORK_BYTES(tile) \
+#define SMEAR_TIMED_BYTES(width, height, triangles, tile, strip) \
+    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 14u) \
+     + SMEAR_TIMED_WORK_BYTES(tile, strip) \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
      + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \
      + SMEAR_ALIGN8(((size_t)(triangles) * SMEAR_TIMED_TRIANGLE_BYTES / 200000u + 1u) * SMEAR_SEGMENT_BYTES))
 
-/* Of a desc with `timed` and with `sharp`: no window. Give the tile, not 0. */
-#define SMEAR_MEMORY_SIZE_TIMED(width, height, triangles, draws, tile) \
+/* Of a desc with `timed` and with `sharp`: no window. Give the tile and the strip, not 0. */
+#define SMEAR_MEMORY_SIZE_TIMED(width, height, triangles, draws, tile, strip) \
     (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
@@ -488,7 +493,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
      + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
                     * SMEAR_SEGMENT_BYTES) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile))
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
 /* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what groups leave
  * for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One worker. */
@@ -518,9 +523,9 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_LAYERS_BYTES(width, height, reach, draws, tile))
 
 /* Of a desc with `timed` and a window for SMEAR_RECONSTRUCT. */
-#define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile) \
+#define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile, strip) \
     (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile))
+     + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
 /* Of a desc with `scatter`: the window has as many tiles more as the reach covers beyond one. */
 #define SMEAR_LAG(reach, tile) (((size_t)(reach) + (tile) - 1u) / (tile))

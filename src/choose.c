@@ -6,12 +6,12 @@
 
 #include "fixmath.h"
 
-/* Few instants cost less than a time mask: its closed forms pay from `most` on. Measured on the scenes of the quality
- * suite (make chart). */
+/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where movers go apart, as many as keep a step of one within `spread`
+ * of that of another; from `most` on a time mask, whose closed forms do not care how long a way is, costs less. Measured
+ * on the scenes of the quality suite (make chart). */
 struct preset {
-    int32_t target;             /* from this error on, 1/64 codes */
-    int32_t step;               /* travel from one instant to the next, 1/16 px */
-    int32_t least, most;        /* instants, however short the way; and up to which they are taken */
+    int32_t target;                     /* from this error on, 1/64 codes */
+    int32_t least, step, spread, most;  /* 1/16 px */
     int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
@@ -20,9 +20,14 @@ enum { INSTANTS_MAX = 64 };
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 64, 2, 2, 8, 2, 768, 2 },
-        { SMEAR_BALANCED, 16, 4, 0, 32, 7, 512, 3 },
-        { 0, 8, 6, 0, 32, 8, 256, 6 }
+        { 512, 2, 640, 512, 32, 8, 2, 768, 2 },
+        { SMEAR_DRAFT, 2, 400, 400, 32, 8, 2, 768, 2 },
+        { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
+        { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
+        { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
+        { SMEAR_FINE, 9, 96, 56, 48, 32, 8, 256, 6 },
+        { 20, 13, 64, 36, 48, 32, 8, 256, 6 },
+        { 0, 17, 48, 24, 64, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -30,10 +35,45 @@ static const struct preset *preset_of(int32_t target)
     return p;
 }
 
+static int32_t largest(int32_t low, int32_t high)
+{
+    return max_i32(high, -low);
+}
+
+/* Longest way, 1/16 px. */
+static int32_t travel_of(const struct smear_tile_load *load)
+{
+    if ((load->flags & TILE_MOVES) == 0)
+        return 0;
+    int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
+    return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
+}
+
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
 static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
 {
-    return min_i32(max_i32((load->travel + load->bend + 7) >> 3, 2), most);
+    return min_i32(max_i32((travel_of(load) + 7) >> 3, 2), most);
+}
+
+/* How unlike movers go, 1/16 px of the whole exposure. */
+static int32_t spread_of(const struct smear_tile_load *load)
+{
+    return max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->bend;
+}
+
+static bool may_fill(const struct smear_chooser *chooser, const struct smear_tile_load *load)
+{
+    return chooser->fills && (load->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
+}
+
+void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
+                       int32_t instants)
+{
+    *step = (struct smear_step){ 0, 0 };
+    if (chooser->method != SMEAR_AUTO || !may_fill(chooser, load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
+        return;
+    step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
+    step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
 }
 
 static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
@@ -48,7 +88,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
                   const struct smear_tile_load *load)
 {
     bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
-    if (load->count == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
+    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
     } else if (chooser->method == SMEAR_SUBFRAMES) {
         choice->method = TILE_SUBFRAMES;
@@ -62,8 +102,11 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         }
     } else {
         const struct preset *p = preset_of(chooser->target);
-        int32_t instants = max_i32((load->travel + load->bend) / p->step + 1, p->least);
-        if (closed_form && instants > p->most) {
+        const int32_t travel = travel_of(load);
+        int32_t instants = travel / 16 + 1;
+        if (may_fill(chooser, load))
+            instants = max_i32(p->least + travel / p->step, spread_of(load) / p->spread + 1);
+        if (closed_form && (instants > p->most || !chooser->fills)) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
                             p->tap, p->sparse);

@@ -3,17 +3,21 @@
 #ifndef SMEAR_CHOOSE_H
 #define SMEAR_CHOOSE_H
 
+#include "subframes.h"
 #include "timemask.h"
+
+enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 
 /* The movers of a tile: all that may be seen there during the exposure. */
 struct smear_tile_load {
-    uint16_t travel, bend;      /* longest, 1/16 px */
-    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_BLENDED */
-    uint16_t count;             /* triangles */
+    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px; about, within large triangles */
+    uint16_t bend;              /* largest, 1/16 px */
+    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
     uint8_t method;             /* smear_tile_method it got in the end */
 };
 
 enum {
+    TILE_MOVES = 0x200,             /* there are movers */
     TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
     PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
 };
@@ -31,10 +35,16 @@ struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
     int32_t target;             /* 1/64 codes */
+    bool fills;                 /* gaps between instants may be closed: the frame is not all border */
 };
 
 /* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);
+
+
+/* How a tile's movers go on between `instants` that it shares; none where they do not go alike. */
+void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
+                       int32_t instants);
 
 #endif

@@ -106,6 +106,7 @@ struct smear_context {
     struct smear_row_movers row_movers;     /* of the row being drawn */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
+    int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
 

@@ -402,7 +402,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
         c->stats.triangles_split++;
     }
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
-    if (SMEAR_RASTER_CACHE && !c->assembler.keep_paths)
+    if (SMEAR_RASTER_CACHE)
         cache_free_pool(c);
     for (int row = *top; row < first; row++)
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
@@ -1019,7 +1019,8 @@ static void prepare(struct smear_context *c)
                                  && !c->frame.cut && c->state != STATE_FILTER
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
-    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target };
+    c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
+                                         min_i32(w->width, w->height) >= 24 };
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;

@@ -13,24 +13,25 @@ struct smear_mover {
     uint16_t nearest;           /* depth code it does not exceed: larger is nearer */
 };
 
-/* One tile, to be finished by a time-resolved method. */
+/* A tile, or some beside each other, to be finished by a time-resolved method. */
 struct smear_moving_tile {
     const struct smear_raster_frame *frame;
     const struct smear_shutter *shutter;
-    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1 are the tile's. Only read. */
-    const struct smear_mover *mover;    /* of the row: those whose columns hold `column` are seen here */
+    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1 are the tiles'. Only read. */
+    const struct smear_mover *mover;    /* of the row: those whose columns meet these are seen here */
     uint32_t mover_count;
-    int32_t column;
+    int32_t column, last_column;
     uint32_t blend;                     /* blended draws of the row, still and moving ones; or SMEAR_NO_TRIANGLE */
-    uint32_t *out;                      /* finished working pixels, rows `tile` apart */
+    uint32_t *out;                      /* finished working pixels, rows `pitch` apart */
+    int32_t pitch;
     int32_t tile;                       /* edge, pixels */
     void *work;                         /* memory of the worker's own */
     uint32_t work_bytes;                /* timemask: 0 is what it asks for */
 };
 
-static inline bool mover_is_in(const struct smear_mover *m, int32_t column)
+static inline bool mover_is_in(const struct smear_mover *m, const struct smear_moving_tile *t)
 {
-    return (uint32_t)(column - m->first) <= (uint32_t)(m->last - m->first);
+    return m->first <= t->last_column && m->last >= t->column;
 }
 
 #endif

@@ -382,13 +382,11 @@ SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, i
         run_flat(t->color + at, t->depth + at, n, z, dz, color, false);
 }
 
-/* Pixels [a, b) of row y, of which some may lie outside the target's columns, or in the other slope of the depth
- * code. Column 0 of the row is at index `at`. */
-static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
+/* Pixels [a, b) of row y, of which some may lie in the other slope of the depth code. Column 0 of the row is at index
+ * `at`. */
+static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
 {
     const struct smear_raster_target *t = s->target;
-    a = max_i32(a, t->x0);
-    b = min_i32(b, t->x1);
     const int32_t dx = s->depth.dx;
     int32_t units = plane_at(&s->depth, a, y);
     while (a < b) {
@@ -403,9 +401,9 @@ static SMEAR_NOINLINE void row_flat_cut(const struct setup *s, int32_t y, int32_
     }
 }
 
-/* One colour, no motion: the plainest rows, without a call for each but where they are cut. Colour and depth of
- * opaque draws lie in the window's rows alike. */
-static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
+/* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth of opaque
+ * draws lie in the window's rows alike. `cut`: the target's columns cut rows off. */
+SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
@@ -433,16 +431,30 @@ static SMEAR_NOINLINE void cover_flat(const struct setup *s, bool cut)
             int32_t a = edge_pixel(&left), b = edge_pixel(&right);
             edge_step(&left);
             edge_step(&right);
+            if (cut) {
+                a = max_i32(a, t->x0);
+                b = min_i32(b, t->x1);
+            }
             if (a >= b)
                 continue;
-            if (cut)
-                row_flat_cut(s, y - n, at, a, b);
+            if (s->slope == SLOPE_BOTH)
+                row_flat_bent(s, y - n, at, a, b);
             else
                 run_flat_at(t, at + a, b - a, z + dz * (uint32_t)a, dz, color);
         }
         d.left = left;
         d.right = right;
     }
+}
+
+static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
+{
+    cover_flat(s, false);
+}
+
+static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
+{
+    cover_flat(s, true);
 }
 #endif
 
@@ -631,7 +643,10 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
 #if SMEAR_SPAN_ROWS
     const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
-        cover_flat(s, s->slope == SLOPE_BOTH || left < target->x0 || right > target->x1);
+        if (left < target->x0 || right > target->x1)
+            cover_flat_cut(s);
+        else
+            cover_flat_whole(s);
         return;
     }
 #endif

@@ -70,6 +70,11 @@ static bool resolve(smear_desc *d)
         d->bands = 1;
     if (d->workers == 0)
         d->workers = 1;
+    if (d->strip == 0 || !is_timed(d))
+        d->strip = (int16_t)max_i32(d->tile, is_timed(d) ? SMEAR_STRIP : 0);
+    if (d->strip % d->tile != 0 || d->strip > STRIP_TILES_MAX * d->tile)
+        return false;
+    d->strip = (int16_t)min_i32(d->strip, (d->width + d->tile - 1) / d->tile * d->tile);
     if (d->max_draws == 0)
         d->max_draws = 16;
     if (d->max_triangles == 0)
@@ -162,13 +167,14 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         layout_half(c->half != NULL ? c->half : &spare, a, w);
         c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
     }
+    c->strip = d->strip;
     if (has_window(d) || is_timed(d))
-        c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->tile * (size_t)d->band_rows, 4);
+        c->scratch = arena_take(a, (size_t)d->workers * (size_t)c->strip * (size_t)d->band_rows, 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
         c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
-        c->work_bytes = (uint32_t)smear_subframes_work(d->tile);
+        c->work_bytes = (uint32_t)smear_subframes_work(c->strip, d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;

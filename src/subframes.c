@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* subframes.c - a tile's own moving triangles drawn again at several instants.
+/* subframes.c - the moving triangles of some tiles drawn again at several instants.
  *
- * Where no mover is at an instant, the tile looks as it does without movers: that picture (still surfaces, still blended
+ * Where no mover is at an instant, a tile looks as it does without movers: that picture (still surfaces, still blended
  * draws over them) is made once, and weighs for all instants that say nothing else. At each instant only the box
- * around the movers is drawn, summed and made still again. */
+ * around the movers is drawn, summed and made still again.
+ *
+ * A sum of N instants is the comb of N teeth where the truth is a box. Where all movers go alike, a tooth is as far from
+ * the next at all pixels, and the sum's own mean over that distance closes the comb: shifted in space is shifted in
+ * time. Only what moves is meant: what is still lies beneath, with the weight of the instants that are left. */
 #include "subframes.h"
 
 #include "fixmath.h"
@@ -11,10 +15,11 @@
 #include "raster.h"
 #include "shutter.h"
 #include "transform.h"
+#include "vector.h"
 
 enum {
     LISTED = 128,           /* triangles of the tile that are remembered; others are looked for at each instant */
-    PACKED_MAX = 257,       /* instants whose codes add up in 16 bits */
+    PACKED_MAX = 256,       /* weights of codes that add up in 16 bits, with half of themselves */
     RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
 
@@ -44,25 +49,34 @@ struct mean {
     int shift;
 };
 
+/* The same in 16 bits, for sums of n codes, 2 <= n <= PACKED_MAX: times 2^(16 + shift) / n, rounded up: a mean that is
+ * whole stays so, and others go up from 1/2 - 1/128 on. */
+struct narrow_mean {
+    uint32_t n, half, factor;
+    int shift;
+};
+
 struct subframes {
     const struct smear_moving_tile *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
-    uint32_t *sum;              /* packed: red and blue, green and times. Else: red, green, blue */
-    uint16_t *times;            /* instants in the sum */
+    /* Planes of sums of what is not still. Packed: red and blue, then green and how many. Else: red, green, blue. */
+    uint32_t *sum[3];
+    uint32_t *times;            /* how many */
     bool packed;
     bool blends;                /* blended draws change what is still, too */
-    struct mean mean;
+    uint32_t instants;
 
     /* What may be seen in the tile. Those beyond are found by walking on from here. */
     uint32_t *listed;           /* movers, then blended triangles */
     uint32_t movers_listed, all_listed;
     uint32_t mover_rest, blend_rest;
-    uint32_t lowest;            /* smallest depth code of what is still */
+    uint32_t lowest, highest;   /* depth codes of what is still */
+    uint32_t nearest;           /* nothing that is not still comes nearer */
 };
 
-size_t smear_subframes_work(int32_t tile)
+size_t smear_subframes_work(int32_t width, int32_t height)
 {
-    return (size_t)(tile * tile) * (3 * sizeof(uint32_t) + 2 * sizeof(uint16_t)) + LISTED * sizeof(uint32_t);
+    return (size_t)(width * height) * (4 * sizeof(uint32_t) + sizeof(uint16_t)) + LISTED * sizeof(uint32_t);
 }
 
 static struct mean mean_make(uint32_t n)
@@ -78,6 +92,17 @@ static inline uint32_t mean_of(const struct mean *m, uint32_t sum)
     return mulh_u32((sum + m->half) << 5, m->factor) >> m->shift;
 }
 
+static struct narrow_mean narrow_mean_make(uint32_t n)
+{
+    int shift = 31 - count_leading_zeros(n - 1);
+    return (struct narrow_mean){ n, n >> 1, ((1u << (16 + shift)) + n - 1) / n, shift };
+}
+
+static inline uint32_t narrow_mean_of(const struct narrow_mean *m, uint32_t sum)
+{
+    return ((sum + m->half) * m->factor >> 16) >> m->shift;
+}
+
 /* ------------------------------------------------------------------ what is still */
 
 static inline int32_t still_row(const struct smear_raster_target *s, const struct smear_plane_rows *rows, int32_t y)
@@ -89,7 +114,7 @@ static inline int32_t still_row(const struct smear_raster_target *s, const struc
 /* Index of the first of the box's pixels in row y of the work planes. */
 static inline int32_t work_row(const struct subframes *f, const struct box *b, int32_t y)
 {
-    return (y - f->t->still.y0) * f->t->tile + (b->x0 - f->t->still.x0);
+    return (y - f->t->still.y0) * f->t->pitch + (b->x0 - f->t->still.x0);
 }
 
 static void restore_depth(const struct subframes *f, const struct box *b)
@@ -108,15 +133,35 @@ static void copy_color(const struct subframes *f, const struct box *b)
                          (size_t)(b->x1 - b->x0) * sizeof *s->color);
 }
 
-static uint32_t lowest_depth(const struct smear_raster_target *s)
+/* Least and greatest of a plane of depth codes. */
+static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height, uint32_t *low, uint32_t *high)
 {
-    uint32_t low = UINT16_MAX;
-    for (int32_t y = s->y0; y < s->y1; y++) {
-        const uint16_t *depth = s->depth + still_row(s, &s->window_rows, y);
-        for (int32_t x = s->x0; x < s->x1; x++)
-            low = min_u32(low, depth[x]);
+    uint32_t least = UINT16_MAX, most = 0;
+#if SMEAR_VECTORS
+    smear_v8i low8 = v8i_all(INT16_MAX), high8 = v8i_all(INT16_MIN);
+#endif
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        int32_t x = 0;
+#if SMEAR_VECTORS
+        for (; x + 8 <= width; x += 8) {
+            const smear_v8i d = v8i_load(depth + x) ^ v8i_all(INT16_MIN);      /* in the order of signed numbers */
+            low8 = v8i_min(low8, d);
+            high8 = v8i_max(high8, d);
+        }
+#endif
+        for (; x < width; x++) {
+            least = min_u32(least, depth[x]);
+            most = max_u32(most, depth[x]);
+        }
     }
-    return low;
+#if SMEAR_VECTORS
+    for (int i = 0; i < 8; i++) {
+        least = min_u32(least, (uint16_t)low8[i] ^ 0x8000u);
+        most = max_u32(most, (uint16_t)high8[i] ^ 0x8000u);
+    }
+#endif
+    *low = least;
+    *high = most;
 }
 
 /* ------------------------------------------------------------------ triangles at an instant */
@@ -210,7 +255,7 @@ static inline void draw(const struct posed *p, const struct subframes *f, const 
 
 static inline bool is_seen(const struct subframes *f, const struct smear_mover *m)
 {
-    return mover_is_in(m, f->t->column) && m->nearest > f->lowest;
+    return mover_is_in(m, f->t) && m->nearest > f->lowest;
 }
 
 /* The triangle may touch the tile at some time. */
@@ -233,10 +278,18 @@ static bool list(struct subframes *f)
     const struct smear_geometry *g = t->frame->geometry;
     uint32_t n = 0;
     bool moves = false;
-    f->lowest = t->mover_count != 0 ? lowest_depth(&t->still) : 0;
-    for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++)
-        if (is_seen(f, &t->mover[f->mover_rest]))
-            f->listed[n++] = t->mover[f->mover_rest].triangle;
+    find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
+    f->nearest = 0;
+    for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
+        const struct smear_mover *m = &t->mover[f->mover_rest];
+        if (is_seen(f, m)) {
+            f->listed[n++] = m->triangle;
+            f->nearest = max_u32(f->nearest, m->nearest);
+        }
+    }
+    for (uint32_t i = f->mover_rest; i < t->mover_count; i++)
+        if (is_seen(f, &t->mover[i]))
+            f->nearest = max_u32(f->nearest, t->mover[i].nearest);
     moves = n != 0;
     f->movers_listed = n;
     f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
@@ -250,6 +303,8 @@ static bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
+    if (f->blends)
+        f->nearest = UINT16_MAX;
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
 
@@ -336,23 +391,45 @@ static inline uint32_t value_of(uint32_t code, bool linear)
     return linear ? smear_srgb_decode[code] : code;
 }
 
-/* Adds the box and makes it still again. What looks still need not be counted: it is what the rest of the mean is made
- * of. */
-static void add_packed(const struct subframes *f, const struct box *b)
+/* Adds n pixels and makes them still again. What looks still need not be counted: it is what the rest of the mean is
+ * made of. `all`: everything counts. */
+static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uint32_t *gn, int32_t n, bool all)
 {
-    const struct smear_raster_target *s = &f->t->still;
+    int32_t i = 0;
+#if SMEAR_VECTORS
+    const smear_v4u every = { 0u - all, 0u - all, 0u - all, 0u - all };
+    for (; i + 4 <= n; i += 4) {
+        smear_v4u c = v4u_load(color + i), behind = v4u_load(still + i), counts = (smear_v4u)(c != behind) | every;
+        v4u_store(color + i, behind);
+        c &= counts;
+        v4u_store(rb + i, v4u_load(rb + i) + (c & 0xff00ffu));
+        v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
+    }
+#endif
+    for (; i < n; i++) {
+        uint32_t c = color[i], behind = still[i];
+        if (((c ^ behind) | all) != 0) {
+            rb[i] += c & 0xff00ffu;
+            gn[i] += (c >> 8 & 0xffu) + 0x10000u;
+            color[i] = behind;
+        }
+    }
+}
+
+static void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
+{
+    const bool linear = frame_is_linear(f->t->frame);
     const uint32_t all = f->blends;
-    for (int32_t y = b->y0; y < b->y1; y++) {
-        int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
-        const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
-        uint32_t *p = f->work.color + at, *sum = f->sum + 2 * at;
-        for (int32_t i = 0; i < n; i++, sum += 2) {
-            uint32_t c = p[i], behind = still[i];
-            if (((c ^ behind) | all) != 0) {
-                sum[0] += c & 0xff00ffu;
-                sum[1] += (c >> 8 & 0xffu) + 0x10000u;
-                p[i] = behind;
-            }
+    uint32_t *p = f->work.color + at, *r = f->sum[0] + at, *g = f->sum[1] + at, *b = f->sum[2] + at;
+    uint32_t *times = f->times + at;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t c = p[i], behind = still[i];
+        if (((c ^ behind) | all) != 0) {
+            r[i] += value_of(pixel_red(c), linear);
+            g[i] += value_of(pixel_green(c), linear);
+            b[i] += value_of(pixel_blue(c), linear);
+            times[i]++;
+            p[i] = behind;
         }
     }
 }
@@ -360,90 +437,261 @@ static void add_packed(const struct subframes *f, const struct box *b)
 static void add(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const bool linear = frame_is_linear(f->t->frame);
-    const uint32_t all = f->blends;
     for (int32_t y = b->y0; y < b->y1; y++) {
-        int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
         const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
-        uint32_t *p = f->work.color + at, *sum = f->sum + 3 * at;
-        uint16_t *times = f->times + at;
-        for (int32_t i = 0; i < n; i++, sum += 3) {
-            uint32_t c = p[i], behind = still[i];
-            if (((c ^ behind) | all) != 0) {
-                sum[0] += value_of(pixel_red(c), linear);
-                sum[1] += value_of(pixel_green(c), linear);
-                sum[2] += value_of(pixel_blue(c), linear);
-                times[i]++;
-                p[i] = behind;
-            }
+        int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
+        if (f->packed)
+            add_packed(f->work.color + at, still, f->sum[0] + at, f->sum[1] + at, n, f->blends);
+        else
+            add_wide(f, at, still, n);
+    }
+}
+
+/* ------------------------------------------------------------------ means */
+
+/* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
+ * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
+enum { PAIRS_MAX = 8 };
+
+struct gap {
+    int32_t pairs;
+    int8_t x[PAIRS_MAX], y[PAIRS_MAX];
+    int32_t offset[PAIRS_MAX];              /* the same in the planes */
+    uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
+    int unit_log2;
+    uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
+    struct narrow_mean mean[PAIRS_MAX + 1];
+};
+
+static int32_t nearest_pixel(int32_t numerator, int32_t over)
+{
+    return (2 * numerator + (numerator < 0 ? -over : over)) / (2 * over);
+}
+
+static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
+{
+    const int32_t x = step->x, y = step->y;
+    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
+    uint32_t whole;
+    for (gap->unit = 16;; gap->unit >>= 1) {
+        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
+        if (gap->unit == 1)
+            whole |= 1u;
+        if (gap->unit == 1 || !f->packed || whole * f->instants <= PACKED_MAX)
+            break;
+    }
+    if (f->packed && whole * f->instants > PACKED_MAX)
+        whole = gap->unit;
+    const uint32_t side = (whole - gap->unit) >> 1;
+    gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
+    gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
+    for (int32_t i = 0; i < gap->pairs; i++) {
+        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
+        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
+    }
+    if (gap->pairs == 0)
+        gap->unit = f->instants == 1 ? 2 : 1;
+    gap->unit_log2 = 31 - count_leading_zeros(gap->unit);
+    for (int32_t pairs = 0; pairs <= gap->pairs; pairs++) {
+        gap->weight[pairs] = f->instants * (pairs == gap->pairs && pairs != 0 ? whole : gap->unit * (2 * (uint32_t)pairs + 1));
+        if (f->packed)
+            gap->mean[pairs] = narrow_mean_make(gap->weight[pairs]);
+    }
+}
+
+/* Pairs of which both lie within `near` of a pixel. */
+static inline int32_t pairs_within(int32_t pairs, const int8_t *offset, int32_t near)
+{
+    while (pairs > 0 && abs_i32(offset[pairs - 1]) > near)
+        pairs--;
+    return pairs;
+}
+
+/* Pixels of a row from index `at` on, all with the same pairs. */
+struct stretch {
+    int32_t at, n, pairs;
+};
+
+static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
+{
+    return i + 1 == gap->pairs ? gap->last : gap->unit;
+}
+
+/* Sum of a plane over the gap at pixel `at`. Where movers are hidden is not where they are not: there they go on as at
+ * the pixel. */
+static inline uint32_t gap_sum(const struct subframes *f, const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    uint32_t all = sum[at] * gap->unit;
+    for (int32_t i = 0; i < pairs; i++) {
+        const int32_t offset = gap->offset[i];
+        const int32_t before = f->work.depth[at - offset] > f->nearest ? at : at - offset;
+        const int32_t after = f->work.depth[at + offset] > f->nearest ? at : at + offset;
+        all += (sum[before] + sum[after]) * pair_weight(gap, i);
+    }
+    return all;
+}
+
+static inline uint32_t mixed_packed(uint32_t rb, uint32_t gn, const struct narrow_mean *m, uint32_t still)
+{
+    const uint32_t rest = m->n - (gn >> 16);
+    rb += (still & 0xff00ffu) * rest;
+    return pixel_make(0, narrow_mean_of(m, rb >> 16), narrow_mean_of(m, (gn & 0xffffu) + pixel_green(still) * rest),
+                      narrow_mean_of(m, rb & 0xffffu));
+}
+
+#if SMEAR_VECTORS
+/* Of both packed planes. */
+static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t *gn, const struct gap *gap, int32_t pairs)
+{
+    smear_v4u a = v4u_load(rb), b = v4u_load(gn);
+    const int32_t *offset = gap->offset;
+    for (int32_t i = 1; i < pairs; i++, offset++) {
+        a += v4u_load(rb + *offset) + v4u_load(rb - *offset);
+        b += v4u_load(gn + *offset) + v4u_load(gn - *offset);
+    }
+    a <<= gap->unit_log2;
+    b <<= gap->unit_log2;
+    if (pairs > 0) {
+        const smear_v4u end_a = v4u_load(rb + *offset) + v4u_load(rb - *offset);
+        const smear_v4u end_b = v4u_load(gn + *offset) + v4u_load(gn - *offset);
+        const uint32_t last = pair_weight(gap, pairs - 1);
+        a += v4u_mul16(end_a, (smear_v4u){ 0, 0, 0, 0 } + last * 0x10001u);
+        b += v4u_mul16(end_b, (smear_v4u){ 0, 0, 0, 0 } + last * 0x10001u);
+    }
+    out[0] = a;
+    out[1] = b;
+}
+
+static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_mean *m, smear_v4u still)
+{
+    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->half * 0x10001u, factor = zero + m->factor * 0x10001u;
+    const smear_v4u rest = (zero + m->n) - (gn >> 16);
+    rb += v4u_mul16(still & 0xff00ffu, rest | rest << 16);
+    const smear_v4u g = (gn & 0xffffu) + v4u_mul16(still >> 8 & 0xffu, rest);
+    const smear_v4u rb_mean = v4u_mulh16(rb + half, factor), g_mean = v4u_mulh16(g + (half & 0xffffu), factor);
+    return (rb_mean >> m->shift & 0xff00ffu) | g_mean >> m->shift << 8;
+}
+#endif
+
+/* `hidden`: some pixels there lie before all movers. */
+static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, bool hidden)
+{
+    const struct narrow_mean *m = &gap->mean[s->pairs];
+    uint32_t *out = f->work.color;
+    const uint32_t *rb = f->sum[0], *gn = f->sum[1];
+    const int32_t end = s->at + s->n;
+    int32_t i = s->at;
+#if SMEAR_VECTORS
+    for (; !hidden && i + 4 <= end; i += 4) {
+        smear_v4u sum[2];
+        gap_sum4(sum, rb + i, gn + i, gap, s->pairs);
+        v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
+    }
+#endif
+    for (; i < end; i++)
+        if (!hidden || f->work.depth[i] <= f->nearest)
+            out[i] = mixed_packed(gap_sum(f, rb, i, gap, s->pairs), gap_sum(f, gn, i, gap, s->pairs), m, out[i]);
+}
+
+static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap)
+{
+    const struct mean m = mean_make(gap->weight[s->pairs]);
+    const bool linear = frame_is_linear(f->t->frame);
+    for (int32_t at = s->at; at < s->at + s->n; at++) {
+        uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f, f->times, at, gap, s->pairs);
+        if (times == 0 || f->work.depth[at] > f->nearest)
+            continue;
+        for (int i = 0; i < 3; i++)
+            mean[i] = mean_of(&m, gap_sum(f, f->sum[i], at, gap, s->pairs)
+                              + value_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
+        *out = linear ? pixel_make(0, smear_srgb_encode[mean[0] >> 4], smear_srgb_encode[mean[1] >> 4],
+                                   smear_srgb_encode[mean[2] >> 4])
+                      : pixel_make(0, mean[0], mean[1], mean[2]);
+    }
+}
+
+/* Whether what is still hides all movers somewhere in or near the box. */
+static bool hides(const struct subframes *f, const struct box *b)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
+                        min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
+    uint32_t low, high;
+    find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
+    return high > f->nearest;
+}
+
+/* Columns [x0, x1) of the box, which lie in one tile: rows, cut where fewer pairs count. */
+static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const bool hidden = f->highest > f->nearest && hides(f, b);
+    for (int32_t y = b->y0; y < b->y1; y++) {
+        const int32_t row_pairs = pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
+        const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
+        struct stretch stretch = { work_row(f, b, y), 0, 0 };
+        for (int32_t x = b->x0; x < b->x1; x += stretch.n, stretch.at += stretch.n) {
+            const int32_t near = min_i32(x - s->x0, s->x1 - 1 - x);
+            stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
+            stretch.pairs = pairs_within(row_pairs, gap->x, near);
+            if (f->packed)
+                average_packed(f, &stretch, gap, hidden);
+            else
+                average_wide(f, &stretch, gap);
         }
     }
 }
 
-static uint32_t mixed(const struct subframes *f, int32_t at, uint32_t still)
+/* `all`: where anything has been summed. */
+static void average(const struct subframes *f, const struct box *all, const struct smear_step *step)
 {
-    const struct mean *m = &f->mean;
-    if (f->packed) {
-        uint32_t rest = m->n - (f->sum[2 * at + 1] >> 16);
-        uint32_t rb = f->sum[2 * at] + (still & 0xff00ffu) * rest;
-        uint32_t g = (f->sum[2 * at + 1] & 0xffffu) + pixel_green(still) * rest;
-        return pixel_make(0, mean_of(m, rb >> 16), mean_of(m, g), mean_of(m, rb & 0xffffu));
-    }
-    bool linear = frame_is_linear(f->t->frame);
-    const uint32_t *sum = f->sum + 3 * at;
-    uint32_t rest = m->n - f->times[at];
-    uint32_t r = mean_of(m, sum[0] + value_of(pixel_red(still), linear) * rest);
-    uint32_t g = mean_of(m, sum[1] + value_of(pixel_green(still), linear) * rest);
-    uint32_t b = mean_of(m, sum[2] + value_of(pixel_blue(still), linear) * rest);
-    return linear ? pixel_make(0, smear_srgb_encode[r >> 4], smear_srgb_encode[g >> 4], smear_srgb_encode[b >> 4])
-                  : pixel_make(0, r, g, b);
-}
-
-static void average(const struct subframes *f, const struct box *b)
-{
-    for (int32_t y = b->y0; y < b->y1; y++) {
-        int32_t at = work_row(f, b, y), end = at + (b->x1 - b->x0);
-        for (; at < end; at++)
-            if (f->packed ? f->sum[2 * at + 1] >= 0x10000u : f->times[at] != 0)
-                f->work.color[at] = mixed(f, at, f->work.color[at]);
+    static const struct smear_step none = { 0, 0 };
+    const struct smear_raster_target *s = &f->t->still;
+    for (int32_t x = s->x0; x < s->x1; x += f->t->tile) {
+        struct gap gap;
+        gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
+        const int32_t wide = gap.pairs != 0 ? PAIRS_MAX : 0;
+        const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
+                               min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide), min_i32(s->y1, all->y1 + wide) };
+        if (!box_is_empty(&b))
+            average_tile(f, &b, &gap);
     }
 }
 
-uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instants)
+uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step)
 {
     const struct smear_raster_target *s = &t->still;
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
-    int32_t pixels = t->tile * t->tile;
-    struct subframes f = { .t = t, .packed = !frame_is_linear(t->frame) && instants <= PACKED_MAX };
-    f.sum = (uint32_t *)t->work;
-    f.listed = f.sum + 3 * pixels;
-    f.times = (uint16_t *)(void *)(f.listed + LISTED);
+    const int32_t pixels = t->pitch * (s->y1 - s->y0);
+    struct subframes f = { .t = t, .packed = !frame_is_linear(t->frame) && instants <= PACKED_MAX,
+                           .instants = (uint32_t)instants };
+    f.listed = (uint32_t *)t->work;
+    for (int i = 0; i < 3; i++)
+        f.sum[i] = f.listed + LISTED + i * pixels;
+    f.times = f.sum[2] + pixels;
     f.work = *s;
     f.work.velocity8 = NULL;
     f.work.velocity16 = NULL;
     f.work.inspect = NULL;
     f.work.moving = NULL;
     f.work.color = t->out;
-    f.work.depth = f.times + pixels;
-    f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->tile, 0, t->tile, s->x0 };
+    f.work.depth = (uint16_t *)(void *)(f.times + pixels);
+    f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 
     copy_color(&f, &whole);
     restore_depth(&f, &whole);
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        f.mean = mean_make((uint32_t)instants);
-        __builtin_memset(f.sum, 0, (size_t)pixels * (f.packed ? 2 : 3) * sizeof *f.sum);
+        __builtin_memset(f.sum[0], 0, (size_t)pixels * (f.packed ? 2 : 3) * sizeof *f.sum[0]);
         if (!f.packed)
             __builtin_memset(f.times, 0, (size_t)pixels * sizeof *f.times);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))
                 continue;
-            if (f.packed)
-                add_packed(&f, &box);
-            else
-                add(&f, &box);
+            add(&f, &box);
             restore_depth(&f, &box);
             samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
             box_add(&all, &box);
@@ -452,6 +700,6 @@ uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instant
     if (f.blends)
         blend(&f, 0, BLEND_STILL, &f.work, NULL);
     if (samples != 0)
-        average(&f, &all);
+        average(&f, &all, step);
     return samples;
 }

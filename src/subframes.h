@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* subframes.h - a tile's own moving triangles drawn again at several instants. */
+/* subframes.h - the moving triangles of some tiles drawn again at several instants. */
 #ifndef SMEAR_SUBFRAMES_H
 #define SMEAR_SUBFRAMES_H
 
 #include "mover.h"
 
-/* Bytes of work memory per worker for tiles of this edge. */
-size_t smear_subframes_work(int32_t tile);
+/* How all movers of a tile go on from one instant to the next, nearly, in 1/16 px. */
+struct smear_step {
+    int16_t x, y;
+};
+
+/* Bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
+size_t smear_subframes_work(int32_t width, int32_t height);
 
 /* The mean of `instants` (1 .. 1024) sharp instants at the middles of slots of equal weight. Still opaque surfaces are
- * taken from `still`; movers and all blended draws are drawn at every instant. Returns the samples taken. */
-uint32_t smear_subframes_tile(const struct smear_moving_tile *t, int32_t instants);
+ * taken from `still`; movers and all blended draws are drawn at every instant. `step`, one per tile, or null: what lies
+ * between instants is filled in along the way, where nothing is blended. Returns the samples taken. */
+uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step);
 
 #endif

@@ -11,9 +11,92 @@
 
 /* ------------------------------------------------------------------ lists */
 
-/* What columns [x0, x1) of pixels hold; with bounds, of one mover. */
+/* How a mover goes from open to close, 1/16 px: at the tile row's upper side and 1 px further right, as a plane in q8; no
+ * less and no more than its vertices. Without slopes: anything between. */
+struct way {
+    int32_t x0, x1, y0, y1;
+    bool flat;
+    int32_t x, y, x_dx, y_dx, x_dy, y_dy;
+};
+
+/* Smaller triangles hardly differ from one end to the other. */
+enum { WAY_PX = 24 };
+
+/* num / area in q8; far from exact for slivers, which is no matter. */
+static int32_t slope_q8(int64_t num, int64_t area)
+{
+    while (num >= 1 << 22 || num <= -(1 << 22)) {
+        num >>= 1;
+        area >>= 1;
+    }
+    return area > 0 && area <= INT32_MAX ? (int32_t)num * 256 / (int32_t)area : 0;
+}
+
+static void way_plane(struct way *w, const int32_t *const v[3], const int32_t x[3], const int32_t y[3], int32_t top)
+{
+    int32_t x1 = (v[1][VERTEX_X] - v[0][VERTEX_X]) >> 8, y1 = (v[1][VERTEX_Y] - v[0][VERTEX_Y]) >> 8;
+    int32_t x2 = (v[2][VERTEX_X] - v[0][VERTEX_X]) >> 8, y2 = (v[2][VERTEX_Y] - v[0][VERTEX_Y]) >> 8;
+    int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    if (area < WAY_PX)
+        return;
+    w->flat = false;
+    w->x_dx = slope_q8((int64_t)(x[1] - x[0]) * y2 - (int64_t)(x[2] - x[0]) * y1, area);
+    w->x_dy = slope_q8((int64_t)(x[2] - x[0]) * x1 - (int64_t)(x[1] - x[0]) * x2, area);
+    w->y_dx = slope_q8((int64_t)(y[1] - y[0]) * y2 - (int64_t)(y[2] - y[0]) * y1, area);
+    w->y_dy = slope_q8((int64_t)(y[2] - y[0]) * x1 - (int64_t)(y[1] - y[0]) * x2, area);
+    int32_t left = v[0][VERTEX_X] >> 8, down = top - (v[0][VERTEX_Y] >> 8);
+    w->x = x[0] * 256 - w->x_dx * left + w->x_dy * down;
+    w->y = y[0] * 256 - w->y_dx * left + w->y_dy * down;
+}
+
+static struct way way_of(const struct smear_geometry *g, uint32_t triangle, int32_t top)
+{
+    const struct smear_triangle *t = geometry_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
+    const struct smear_path_bounds *b = geometry_bounds(g, triangle);
+    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .flat = true };
+    const int32_t pieces = b->piece != 0 ? PATH_PIECES : 1, *v[3];
+    int32_t x[3], y[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = geometry_vertex(g, s, t->vertex[i]);
+        const int32_t *open = v[i] + s->motion, *close = open + PATH_POSE_WORDS;
+        x[i] = ((close[PATH_X] - open[PATH_X]) >> 4) * pieces;
+        y[i] = ((close[PATH_Y] - open[PATH_Y]) >> 4) * pieces;
+        w.x0 = min_i32(w.x0, x[i]);
+        w.x1 = max_i32(w.x1, x[i]);
+        w.y0 = min_i32(w.y0, y[i]);
+        w.y1 = max_i32(w.y1, y[i]);
+    }
+    if (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX)
+        way_plane(&w, v, x, y, top);
+    return w;
+}
+
+/* The plane over a tile of `edge` pixels. */
+static void way_in(struct smear_tile_load *load, const struct way *w, int32_t left, int32_t edge)
+{
+    int32_t x0 = w->x0, x1 = w->x1, y0 = w->y0, y1 = w->y1;
+    if (!w->flat) {
+        int32_t x = w->x + w->x_dx * left, y = w->y + w->y_dx * left;
+        int32_t x_across = w->x_dx * edge, x_down = w->x_dy * edge, y_across = w->y_dx * edge, y_down = w->y_dy * edge;
+        int32_t low = (x + min_i32(x_across, 0) + min_i32(x_down, 0)) >> 8;
+        int32_t high = (x + max_i32(x_across, 0) + max_i32(x_down, 0)) >> 8;
+        x0 = clamp_i32(low, w->x0, w->x1);
+        x1 = clamp_i32(high, w->x0, w->x1);
+        low = (y + min_i32(y_across, 0) + min_i32(y_down, 0)) >> 8;
+        high = (y + max_i32(y_across, 0) + max_i32(y_down, 0)) >> 8;
+        y0 = clamp_i32(low, w->y0, w->y1);
+        y1 = clamp_i32(high, w->y0, w->y1);
+    }
+    load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
+    load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);
+    load->y0 = (int16_t)clamp_i32(y0, INT16_MIN, load->y0);
+    load->y1 = (int16_t)clamp_i32(y1, load->y1, INT16_MAX);
+}
+
+/* What columns [x0, x1) of pixels hold; with bounds and a way, of one mover. */
 static void load_tiles(const struct smear_context *c, struct smear_row_movers *r, int32_t x0, int32_t x1,
-                       const struct smear_path_bounds *b, uint16_t flags)
+                       const struct smear_path_bounds *b, const struct way *way, uint16_t flags)
 {
     const struct smear_window *w = &c->window;
     int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
@@ -22,10 +105,9 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
         load->flags |= flags;
         if (b == NULL)
             continue;
-        load->flags |= b->flags;
-        load->travel = (uint16_t)max_i32(load->travel, b->travel);
+        load->flags |= (uint16_t)(b->flags | TILE_MOVES);
         load->bend = (uint16_t)max_i32(load->bend, b->bend);
-        load->count++;
+        way_in(load, way, column << w->tile_shift, w->tile);
     }
 }
 
@@ -42,7 +124,7 @@ static void still_columns(const struct smear_geometry *g, const struct smear_tri
 }
 
 /* Marks the tiles of blended draws. */
-static void load_list(const struct smear_context *c, struct smear_row_movers *r, uint32_t head)
+static void load_list(const struct smear_context *c, struct smear_row_movers *r, uint32_t head, int32_t top)
 {
     const struct smear_geometry *g = &c->geometry;
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
@@ -50,10 +132,11 @@ static void load_list(const struct smear_context *c, struct smear_row_movers *r,
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = geometry_bounds(g, i);
-            load_tiles(c, r, b->x0, b->x1, b, TILE_BLENDED);
+            const struct way way = way_of(g, i, top);
+            load_tiles(c, r, b->x0, b->x1, b, &way, TILE_BLENDED);
         } else {
             still_columns(g, t, &x0, &x1);
-            load_tiles(c, r, x0, x1, NULL, TILE_BLENDED);
+            load_tiles(c, r, x0, x1, NULL, NULL, TILE_BLENDED);
         }
     }
 }
@@ -64,14 +147,15 @@ static void list_movers(struct smear_context *c, int row)
     struct smear_row_movers *r = &c->row_movers;
     int shift = c->window.tile_shift;
     for (int32_t i = 0; i < c->window.columns; i++)
-        r->load[i] = (struct smear_tile_load){ 0, 0, 0, 0, 0 };
+        r->load[i] = (struct smear_tile_load){ .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX, .y1 = INT16_MIN };
     r->count = 0;
     c->moving = smear_geometry_advance(g, g->mover_last, c->moving, row);
     for (uint32_t i = c->moving; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
         const struct smear_path_bounds *b = geometry_bounds(g, i);
         r->mover[r->count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
                                                      b->nearest };
-        load_tiles(c, r, b->x0, b->x1, b, 0);
+        const struct way way = way_of(g, i, row_top(c, row));
+        load_tiles(c, r, b->x0, b->x1, b, &way, 0);
     }
 }
 
@@ -81,7 +165,7 @@ static void list_blended(struct smear_context *c, int row)
     if (!c->blends)
         return;
     c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
-    load_list(c, &c->row_movers, c->blend);
+    load_list(c, &c->row_movers, c->blend, row_top(c, row));
 }
 
 /* ------------------------------------------------------------------ drawing */
@@ -108,6 +192,7 @@ static void still_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     clear(&t, r->c->frame.clear & 0xffffffu);
+    t.cache = smear_raster_cache_of(&r->c->cache, job);
     smear_raster_list(&r->c->raster, &t, r->c->opaque);
 }
 
@@ -121,19 +206,7 @@ struct finish {
 
 static bool is_still(const struct smear_tile_load *load)
 {
-    return load->count == 0 && (load->flags & PATH_WITHOUT_MASK) == 0;
-}
-
-/* Still tiles go to the display as they lie, a run of them at once: the job of the run's first tile. */
-static void convert_still(const struct finish *f, const struct smear_row_movers *m, int column)
-{
-    const struct smear_context *c = f->row.c;
-    if (column > 0 && is_still(&m->load[column - 1]))
-        return;
-    int end = column + 1;
-    while (end < c->window.columns && is_still(&m->load[end]))
-        end++;
-    smear_band_convert_rows(&f->row, &f->still, tile_left(c, column), tile_right(c, end - 1));
+    return (load->flags & (TILE_MOVES | PATH_WITHOUT_MASK)) == 0;
 }
 
 /* Blended draws over a tile without movers. */
@@ -143,46 +216,107 @@ static void blend_still(const struct smear_moving_tile *t, const struct smear_co
     for (int32_t y = s->y0; y < s->y1; y++) {
         const uint32_t *in = s->color + target_row(&s->color_rows, s, y) + s->x0;
         for (int32_t i = 0; i < s->x1 - s->x0; i++)
-            t->out[(y - s->y0) * t->tile + i] = in[i];
+            t->out[(y - s->y0) * t->pitch + i] = in[i];
     }
     struct smear_raster_target over = *s;
     over.color = t->out;
-    over.color_rows = (struct smear_plane_rows){ t->tile, 0, t->tile, s->x0 };
+    over.color_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
     smear_raster_list(&c->raster, &over, t->blend);
 }
 
-static void finish_job(void *argument, int column, int worker)
+/* Tiles [first, end) of the row, for a method. */
+static struct smear_moving_tile tiles_of(const struct finish *f, int first, int end, int worker)
 {
-    const struct finish *f = (const struct finish *)argument;
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
     const struct smear_row_movers *m = &c->row_movers;
-    struct smear_tile_load *load = &m->load[column];
-    if (is_still(load)) {
-        load->method = TILE_COPY;
-        convert_still(f, m, column);
-        return;
-    }
     struct smear_moving_tile t = {
         .frame = &c->raster, .shutter = &c->shutter, .still = f->still, .mover = m->mover, .mover_count = m->count,
-        .column = column, .blend = c->blend, .out = c->scratch + worker * w->tile * w->tile, .tile = w->tile,
-        .work = c->work + (uint32_t)worker * c->work_bytes, .work_bytes = c->work_bytes
+        .column = first, .last_column = end - 1, .blend = c->blend, .out = c->scratch + worker * c->strip * w->tile,
+        .pitch = c->strip, .tile = w->tile, .work = c->work + (uint32_t)worker * c->work_bytes,
+        .work_bytes = c->work_bytes
     };
-    t.still.x0 = tile_left(c, column);
-    t.still.x1 = tile_right(c, column);
+    t.still.x0 = tile_left(c, first);
+    t.still.x1 = tile_right(c, end - 1);
+    return t;
+}
+
+static void hand_on(const struct finish *f, const struct smear_moving_tile *t)
+{
+    struct smear_raster_target out = t->still;
+    out.color = t->out;
+    out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
+    smear_band_convert_rows(&f->row, &out, out.x0, out.x1);
+}
+
+static int finish_still(const struct finish *f, int first, int end)
+{
+    struct smear_context *c = f->row.c;
+    int next = first;
+    for (; next < end && is_still(&c->row_movers.load[next]); next++)
+        c->row_movers.load[next].method = TILE_COPY;
+    smear_band_convert_rows(&f->row, &f->still, tile_left(c, first), tile_right(c, next - 1));
+    return next;
+}
+
+/* Tiles beside each other share instants: as many as the one that needs most. */
+static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
+{
+    struct smear_context *c = f->row.c;
+    struct smear_tile_load *load = c->row_movers.load;
+    struct smear_step step[STRIP_TILES_MAX];
     struct smear_tile_choice choice;
-    smear_choose(&choice, &c->chooser, load);
-    load->method = (uint8_t)choice.method;
-    if (SMEAR_WITH_TIMEMASK && choice.method == TILE_TIMEMASK) {
+    int next = first + 1;
+    load[first].method = TILE_SUBFRAMES;
+    for (; next < end && !is_still(&load[next]); next++) {
+        smear_choose(&choice, &c->chooser, &load[next]);
+        if (choice.method != TILE_SUBFRAMES)
+            break;
+        load[next].method = TILE_SUBFRAMES;
+        instants = max_i32(instants, choice.instants);
+    }
+    for (int i = first; i < next; i++)
+        smear_choose_step(&step[i - first], &c->chooser, &load[i], instants);
+    struct smear_moving_tile t = tiles_of(f, first, next, worker);
+    c->worker_samples[worker] += smear_subframes_tiles(&t, instants, smear_shutter_is_box(&c->shutter) ? step : NULL);
+    hand_on(f, &t);
+    return next;
+}
+
+static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
+{
+    struct smear_context *c = f->row.c;
+    struct smear_tile_load *load = &c->row_movers.load[column];
+    struct smear_moving_tile t = tiles_of(f, column, column + 1, worker);
+    load->method = (uint8_t)choice->method;
+    if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
         bool is_smooth;
-        c->worker_samples[worker] += smear_timemask_tile(&t, &choice.timemask, &is_smooth);
+        c->worker_samples[worker] += smear_timemask_tile(&t, &choice->timemask, &is_smooth);
         load->method = is_smooth ? TILE_SMOOTH : TILE_TIMEMASK;
-    } else if (choice.method == TILE_SUBFRAMES) {
-        c->worker_samples[worker] += smear_subframes_tile(&t, choice.instants);
     } else {
         blend_still(&t, c);
     }
-    smear_band_convert_tile(&f->row, column, t.out);
+    hand_on(f, &t);
+}
+
+static void finish_job(void *argument, int strip, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    struct smear_context *c = f->row.c;
+    const int tiles = c->strip >> c->window.tile_shift, end = min_i32((strip + 1) * tiles, c->window.columns);
+    for (int column = strip * tiles; column < end;) {
+        const struct smear_tile_load *load = &c->row_movers.load[column];
+        struct smear_tile_choice choice;
+        if (is_still(load)) {
+            column = finish_still(f, column, end);
+            continue;
+        }
+        smear_choose(&choice, &c->chooser, load);
+        if (choice.method == TILE_SUBFRAMES)
+            column = finish_subframes(f, column, end, choice.instants, worker);
+        else
+            finish_tile(f, column++, &choice, worker);
+    }
 }
 
 /* ------------------------------------------------------------------ rows */
@@ -202,13 +336,24 @@ static void count_tiles(struct smear_context *c)
     }
 }
 
+static bool row_is_still(const struct smear_context *c)
+{
+    for (int32_t i = 0; i < c->window.columns; i++)
+        if (!is_still(&c->row_movers.load[i]))
+            return false;
+    return true;
+}
+
 static int finish_row(struct smear_context *c, int row)
 {
     uint32_t start = stage_start(c);
     struct finish finish = { .row = { c, row, smear_band_begin(c) } };
     smear_row_target(c, row, &finish.still);
     list_blended(c, row);
-    smear_jobs_run(&c->jobs, finish_job, &finish, c->window.columns);
+    if (c->jobs.workers == 1 && row_is_still(c))
+        finish_still(&finish, 0, c->window.columns);
+    else
+        smear_jobs_run(&c->jobs, finish_job, &finish, (c->window.width + c->strip - 1) / c->strip);
     count_tiles(c);
     stage_end(c, &c->stats.time_blur, start);
     return smear_band_flush(c, row, finish.row.band);

@@ -88,7 +88,7 @@ static void list_movers(struct job *j)
     j->first = j->next;
     j->listed = 0;
     for (; j->next < t->mover_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
-        if (mover_is_in(&t->mover[j->next], t->column)
+        if (mover_is_in(&t->mover[j->next], t)
             || (j->across_log2 != 0 && t->mover[j->next].first == t->column + 1))   /* the last samples lie there */
             j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16 | (65535u - (j->next - j->first));
     sort_down(j->list, j->listed);
@@ -121,7 +121,7 @@ static void choose_segments(struct job *j)
     int32_t bend = 0, travel = 0;               /* q8 px */
     for (uint32_t i = 0; i < t->mover_count; i++) {
         const struct smear_path_bounds *b = geometry_bounds(t->frame->geometry, t->mover[i].triangle);
-        if (mover_is_in(&t->mover[i], t->column) && b->piece == 0) {
+        if (mover_is_in(&t->mover[i], t) && b->piece == 0) {
             travel = max_i32(travel, b->travel << 4);
             bend = max_i32(bend, b->bend << 3);
         }
@@ -240,7 +240,7 @@ static void choose_samples(struct job *j)
     const int32_t one = j->settings->sparse << 8;
     for (uint32_t i = 0; i < t->mover_count; i++) {
         struct mover m;
-        if (!mover_is_in(&t->mover[i], t->column))
+        if (!mover_is_in(&t->mover[i], t))
             continue;
         mover_take(&m, j, i);
         flow_add(&f, j, &m);
@@ -507,7 +507,7 @@ static void finish_block(const struct job *j, const struct block *b)
     }
     for (int32_t y = 0; y < b->height; y++) {
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
-        uint32_t *out = t->out + (j->y + y - still->y0) * t->tile + (j->x - still->x0);
+        uint32_t *out = t->out + (j->y + y - still->y0) * t->pitch + (j->x - still->x0);
         if (is_sparse(j)) {
             smear_timemask_spread(&spread, y, out, color,
                                   still->depth + still_at(&still->window_rows, still, j->x, j->y + y));

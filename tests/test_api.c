@@ -57,20 +57,21 @@ static void test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_
             for (size_t k = 0; k < sizeof draws / sizeof draws[0]; k++)
                 for (unsigned tile = 8; tile <= 64; tile *= 2)
                     for (unsigned reach = 1; reach <= tile; reach += reach < 15 ? 7 : 16) {
+                        const unsigned strip = tile * (1 + (unsigned)(i + n + k) % 16);
                         smear_desc desc = {
                             .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach, .tile = (int16_t)tile,
                             .max_triangles = triangles[n], .max_draws = (uint16_t)draws[k], .format = SMEAR_RGB565,
-                            .timed = 1, .flush = take_band
+                            .timed = 1, .strip = (int16_t)strip, .flush = take_band
                         };
                         unsigned width = (unsigned)size[i][0], height = (unsigned)size[i][1];
                         size_t windowed = smear_memory_size(&desc);
                         desc.sharp = 1;
                         size_t sharp = smear_memory_size(&desc);
                         bool ok = CHECK(sharp > 0 && windowed > sharp);
-                        ok = CHECK(sharp <= SMEAR_MEMORY_SIZE_TIMED(width, height, triangles[n], draws[k], tile))
+                        ok = CHECK(sharp <= SMEAR_MEMORY_SIZE_TIMED(width, height, triangles[n], draws[k], tile, strip))
                              && ok;
                         ok = CHECK(windowed <= SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles[n],
-                                                                             draws[k], tile)) && ok;
+                                                                             draws[k], tile, strip)) && ok;
                         if (!ok) {
                             CHECK_EQ(size[i][0], 0);
                             CHECK_EQ(triangles[n], 0);
@@ -80,8 +81,8 @@ static void test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_
                         }
                     }
     smear_desc desc = { .width = 240, .height = 240, .tile = 8, .reach = 8, .max_triangles = 600, .max_draws = 8,
-                        .format = SMEAR_RGB565, .sharp = 1, .timed = 1, .flush = take_band };
-    size_t room = SMEAR_MEMORY_SIZE_TIMED(240, 240, 600, 8, 8), need = smear_memory_size(&desc);
+                        .format = SMEAR_RGB565, .sharp = 1, .timed = 1, .strip = 8, .flush = take_band };
+    size_t room = SMEAR_MEMORY_SIZE_TIMED(240, 240, 600, 8, 8, 8), need = smear_memory_size(&desc);
     CHECK(room - need < need / 16);
     CHECK(need <= 72u * 1024u);
 }

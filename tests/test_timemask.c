@@ -206,7 +206,7 @@ static bool draw_sparse(int32_t slots, int32_t tile, int32_t bend, int32_t tap, 
         for (int32_t x = 0; x < W; x += tile) {
             struct smear_moving_tile t = {
                 .frame = &frame, .shutter = &shutter, .mover = mover, .mover_count = mover_count, .column = x / tile,
-                .blend = SMEAR_NO_TRIANGLE, .out = out, .tile = tile, .work = work + CANARY
+                .last_column = x / tile, .blend = SMEAR_NO_TRIANGLE, .out = out, .pitch = tile, .tile = tile, .work = work + CANARY
             };
             t.still = (struct smear_raster_target){
                 .x0 = x, .y0 = y, .x1 = min_i32(x + tile, W), .y1 = min_i32(y + tile, H), .color = still_color,

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* vector.h - four words at once, where the compiler and the core have them. Loops that use them have a plain twin that
+ * gives the same bits. */
+#ifndef SMEAR_VECTOR_H
+#define SMEAR_VECTOR_H
+
+#include "base.h"
+
+#ifndef SMEAR_VECTORS
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
+#define SMEAR_VECTORS 1
+#else
+#define SMEAR_VECTORS 0
+#endif
+#endif
+
+#if SMEAR_VECTORS && defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#if SMEAR_VECTORS
+typedef uint32_t smear_v4u __attribute__((vector_size(16)));
+
+static inline smear_v4u v4u_load(const uint32_t *p)
+{
+    smear_v4u v;
+    __builtin_memcpy(&v, p, sizeof v);
+    return v;
+}
+
+static inline void v4u_store(uint32_t *p, smear_v4u v)
+{
+    __builtin_memcpy(p, &v, sizeof v);
+}
+
+typedef int16_t smear_v8i __attribute__((vector_size(16)));
+
+static inline smear_v8i v8i_load(const uint16_t *p)
+{
+    smear_v8i v;
+    __builtin_memcpy(&v, p, sizeof v);
+    return v;
+}
+
+static inline smear_v8i v8i_all(int16_t a)
+{
+    return (smear_v8i){ a, a, a, a, a, a, a, a };
+}
+
+static inline smear_v8i v8i_min(smear_v8i a, smear_v8i b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_min_epi16((__m128i)a, (__m128i)b);
+#else
+    smear_v8i less = (smear_v8i)(a < b);
+    return (a & less) | (b & ~less);
+#endif
+}
+
+static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_max_epi16((__m128i)a, (__m128i)b);
+#else
+    smear_v8i less = (smear_v8i)(a < b);
+    return (b & less) | (a & ~less);
+#endif
+}
+
+/* Of 16-bit halves: a b, and a b / 2^16. */
+static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b)
+{
+    typedef uint16_t v8 __attribute__((vector_size(16)));
+    return (smear_v4u)((v8)a * (v8)b);
+}
+
+static inline smear_v4u v4u_mulh16(smear_v4u a, smear_v4u b)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_mulhi_epu16((__m128i)a, (__m128i)b);
+#else
+    smear_v4u low = (a & 0xffffu) * (b & 0xffffu) >> 16, high = (a >> 16) * (b >> 16) & 0xffff0000u;
+    return low | high;
+#endif
+}
+#endif
+
+#endif
