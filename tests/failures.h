@@ -47,7 +47,7 @@ struct fail_measure {
     double known[METHODS];      /* at most: fails as it is known to; 0: must pass */
     unsigned only;              /* methods it is taken of, ONLY(...) or-ed; 0: all */
     const char *otherwise;      /* why it is not taken of the others */
-    bool hard;                  /* SMEAR_AUTO has no known failure here */
+    bool hard;                  /* SMEAR_AUTO has no known failure here when it is asked for SMEAR_FINE */
 };
 
 enum { FAIL_MEASURES = 3 };
