@@ -433,6 +433,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *d)
     add_field(&text, "half", d->half);
     add_field(&text, "scatter", d->scatter);
     add_field(&text, "layers", d->layers);
+    add_field(&text, "strip", d->strip);
     add_field(&text, "band_rows", d->band_rows);
     add_field(&text, "max_draws", d->max_draws);
     add_field(&text, "max_triangles", d->max_triangles);
