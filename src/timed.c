@@ -3,7 +3,8 @@
  *
  *     still       triangles that do not move, into the row's pixels
  *     list        movers of the row, and what they mean for its tiles
- *     finish      each tile by its method (choose.h): a copy, a time mask, or subframes; then flush
+ *     finish      tiles by their method (choose.h): a copy, subframes of tiles beside each other, or a time mask; then
+ *                 flush
  */
 #include "timed.h"
 
