@@ -15,7 +15,10 @@ struct preset {
     int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
-enum { INSTANTS_MAX = 64 };
+enum {
+    INSTANTS_MAX = 64,
+    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
+};
 
 static const struct preset *preset_of(int32_t target)
 {
@@ -40,11 +43,16 @@ static int32_t largest(int32_t low, int32_t high)
     return max_i32(high, -low);
 }
 
+static bool has_ways(const struct smear_tile_load *load)
+{
+    return load->x0 <= load->x1;
+}
+
 /* Longest way, 1/16 px. */
 static int32_t travel_of(const struct smear_tile_load *load)
 {
-    if ((load->flags & TILE_MOVES) == 0)
-        return 0;
+    if (!has_ways(load))
+        return load->bend;
     int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
     return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
 }
@@ -52,13 +60,15 @@ static int32_t travel_of(const struct smear_tile_load *load)
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
 static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
 {
+    if ((load->flags & PATH_PIECE) != 0)        /* its way is not known */
+        return most;
     return min_i32(max_i32((travel_of(load) + 7) >> 3, 2), most);
 }
 
 /* How unlike movers go, 1/16 px of the whole exposure. */
 static int32_t spread_of(const struct smear_tile_load *load)
 {
-    return max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->bend;
+    return has_ways(load) ? max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->bend : 0;
 }
 
 static bool may_fill(const struct smear_chooser *chooser, const struct smear_tile_load *load)
@@ -70,7 +80,7 @@ void smear_choose_step(struct smear_step *step, const struct smear_chooser *choo
                        int32_t instants)
 {
     *step = (struct smear_step){ 0, 0 };
-    if (chooser->method != SMEAR_AUTO || !may_fill(chooser, load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
+    if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
         return;
     step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
     step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
@@ -87,7 +97,8 @@ static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
-    bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
+    const bool pieces = (load->flags & PATH_PIECE) != 0;
+    const bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
     if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
     } else if (chooser->method == SMEAR_SUBFRAMES) {
@@ -104,9 +115,17 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         const struct preset *p = preset_of(chooser->target);
         const int32_t travel = travel_of(load);
         int32_t instants = travel / 16 + 1;
-        if (may_fill(chooser, load))
-            instants = max_i32(p->least + travel / p->step, spread_of(load) / p->spread + 1);
-        if (closed_form && (instants > p->most || !chooser->fills)) {
+        if (may_fill(chooser, load)) {
+            instants = max_i32(p->least + travel / p->step, travel / STEP_MAX + 1);
+            if (p->least <= 3 && travel < 8)        /* half a pixel */
+                instants = 2;
+            instants = max_i32(instants, spread_of(load) / p->spread + 1);
+        }
+        /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
+         * not known, as clipping moves their ends. */
+        if (pieces)
+            instants = max_i32(min_i32(instants, p->most), max_i32(8, p->least + 3));
+        if (closed_form && !pieces && (instants > p->most || !chooser->fills)) {
             /* A texture shows where its surface is all over, not only at edges. */
             choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
                             p->tap, p->sparse);

@@ -10,7 +10,7 @@ enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 
 /* The movers of a tile: all that may be seen there during the exposure. */
 struct smear_tile_load {
-    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px; about, within large triangles */
+    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where x0 > x1 */
     uint16_t bend;              /* largest, 1/16 px */
     uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
     uint8_t method;             /* smear_tile_method it got in the end */

@@ -304,7 +304,7 @@ static void add_pose(struct smear_assembly *a, const struct smear_context *c, co
         return;
     struct smear_projection both[2] = { a->pose[i], a->pose[i] };
     int32_t deform = deformation_is_scaled(p, k) ? p->deform : 256;
-    const int32_t weight[2] = { deform << 16, (256 - deform) << 16 };
+    const int32_t weight[2] = { deform * 65536, (256 - deform) * 65536 };
     a->has_rest = a->has_rest || deform != 256;
     if (p->deform != 256)
         smear_projection_weigh(both, weight, 2, p->camera[0]);

@@ -8,87 +8,118 @@
  */
 #include "timed.h"
 
+#include "fixmath.h"
 #include "pixel.h"
 
 /* ------------------------------------------------------------------ lists */
 
-/* How a mover goes from open to close, 1/16 px: at the tile row's upper side and 1 px further right, as a plane in q8; no
- * less and no more than its vertices. Without slopes: anything between. */
+/* How a mover goes from open to close, 1/16 px: least and most of its vertices. Of a large one whose vertices go unlike ways
+ * also what tells the way from place to place: weights in the middle of the exposure give weights at its ends. */
 struct way {
     int32_t x0, x1, y0, y1;
-    bool flat;
-    int32_t x, y, x_dx, y_dx, x_dy, y_dy;
+    bool large;
+    int32_t x[3], y[3];             /* vertices in the middle of the exposure, px */
+    struct {
+        int32_t x[3], y[3];         /* at open and close, 1/8 px */
+        int32_t weight[3];          /* how much farther away than in the middle, q8 */
+    } pose[2];
 };
 
-/* Smaller triangles hardly differ from one end to the other. */
-enum { WAY_PX = 24 };
+enum {
+    WAY_PX = 24,                    /* smaller triangles lie in few tiles */
+    WAY_ALIKE = 8 * 16,             /* ways that need not be told apart */
+    WAY_BITS = 14                   /* of weights */
+};
 
-/* num / area in q8; far from exact for slivers, which is no matter. */
-static int32_t slope_q8(int64_t num, int64_t area)
+/* Of two depths, q8, within 1/16 .. 16. */
+static int32_t depth_ratio(int32_t a, int32_t b)
 {
-    while (num >= 1 << 22 || num <= -(1 << 22)) {
-        num >>= 1;
-        area >>= 1;
-    }
-    return area > 0 && area <= INT32_MAX ? (int32_t)num * 256 / (int32_t)area : 0;
+    const uint32_t depth = (uint32_t)b | 1u;
+    const int zeros = count_leading_zeros(depth);
+    const uint32_t ratio = mulh_u32((uint32_t)a, recip_norm(depth << zeros));      /* 2^(29 - zeros) a / b */
+    return clamp_i32((int32_t)(zeros <= 21 ? min_u32(ratio >> (21 - zeros), 4096) : min_u32(ratio, 4096u) << (zeros - 21)), 16, 4096);
 }
 
-static void way_plane(struct way *w, const int32_t *const v[3], const int32_t x[3], const int32_t y[3], int32_t top)
-{
-    int32_t x1 = (v[1][VERTEX_X] - v[0][VERTEX_X]) >> 8, y1 = (v[1][VERTEX_Y] - v[0][VERTEX_Y]) >> 8;
-    int32_t x2 = (v[2][VERTEX_X] - v[0][VERTEX_X]) >> 8, y2 = (v[2][VERTEX_Y] - v[0][VERTEX_Y]) >> 8;
-    int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
-    if (area < WAY_PX)
-        return;
-    w->flat = false;
-    w->x_dx = slope_q8((int64_t)(x[1] - x[0]) * y2 - (int64_t)(x[2] - x[0]) * y1, area);
-    w->x_dy = slope_q8((int64_t)(x[2] - x[0]) * x1 - (int64_t)(x[1] - x[0]) * x2, area);
-    w->y_dx = slope_q8((int64_t)(y[1] - y[0]) * y2 - (int64_t)(y[2] - y[0]) * y1, area);
-    w->y_dy = slope_q8((int64_t)(y[2] - y[0]) * x1 - (int64_t)(y[1] - y[0]) * x2, area);
-    int32_t left = v[0][VERTEX_X] >> 8, down = top - (v[0][VERTEX_Y] >> 8);
-    w->x = x[0] * 256 - w->x_dx * left + w->x_dy * down;
-    w->y = y[0] * 256 - w->y_dx * left + w->y_dy * down;
-}
-
-static struct way way_of(const struct smear_geometry *g, uint32_t triangle, int32_t top)
+static struct way way_of(const struct smear_geometry *g, uint32_t triangle)
 {
     const struct smear_triangle *t = geometry_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
     const struct smear_path_bounds *b = geometry_bounds(g, triangle);
-    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .flat = true };
-    const int32_t pieces = b->piece != 0 ? PATH_PIECES : 1, *v[3];
-    int32_t x[3], y[3];
+    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN };
+    const int32_t *v[3];
     for (int i = 0; i < 3; i++) {
         v[i] = geometry_vertex(g, s, t->vertex[i]);
         const int32_t *open = v[i] + s->motion, *close = open + PATH_POSE_WORDS;
-        x[i] = ((close[PATH_X] - open[PATH_X]) >> 4) * pieces;
-        y[i] = ((close[PATH_Y] - open[PATH_Y]) >> 4) * pieces;
-        w.x0 = min_i32(w.x0, x[i]);
-        w.x1 = max_i32(w.x1, x[i]);
-        w.y0 = min_i32(w.y0, y[i]);
-        w.y1 = max_i32(w.y1, y[i]);
+        int32_t x = (close[PATH_X] - open[PATH_X]) >> 4, y = (close[PATH_Y] - open[PATH_Y]) >> 4;
+        w.x0 = min_i32(w.x0, x);
+        w.x1 = max_i32(w.x1, x);
+        w.y0 = min_i32(w.y0, y);
+        w.y1 = max_i32(w.y1, y);
     }
-    if (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX)
-        way_plane(&w, v, x, y, top);
+    w.large = (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX) && (w.x1 - w.x0 > WAY_ALIKE || w.y1 - w.y0 > WAY_ALIKE);
+    for (int i = 0; w.large && i < 3; i++) {
+        w.x[i] = v[i][VERTEX_X] >> 8;
+        w.y[i] = v[i][VERTEX_Y] >> 8;
+        for (int k = 0; k < 2; k++) {
+            const int32_t *pose = v[i] + s->motion + k * PATH_POSE_WORDS;
+            w.pose[k].x[i] = pose[PATH_X] >> 5;
+            w.pose[k].y[i] = pose[PATH_Y] >> 5;
+            w.pose[k].weight[i] = depth_ratio(v[i][VERTEX_DEPTH], pose[PATH_DEPTH]);
+        }
+    }
     return w;
 }
 
-/* The plane over a tile of `edge` pixels. */
-static void way_in(struct smear_tile_load *load, const struct way *w, int32_t left, int32_t edge)
+static int shift_to(int32_t largest)
 {
-    int32_t x0 = w->x0, x1 = w->x1, y0 = w->y0, y1 = w->y1;
-    if (!w->flat) {
-        int32_t x = w->x + w->x_dx * left, y = w->y + w->y_dx * left;
-        int32_t x_across = w->x_dx * edge, x_down = w->x_dy * edge, y_across = w->y_dx * edge, y_down = w->y_dy * edge;
-        int32_t low = (x + min_i32(x_across, 0) + min_i32(x_down, 0)) >> 8;
-        int32_t high = (x + max_i32(x_across, 0) + max_i32(x_down, 0)) >> 8;
-        x0 = clamp_i32(low, w->x0, w->x1);
-        x1 = clamp_i32(high, w->x0, w->x1);
-        low = (y + min_i32(y_across, 0) + min_i32(y_down, 0)) >> 8;
-        high = (y + max_i32(y_across, 0) + max_i32(y_down, 0)) >> 8;
-        y0 = clamp_i32(low, w->y0, w->y1);
-        y1 = clamp_i32(high, w->y0, w->y1);
+    return max_i32(32 - count_leading_zeros((uint32_t)largest | 1u) - WAY_BITS, 0);
+}
+
+/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the side it is beyond of most. */
+static void weigh(int32_t e[3], const struct way *w, int32_t x, int32_t y)
+{
+    static const int next[3] = { 1, 2, 0 }, last[3] = { 2, 0, 1 };
+    int beyond = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = next[i], k = last[i];
+        e[i] = (w->x[j] - x) * (w->y[k] - y) - (w->x[k] - x) * (w->y[j] - y);
+        beyond = e[i] < e[beyond] ? i : beyond;
     }
+    if (e[beyond] >= 0)
+        return;
+    const int j = next[beyond], k = last[beyond];
+    const int32_t dx = w->x[k] - w->x[j], dy = w->y[k] - w->y[j], square = max_i32(dx * dx + dy * dy, 1);
+    e[beyond] = 0;
+    e[k] = clamp_i32((x - w->x[j]) * dx + (y - w->y[j]) * dy, 0, square);
+    e[j] = square - e[k];
+}
+
+/* At a pixel of the triangle, or near one. */
+static void way_at(int32_t out[2], const struct way *w, int32_t x, int32_t y)
+{
+    int32_t e[3], at[2][2];
+    weigh(e, w, x, y);
+    int shift = shift_to(max_i32(e[0], max_i32(e[1], e[2])));
+    for (int k = 0; k < 2; k++) {
+        int32_t m[3];
+        for (int i = 0; i < 3; i++)
+            m[i] = (e[i] >> shift) * w->pose[k].weight[i];
+        int down = shift_to(max_i32(m[0], max_i32(m[1], m[2])));
+        int32_t sum = max_i32((m[0] >> down) + (m[1] >> down) + (m[2] >> down), 1);
+        at[k][0] = at[k][1] = 0;
+        for (int i = 0; i < 3; i++) {
+            at[k][0] += (m[i] >> down) * w->pose[k].x[i];
+            at[k][1] += (m[i] >> down) * w->pose[k].y[i];
+        }
+        at[k][0] /= sum;
+        at[k][1] /= sum;
+    }
+    out[0] = clamp_i32(2 * (at[1][0] - at[0][0]), w->x0, w->x1);
+    out[1] = clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1);
+}
+
+static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
     load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
     load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);
     load->y0 = (int16_t)clamp_i32(y0, INT16_MIN, load->y0);
@@ -97,7 +128,7 @@ static void way_in(struct smear_tile_load *load, const struct way *w, int32_t le
 
 /* What columns [x0, x1) of pixels hold; with bounds and a way, of one mover. */
 static void load_tiles(const struct smear_context *c, struct smear_row_movers *r, int32_t x0, int32_t x1,
-                       const struct smear_path_bounds *b, const struct way *way, uint16_t flags)
+                       const struct smear_path_bounds *b, const struct way *way, uint16_t flags, int32_t top)
 {
     const struct smear_window *w = &c->window;
     int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
@@ -107,8 +138,20 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
         if (b == NULL)
             continue;
         load->flags |= (uint16_t)(b->flags | TILE_MOVES);
+        if (b->piece != 0)
+            continue;
         load->bend = (uint16_t)max_i32(load->bend, b->bend);
-        way_in(load, way, column << w->tile_shift, w->tile);
+        if (!way->large) {
+            load_way(load, way->x0, way->x1, way->y0, way->y1);
+            continue;
+        }
+        for (int32_t side = 0; side < 2; side++) {
+            int32_t upper[2], lower[2], x = (column + side) << w->tile_shift;
+            way_at(upper, way, x, top);
+            way_at(lower, way, x, top + w->tile);
+            load_way(load, min_i32(upper[0], lower[0]), max_i32(upper[0], lower[0]), min_i32(upper[1], lower[1]),
+                     max_i32(upper[1], lower[1]));
+        }
     }
 }
 
@@ -133,11 +176,11 @@ static void load_list(const struct smear_context *c, struct smear_row_movers *r,
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = geometry_bounds(g, i);
-            const struct way way = way_of(g, i, top);
-            load_tiles(c, r, b->x0, b->x1, b, &way, TILE_BLENDED);
+            const struct way way = way_of(g, i);
+            load_tiles(c, r, b->x0, b->x1, b, &way, TILE_BLENDED, top);
         } else {
             still_columns(g, t, &x0, &x1);
-            load_tiles(c, r, x0, x1, NULL, NULL, TILE_BLENDED);
+            load_tiles(c, r, x0, x1, NULL, NULL, TILE_BLENDED, top);
         }
     }
 }
@@ -155,8 +198,8 @@ static void list_movers(struct smear_context *c, int row)
         const struct smear_path_bounds *b = geometry_bounds(g, i);
         r->mover[r->count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
                                                      b->nearest };
-        const struct way way = way_of(g, i, row_top(c, row));
-        load_tiles(c, r, b->x0, b->x1, b, &way, 0);
+        const struct way way = way_of(g, i);
+        load_tiles(c, r, b->x0, b->x1, b, &way, 0, row_top(c, row));
     }
 }
 
