@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 # chart.awk - from build/chart/chart.csv, as `make chart` writes it, what the page shows: per setting the geometric means
-# of cost and error over all scenes in which something moves, as tools/bench/chart_means.c takes them.
+# of cost and error over all scenes in which something moves, as tools/bench/chart_means.c takes them. Other weights and
+# variants have no switch on the page.
 BEGIN { FS = OFS = ","; print "setting,cost,rmse" }
 NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
 $column["light"] == "encoded" && $column["poses"] == "shutter" && $column["group"] != "still" && $column["cost"] > 0 {
     s = $column["setting"]
+    if (s ~ /mcguire|guertin|jimenez|spread|plain|half 8 mended/)
+        next
     if (!(s in count))
         order[n++] = s
     error = $column["rmse"] > 0.01 ? $column["rmse"] : 0.01
