@@ -81,11 +81,9 @@ static inline void sum_add(struct sum *s, uint32_t p, uint32_t weight, bool line
 
 enum { WHOLE = 4096 };
 
-/* What is missing is still; what is too much is shared. */
-static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
+/* The mean. */
+static uint32_t sum_mean(const struct sum *s, bool linear)
 {
-    if (s->weight < WHOLE)
-        sum_add(s, still, WHOLE - s->weight, linear);
     int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
     uint32_t half = s->weight >> 1, c[3] = { s->r + half, s->g + half, s->b + half };
@@ -94,6 +92,14 @@ static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
         c[i] = linear ? smear_srgb_encode[min_u32(value, 4095u)] : min_u32(value, 255u);
     }
     return pixel_make(0, c[0], c[1], c[2]);
+}
+
+/* What is missing is still; what is too much is shared. */
+static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
+{
+    if (s->weight < WHOLE)
+        sum_add(s, still, WHOLE - s->weight, linear);
+    return sum_mean(s, linear);
 }
 
 /* Taps along a direction, and what the velocities they meet are worth. */
@@ -193,10 +199,25 @@ SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
     return word;
 }
 
-SMEAR_INLINE void gather(struct gathering *g, struct sum *sum, int32_t here, uint32_t still_depth, bool linear)
+/* What a pixel sees of the layer: all of it, or what lies behind a group that was merged before, and what before it. */
+struct seen {
+    struct sum sum, behind;
+    uint32_t passed_depth;      /* of that group; 0: there is none */
+};
+
+static inline struct sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
+{
+    return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
+}
+
+/* `own`: the pixel's surface moves itself. Where a tap meets one that does not come here, it is hidden by a nearer one, or
+ * has left one that is farther free. */
+SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t still_depth, bool linear,
+                         bool mixed)
 {
     struct taps *t = &g->taps;
     const struct smear_layer_rows *l = g->a->layer;
+    const uint32_t even = (uint32_t)((WHOLE + t->count - 1) / t->count);
     for (int32_t k = 0; k < t->count; k++) {
         int32_t at = here + t->tap[k].offset;
         if (g->depth[at] <= still_depth)
@@ -205,15 +226,18 @@ SMEAR_INLINE void gather(struct gathering *g, struct sum *sum, int32_t here, uin
         if (word != t->word)
             taps_meet(t, velocity_at(l, at), word);
         if (t->tap[k].distance <= t->carries)
-            sum_add(sum, g->color[at], t->weight, linear);
+            sum_add(sum_of(seen, g->depth[at], mixed), g->color[at], t->weight, linear);
+        else if (own) {
+            int32_t of = g->depth[at] > g->depth[here] ? here : at;
+            sum_add(sum_of(seen, g->depth[of], mixed), g->color[of], even, linear);
+        }
     }
 }
 
-/* A pixel of the frame, `here` in the layer's rows. */
-SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out, uint32_t *taken,
-                              bool linear)
+/* Sums at a pixel, `here` in the layer's rows; where its surface comes from: an index there, or -1. */
+SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t still_depth, uint32_t *taken,
+                          bool linear, bool mixed)
 {
-    struct sum sum = { 0, 0, 0, 0 };
     int32_t of = -1;
     const bool drawn = g->depth[here] > still_depth;
     struct vector d = { 0, 0 };
@@ -230,13 +254,88 @@ SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_
         d = velocity_at(g->a->layer, of);
         if (d.x != g->taps.d.x || d.y != g->taps.d.y)
             taps_start(&g->taps, d, word, g->width);
-        gather(g, &sum, here, still_depth, linear);
+        gather(g, seen, here, of == here, still_depth, linear, mixed);
         *taken += (uint32_t)g->taps.count;
     }
-    if (stays && sum.weight < WHOLE)
-        sum_add(&sum, g->color[here], WHOLE - sum.weight, linear);
-    if (sum.weight != 0)
-        *out = sum_pixel(&sum, *out, linear);
+    const uint32_t weight = seen->sum.weight + (mixed ? seen->behind.weight : 0);
+    if (stays && weight < WHOLE)
+        sum_add(sum_of(seen, g->depth[here], mixed), g->color[here], WHOLE - weight, linear);
+    return drawn ? here : of;
+}
+
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out, uint32_t *taken,
+                              bool linear)
+{
+    struct seen seen = { .passed_depth = 0 };
+    look(g, &seen, here, still_depth, taken, linear, false);
+    if (seen.sum.weight != 0)
+        *out = sum_pixel(&seen.sum, *out, linear);
+}
+
+/* ------------------------------------------------------------------ between other groups */
+
+/* a + (b - a) part / WHOLE, of codes or their light. */
+static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+{
+    const uint32_t rest = WHOLE - part;
+    if (linear)
+        return smear_srgb_encode[((smear_srgb_decode[a] >> 4) * rest + (smear_srgb_decode[b] >> 4) * part + WHOLE / 2) >> 12];
+    return (a * rest + b * part + WHOLE / 2) >> 12;
+}
+
+static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+{
+    return pixel_make(0, mixed_channel(pixel_red(a), pixel_red(b), part, linear),
+                      mixed_channel(pixel_green(a), pixel_green(b), part, linear),
+                      mixed_channel(pixel_blue(a), pixel_blue(b), part, linear));
+}
+
+/* Something whole that is seen past `passed`, which are colours times coverage, and coverage. */
+static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
+{
+    const uint32_t rest = ((255u - (passed >> 24)) * WHOLE + 127u) / 255u;
+    uint32_t out = mixed_pixel(0, pixel, rest, linear), sum[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t a = out >> 8 * i & 255u, b = passed >> 8 * i & 255u;
+        sum[i] = linear ? smear_srgb_encode[min_u32((uint32_t)(smear_srgb_decode[a] + smear_srgb_decode[b]) >> 4, 4095u)]
+                        : min_u32(a + b, 255u);
+    }
+    return pixel_make(0, sum[2], sum[1], sum[0]);
+}
+
+/* `part` of a pixel over what has passed; coverage likewise. */
+static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool linear)
+{
+    uint32_t a = ((passed >> 24) * (WHOLE - part) + 255u * part + WHOLE / 2) >> 12;
+    return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
+}
+
+/* Where other groups were merged before this one: what lies behind them goes between them and what they were merged over. */
+static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t still_depth, int32_t at, uint32_t *taken)
+{
+    const struct smear_gather_area *a = g->a;
+    uint32_t passed = a->passed[at];
+    struct seen seen = { .passed_depth = passed != 0 ? a->passed_depth[at] : 0 };
+    const int32_t of = look(g, &seen, here, still_depth, taken, a->linear, true);
+    const uint32_t front = min_u32(seen.sum.weight, WHOLE);
+    if (seen.behind.weight != 0 && front < WHOLE) {
+        /* Its share of the time in which nothing of the layer is in front. */
+        const uint32_t part = seen.behind.weight >= WHOLE - front ? WHOLE : (seen.behind.weight << 12) / (WHOLE - front);
+        const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
+        a->still[at] = mixed_pixel(a->still[at], whole, part, a->linear);
+        const uint32_t coverage = passed >> 24;
+        passed = (coverage + (((255u - coverage) * part + WHOLE / 2) >> 12)) << 24
+               | mixed_pixel(passed & 0xffffffu, whole, part, a->linear);
+    }
+    if (front != 0) {
+        passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
+        a->still[at] = sum_pixel(&seen.sum, a->still[at], a->linear);
+    }
+    if (!a->marks || (seen.sum.weight | seen.behind.weight) == 0)
+        return;
+    const uint32_t depth = of >= 0 ? g->depth[of] : 0;
+    a->passed_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
+    a->passed[at] = passed;
 }
 
 /* Columns that what is drawn in the rows around y may reach. */
@@ -274,7 +373,9 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
             if (top.x != g.top.x || top.y != g.top.y)
                 probes_start(&g, top);
             int32_t here = (y + a->top) * l->width + x + l->margin;
-            if (a->linear)
+            if (x + l->margin >= a->mixed0 && x + l->margin < a->mixed1)
+                merge_mixed(&g, here, still_depth, y * a->still_stride + x, &taken);
+            else if (a->linear)
                 merge_pixel(&g, here, still_depth, &still[x], &taken, true);
             else
                 merge_pixel(&g, here, still_depth, &still[x], &taken, false);

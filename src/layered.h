@@ -22,6 +22,11 @@ struct smear_gather_area {
     uint32_t *still;            /* first pixel of the frame's row to be finished */
     const uint16_t *still_depth;
     int32_t still_stride;
+    /* Where groups pass through each other, as in object.h. */
+    uint32_t *passed;
+    uint16_t *passed_depth;
+    int32_t mixed0, mixed1;
+    bool marks;
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     int32_t tile_shift, samples;
     bool linear, over;          /* over: whatever the depths are */

@@ -444,9 +444,9 @@ static void mark_tiles(struct smear_context *c, const struct layers_row *r)
         w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
 }
 
-static int32_t reach_of(const struct smear_group *group)
+static int32_t reach_of(const struct smear_context *c, const struct smear_group *group)
 {
-    return (abs_i32(group->vx) >> 9) + 2;
+    return group->method == SMEAR_LAYERED ? c->window.reach : (abs_i32(group->vx) >> 9) + 2;
 }
 
 /* Where groups lie in part behind others that are merged before them. */
@@ -462,8 +462,8 @@ static bool find_mixed(const struct smear_context *c)
         g->marked_from = UINT32_MAX;
         for (uint32_t k = 0; k < i && g->head != SMEAR_NO_TRIANGLE; k++) {
             struct smear_group *before = &l->group[l->order[k]];
-            int32_t x0 = max_i32(g->x0 - reach_of(g), before->x0 - reach_of(before));
-            int32_t x1 = min_i32(g->x1 + reach_of(g), before->x1 + reach_of(before));
+            int32_t x0 = max_i32(g->x0 - reach_of(c, g), before->x0 - reach_of(c, before));
+            int32_t x1 = min_i32(g->x1 + reach_of(c, g), before->x1 + reach_of(c, before));
             if (before->head == SMEAR_NO_TRIANGLE || g->rank != before->rank || g->farthest >= before->nearest || x0 >= x1)
                 continue;
             g->mixed0 = min_i32(g->mixed0, x0);
@@ -529,7 +529,8 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
         .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
-        .over = group->rank != 0
+        .over = group->rank != 0, .passed = rows->over, .passed_depth = rows->over_depth,
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
     };
     if (rows->held.group != group)
         smear_streak_edges(s, rows->edge, s->upright ? rows->rows : rows->width);

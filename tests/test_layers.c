@@ -479,6 +479,64 @@ static void test_what_turns_is_blurred_by_its_pixels(void)
     CHECK(channel(picture[(H / 2 + 5) * W + W / 2 + 20], 16) > 20);
 }
 
+/* Turned by so much to both sides, about its middle. */
+static void mover_turn(struct mover *m, double half_x, double half_y, double angle)
+{
+    for (int i = 0; i < 2; i++) {
+        smear_transform *t = i == 0 ? &m->open : &m->close;
+        double c = cos(angle), s = i == 0 ? -sin(angle) : sin(angle);
+        t->basis[0] = (int32_t)(half_x * c * SMEAR_BASIS_ONE);
+        t->basis[1] = (int32_t)(-half_y * s * SMEAR_BASIS_ONE);
+        t->basis[3] = (int32_t)(half_x * s * SMEAR_BASIS_ONE);
+        t->basis[4] = (int32_t)(half_y * c * SMEAR_BASIS_ONE);
+    }
+}
+
+/* What turns is one group, merged after a mover that lies between its parts. */
+static void test_what_turns_behind_a_mover_does_not_hide_it(void)
+{
+    struct mover small, wall, plate_between;
+    mover_make(&small, -36, 20, 5, 5, 3, 0, 0);
+    mover_turn(&small, 5, 3, 0.3);
+    mover_make(&wall, 0, 0, 60, 40, 28, 0, 0);
+    mover_turn(&wall, 40, 28, 0.08);
+    mover_make(&plate_between, 0, 0, 20, 12, 10, 12, 0);
+    smear_draw draw[3] = { draw_of(&small, &blue), draw_of(&wall, &green), draw_of(&plate_between, &red) };
+    for (int linear = 0; linear < 2; linear++) {
+        smear_frame frame = frame_of(SMEAR_OBJECT);
+        frame.light = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+        if (!render(picture, &frame, draw, 3))
+            return;
+        CHECK(stats.tiles_layered > 0);
+        for (int y = H / 2 - 8; y < H / 2 + 8; y++)
+            for (int x = W / 2 - 4; x < W / 2 + 4; x++)
+                CHECK_NEAR(channel(picture[y * W + x], 16), 255, 2);
+        const uint32_t half = picture[H / 2 * W + W / 2 - 12];      /* the middle of its ramp, over the wall alone */
+        CHECK_NEAR(channel(half, 16), linear ? 188 : 128, 16);
+        CHECK_NEAR(channel(half, 8), linear ? 188 : 128, 16);
+        CHECK(channel(half, 0) < 16);
+        CHECK_NEAR(channel(picture[(H / 2 - 20) * W + W / 2], 8), 255, 2);
+    }
+}
+
+/* A wall rushes by behind a plate that hardly moves: nothing shines through beside it. */
+static void test_no_halo_lies_around_what_is_before_a_fast_wall(void)
+{
+    struct mover wall, slow;
+    mover_make(&wall, 0, 0, 60, 60, 40, 14, 0);
+    mover_make(&slow, 0, 0, 20, 8, 10, 0, 1.5);
+    smear_draw draw[2] = { draw_of(&wall, &green), draw_of(&slow, &red) };
+    smear_frame frame = frame_of(SMEAR_LAYERED);
+    frame.clear = 0x0000ff;
+    if (!render(picture, &frame, draw, 2))
+        return;
+    int most = 0;
+    for (int y = 8; y < H - 8; y++)
+        for (int x = 16; x < W - 16; x++)
+            most = channel(picture[y * W + x], 0) > most ? channel(picture[y * W + x], 0) : most;
+    CHECK(most <= 4);
+}
+
 /* ------------------------------------------------------------------ layers */
 
 static void test_only_masked_draws_are_blurred(void)
@@ -812,6 +870,8 @@ void suite_layers(void)
     RUN(test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel);
     RUN(test_parts_of_one_thing_are_blurred_as_one);
     RUN(test_what_turns_is_blurred_by_its_pixels);
+    RUN(test_what_turns_behind_a_mover_does_not_hide_it);
+    RUN(test_no_halo_lies_around_what_is_before_a_fast_wall);
     RUN(test_only_masked_draws_are_blurred);
     RUN(test_a_layer_has_its_own_shutter);
     RUN(test_a_layer_has_its_own_method);
