@@ -297,29 +297,18 @@ SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int
     return taken;
 }
 
-static SMEAR_NOINLINE uint32_t row_light(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, true, false);
-}
-
-static SMEAR_NOINLINE uint32_t row_codes(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, false, false);
-}
-
-static SMEAR_NOINLINE uint32_t row_light_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, true, true);
-}
-
-static SMEAR_NOINLINE uint32_t row_codes_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, false, true);
-}
+/* One for each way to add colours and each size of velocities. */
+#define PASS_ROW(NAME, LINEAR, WIDE) \
+    static SMEAR_NOINLINE uint32_t NAME(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, \
+                                        int32_t table_y) \
+    { \
+        return pass_row(p, to, at, x, x1, table_y, LINEAR, WIDE); \
+    }
+PASS_ROW(row_light, true, false)
+PASS_ROW(row_codes, false, false)
+PASS_ROW(row_light_wide, true, true)
+PASS_ROW(row_codes_wide, false, true)
+#undef PASS_ROW
 
 static pass_row_fn *row_of(const struct passing *p)
 {
