@@ -267,10 +267,12 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 include platform/programs.mk
 include tools/web/web.mk
 
-# The demo firmware on a desktop's screen.
-$(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \
-    $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
-	$(CC) $(LDFLAGS) -o $@ $^ -lm
+# The firmware on a desktop's screen.
+NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)
+$(BUILD)/demo-screen:  $(filter-out $(NOT_OF_SCREENS),$(FIRMWARE_OBJ))
+$(BUILD)/model-screen: $(filter-out $(NOT_OF_SCREENS),$(MODEL_OBJ))
+$(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

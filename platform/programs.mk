@@ -15,7 +15,8 @@
 #
 # A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
 # DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
-# tests/target_demo.sh and platform/lm3s6965evb/target.mk.
+# tests/target_demo.sh and platform/lm3s6965evb/target.mk. SHOWN: what the programs' names end in that
+# demo-run and model-run show, where these are others.
 
 HOST_CC      ?= cc
 TARGET_TESTS ?= unit golden
@@ -129,7 +130,7 @@ demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
 ## shows it
-demo-run: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+demo-run: $(BUILD)/demo$(SHOWN)$(EXE) $(RUN_NEEDS)
 	$(RUN) $< show
 
 ## its frames and, where there is a display, screenshots against the host's
@@ -162,7 +163,7 @@ print-footprint:
 
 ## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR) $(STEP)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP)
 
 # ---------------------------------------------------------------------- the smallest
 
@@ -205,20 +206,36 @@ MODEL ?= build/model.h
 
 MODEL_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/model.o
 
-$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="../$(MODEL)"'
-$(BUILD)/platform/model.o: $(MODEL)
+$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="$(abspath $(MODEL))"'
+$(BUILD)/platform/model.o: $(MODEL) $(BUILD)/model.name
+
+# Changes with the name, so that another model is compiled even if its header is older.
+$(BUILD)/model.name: always
+	@mkdir -p $(@D)
+	@echo '$(abspath $(MODEL))' | cmp -s - $@ || echo '$(abspath $(MODEL))' > $@
+
+.PHONY: always
+$(MODEL):
+	@echo "$(MODEL) is missing: build/smear convert FILE --name model -o $(MODEL)" >&2; exit 1
 
 $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
 
-.PHONY: model-firmware model-run model-cost
+.PHONY: model-firmware model-run model-cost model-test
 ## a converted model (MODEL=build/model.h) as firmware for TARGET
 model-firmware: $(BUILD)/model$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
 ## shows it
-model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+model-run: $(BUILD)/model$(SHOWN)$(EXE) $(RUN_NEEDS)
 	$(RUN) $< show
+
+## its frames against the host's
+model-test: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(MAKE) --no-print-directory -s TARGET=host MODEL="$(MODEL)" build/host/model
+	build/host/model check $(DEMO_SCREEN) > $(BUILD)/model.want
+	$(RUN) $< check $(DEMO_SCREEN) > $(BUILD)/model.got
+	cmp $(BUILD)/model.want $(BUILD)/model.got
 
 ## what its frames cost on TARGET
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
