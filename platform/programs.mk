@@ -15,8 +15,8 @@
 #
 # A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
 # DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
-# tests/target_demo.sh and platform/lm3s6965evb/target.mk. SHOWN: what the programs' names end in that
-# demo-run and model-run show, where these are others.
+# tests/target_demo.sh and platform/lm3s6965evb/target.mk. For demo-run and model-run, SHOW is a command
+# if it is not to run the program; SHOWN is what their names end in where other programs are shown.
 
 HOST_CC      ?= cc
 TARGET_TESTS ?= unit golden
@@ -129,9 +129,13 @@ $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene
 demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it
+# Emulators here have no window: what is on their display is a screenshot.
+SCREENSHOT = $(SHOT) $< $(or $(FRAME),45) $(<:$(EXE)=.ppm) && echo "wrote $(<:$(EXE)=.ppm)"
+SHOW      ?= $(RUN) $< show
+
+## shows it; of emulated displays a screenshot, build/TARGET/demo.ppm, FRAME=45
 demo-run: $(BUILD)/demo$(SHOWN)$(EXE) $(RUN_NEEDS)
-	$(RUN) $< show
+	@$(SHOW)
 
 ## its frames and, where there is a display, screenshots against the host's
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
@@ -226,9 +230,9 @@ $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
 model-firmware: $(BUILD)/model$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it
+## shows it, as demo-run does
 model-run: $(BUILD)/model$(SHOWN)$(EXE) $(RUN_NEEDS)
-	$(RUN) $< show
+	@$(SHOW)
 
 ## its frames against the host's
 model-test: $(BUILD)/model$(EXE) $(RUN_NEEDS)
