@@ -175,6 +175,7 @@ FILE_SRC ?= platform/host/file.c
 TINY_OBJ := $(PROGRAM_OBJ) $(FILE_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/tiny.o
 
 $(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
+	@rm -f $@.*.ci
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
 
 .PHONY: tiny-firmware tiny-test tiny-cost
