@@ -68,6 +68,7 @@ $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
+## golden frames with each switch of smear_config.h off
 switches-test: $(TAPES)/golden.c
 	sh tests/target_switches.sh build/switches
 
@@ -80,6 +81,7 @@ $(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) pl
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
 
 .PHONY: template-test
+## platform/template on a board of threads
 template-test: $(BUILD)/template-1 $(BUILD)/template-2
 	timeout 120 $(BUILD)/template-1
 	timeout 120 $(BUILD)/template-2
@@ -165,7 +167,7 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
+## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP)
 
