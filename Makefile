@@ -226,7 +226,7 @@ print-san-suites:
 # Real models lie beside the repository where they are at hand.
 ## one suite of `make test`, SUITE=api; `make print-suites` lists them
 run-suite: $(TESTS)
-	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(SUITE)
+	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 test-headers:
 	@mkdir -p $(BUILD)
