@@ -904,6 +904,13 @@ input nowhere/d.pfm render "$plate" --stats /dev/null --depth nowhere/d.pfm
 input nowhere/v.pfm render "$plate" --stats /dev/null --velocity nowhere/v.pfm
 mkdir "$base/in/there.png"
 input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
+mkfifo "$base/in/pipe.h" "$base/in/pipe.ppm" "$base/in/pipe.gif" "$base/in/pipe"
+input "$base/in/pipe.h" convert "$plate" -o "$base/in/pipe.h"
+input "$base/in/pipe.ppm" compare "$base/work/out.ppm" "$base/work/out.ppm" --diff "$base/in/pipe.ppm"
+input "$base/in/pipe.gif" render "$plate" --frames 0-1 -o "$base/in/pipe.gif"
+input "$base/in/pipe" view "$plate" --frames 1 --check "$base/in/pipe" --update
+input "$base/in/pipe" view "$plate" --frames 1 --crc --record "$base/in/pipe"
+claim "what is no regular file stays" [ -p "$base/in/pipe.h" -a -p "$base/in/pipe.ppm" -a -p "$base/in/pipe.gif" -a -p "$base/in/pipe" ]
 if [ -c /dev/full ]; then
     input /dev/full render "$plate" --stats /dev/full
     "$smear" help >/dev/full 2>"$base/err"
