@@ -518,17 +518,38 @@ static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
     return i + 1 == gap->pairs ? gap->last : gap->unit;
 }
 
-/* Sum of a plane over the gap at pixel `at`. Where movers are hidden is not where they are not: there they go on as at
- * the pixel. */
-static inline uint32_t gap_sum(const struct subframes *f, const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs)
+static inline uint32_t times_at(const struct subframes *f, int32_t at)
+{
+    return f->packed ? f->sum[1][at] >> 16 : f->times[at];
+}
+
+/* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there they go on as at the
+ * pixel. Where the pixel itself hides some, others do not spread over it. What is at a pixel at n instants is half a gap
+ * away, or less, at n - 1 of them: where it is not and what is still is nearer, that hides it. */
+static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const uint32_t depth = f->work.depth[at], times = times_at(f, at);
+    bool hides = depth > f->nearest;
+    for (int32_t i = 0; i < 2 * pairs; i++) {
+        const int32_t p = i & 1 ? at + gap->offset[i >> 1] : at - gap->offset[i >> 1];
+        const uint32_t depth_there = f->work.depth[p];
+        tap[i] = p;
+        if (depth_there > depth && (depth_there > f->nearest || times_at(f, p) + 1 < times))
+            tap[i] = at;
+        else if (depth_there < depth && times + 1 < times_at(f, p))
+            hides = true;
+    }
+    for (int32_t i = 0; hides && i < 2 * pairs; i++)
+        tap[i] = at;
+}
+
+/* Sum of a plane over the gap at pixel `at`. `tap`: where its taps are; null: nothing hides movers there. */
+static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
 {
     uint32_t all = sum[at] * gap->unit;
-    for (int32_t i = 0; i < pairs; i++) {
-        const int32_t offset = gap->offset[i];
-        const int32_t before = f->work.depth[at - offset] > f->nearest ? at : at - offset;
-        const int32_t after = f->work.depth[at + offset] > f->nearest ? at : at + offset;
-        all += (sum[before] + sum[after]) * pair_weight(gap, i);
-    }
+    for (int32_t i = 0; i < pairs; i++)
+        all += (tap != NULL ? sum[tap[2 * i]] + sum[tap[2 * i + 1]] : sum[at - gap->offset[i]] + sum[at + gap->offset[i]])
+             * pair_weight(gap, i);
     return all;
 }
 
@@ -574,36 +595,83 @@ static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_m
 }
 #endif
 
-/* `hidden`: some pixels there lie before all movers. */
-static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, bool hidden)
+/* What hides movers somewhere near a stretch. */
+enum cover {
+    COVER_NONE,         /* nothing does */
+    COVER_FEW,          /* perhaps still surfaces that movers pass before, too, in places */
+    COVER_ALL           /* some that are nearer than all movers */
+};
+
+#if SMEAR_VECTORS
+/* Whether movers are seen at a tap of one of four pixels at two instants more than at another. */
+static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t pairs)
 {
+    smear_v8i least = (smear_v8i)v4u_load(gn), most = least;
+    for (int32_t i = 0; i < pairs; i++) {
+        const smear_v8i a = (smear_v8i)v4u_load(gn - gap->offset[i]), b = (smear_v8i)v4u_load(gn + gap->offset[i]);
+        least = v8i_min(least, v8i_min(a, b));
+        most = v8i_max(most, v8i_max(a, b));
+    }
+    const smear_v4u more = ((smear_v4u)most >> 16) - ((smear_v4u)least >> 16);
+    return ((more[0] | more[1] | more[2] | more[3]) & ~1u) != 0;
+}
+#endif
+
+static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
+{
+    uint32_t *out = &f->work.color[at];
+    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap), &gap->mean[pairs],
+                        *out);
+}
+
+static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap, int32_t pairs)
+{
+    int32_t tap[2 * PAIRS_MAX];
+    for (int32_t i = at; i < at + n; i++) {
+        find_taps(tap, f, i, gap, pairs);
+        average_one(f, i, gap, pairs, tap);
+    }
+}
+
+static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
+{
+    int32_t i = s->at;
+    const int32_t end = s->at + s->n;
+#if SMEAR_VECTORS
     const struct narrow_mean *m = &gap->mean[s->pairs];
     uint32_t *out = f->work.color;
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
-    const int32_t end = s->at + s->n;
-    int32_t i = s->at;
-#if SMEAR_VECTORS
-    for (; !hidden && i + 4 <= end; i += 4) {
+    for (; cover != COVER_ALL && i + 4 <= end; i += 4) {
+        if (cover == COVER_FEW && is_uneven4(gn + i, gap, s->pairs)) {
+            average_covered(f, i, 4, gap, s->pairs);
+            continue;
+        }
         smear_v4u sum[2];
         gap_sum4(sum, rb + i, gn + i, gap, s->pairs);
         v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
     }
 #endif
-    for (; i < end; i++)
-        if (!hidden || f->work.depth[i] <= f->nearest)
-            out[i] = mixed_packed(gap_sum(f, rb, i, gap, s->pairs), gap_sum(f, gn, i, gap, s->pairs), m, out[i]);
+    if (cover != COVER_NONE)
+        average_covered(f, i, end - i, gap, s->pairs);
+    else
+        for (; i < end; i++)
+            average_one(f, i, gap, s->pairs, NULL);
 }
 
-static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap)
+static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
 {
     const struct mean m = mean_make(gap->weight[s->pairs]);
     const bool linear = frame_is_linear(f->t->frame);
+    int32_t tap[2 * PAIRS_MAX];
+    const int32_t *taps = cover != COVER_NONE ? tap : NULL;
     for (int32_t at = s->at; at < s->at + s->n; at++) {
-        uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f, f->times, at, gap, s->pairs);
-        if (times == 0 || f->work.depth[at] > f->nearest)
+        if (cover != COVER_NONE)
+            find_taps(tap, f, at, gap, s->pairs);
+        uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f->times, at, gap, s->pairs, taps);
+        if (times == 0)
             continue;
         for (int i = 0; i < 3; i++)
-            mean[i] = mean_of(&m, gap_sum(f, f->sum[i], at, gap, s->pairs)
+            mean[i] = mean_of(&m, gap_sum(f->sum[i], at, gap, s->pairs, taps)
                               + value_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
         *out = linear ? pixel_make(0, smear_srgb_encode[mean[0] >> 4], smear_srgb_encode[mean[1] >> 4],
                                    smear_srgb_encode[mean[2] >> 4])
@@ -626,7 +694,8 @@ static bool hides(const struct subframes *f, const struct box *b)
 static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const bool hidden = f->highest > f->nearest && hides(f, b);
+    const enum cover cover = f->highest == f->lowest ? COVER_NONE
+                           : f->highest > f->nearest && hides(f, b) ? COVER_ALL : COVER_FEW;
     for (int32_t y = b->y0; y < b->y1; y++) {
         const int32_t row_pairs = pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
         const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
@@ -636,9 +705,9 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
             stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
             stretch.pairs = pairs_within(row_pairs, gap->x, near);
             if (f->packed)
-                average_packed(f, &stretch, gap, hidden);
+                average_packed(f, &stretch, gap, cover);
             else
-                average_wide(f, &stretch, gap);
+                average_wide(f, &stretch, gap, cover);
         }
     }
 }
