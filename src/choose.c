@@ -57,6 +57,12 @@ static int32_t travel_of(const struct smear_tile_load *load)
     return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
 }
 
+/* The same along x or y, whichever is more. */
+static int32_t reach_of(const struct smear_tile_load *load)
+{
+    return has_ways(load) ? max_i32(largest(load->x0, load->x1), largest(load->y0, load->y1)) + load->bend : load->bend;
+}
+
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
 static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
 {
@@ -116,7 +122,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         const int32_t travel = travel_of(load);
         int32_t instants = travel / 16 + 1;
         if (may_fill(chooser, load)) {
-            instants = max_i32(p->least + travel / p->step, travel / STEP_MAX + 1);
+            instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
             if (p->least <= 3 && travel < 8)        /* half a pixel */
                 instants = 2;
             instants = max_i32(instants, spread_of(load) / p->spread + 1);
