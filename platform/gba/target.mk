@@ -14,12 +14,12 @@ CFLAGS  += -mcpu=arm7tdmi -mthumb -mthumb-interwork -ffreestanding -ffunction-se
 LDFLAGS += -mcpu=arm7tdmi -mthumb -mthumb-interwork -nostdlib -Wl,--gc-sections -Lplatform/gba
 LDLIBS  += -lgcc
 
-# The library as ARM code, which multiplies to 64 bits.
-$(BUILD)/src/%.o $(BUILD)/platform/common/%.o: CFLAGS += -marm
+# The library as ARM code, which multiplies to 64 bits, and the scene's sines.
+$(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CFLAGS += -marm
 
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
-CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_RASTER_CACHE=0 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
-$(BUILD)/src/blur_%.o $(BUILD)/src/raster.o: CFLAGS += -Os
+CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_RASTER_CACHE=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
+$(BUILD)/src/blur_%.o $(BUILD)/src/raster.o $(BUILD)/src/setup.o: CFLAGS += -Os
 
 PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o
