@@ -41,18 +41,13 @@ static void cut(struct smear_clip_vertex *result, const struct smear_clip_vertex
                 const struct smear_clip_vertex *out, int64_t d_out, int poses)
 {
     int32_t t = ratio_q30(d_in, d_in - d_out);
-    struct smear_clip_vertex r;
-    mix_homogeneous(&r.now, &in->now, &out->now, t);
-    for (int i = 0; i < CLIP_POSES; i++)
-        if (i < poses)
-            mix_homogeneous(&r.pose[i], &in->pose[i], &out->pose[i], t);
-        else
-            r.pose[i] = r.now;
+    mix_homogeneous(&result->now, &in->now, &out->now, t);
+    for (int i = 0; i < poses; i++)
+        mix_homogeneous(&result->pose[i], &in->pose[i], &out->pose[i], t);
     for (int i = 0; i < 2; i++)
-        r.uv[i] = mix(in->uv[i], out->uv[i], t);
+        result->uv[i] = mix(in->uv[i], out->uv[i], t);
     for (int i = 0; i < CLIP_COLORS; i++)
-        r.color[i] = mix(in->color[i], out->color[i], t);
-    *result = r;
+        result->color[i] = mix(in->color[i], out->color[i], t);
 }
 
 /* Rounding may leave a new vertex a step outside, and W must be positive to divide by it. */
