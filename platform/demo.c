@@ -141,7 +141,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     desc.flush = swallow;
     desc.clock = read_clock;
     if (way != NULL)
-        demo_blur_desc(way, &desc);
+        demo_blur_desc(way, screen, &desc);
     platform_clock_start();
     int result = start(screen, &desc);
     player.blur = way;

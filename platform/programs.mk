@@ -252,7 +252,7 @@ model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 .PHONY: symbols-test
 ## what the firmware calls, from its symbols
 symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
-	sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
+	HOOKS='$(SYMBOLS_HOOKS)' sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

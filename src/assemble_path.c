@@ -214,10 +214,10 @@ static void exchange(struct smear_clip_vertex *v, int count, int key)
 /* Leaves what is in front of the near plane and within the guard band at all three instants. */
 static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
 {
-    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE], CLIP_POSES);
     for (int key = OPEN; key <= CLOSE && count != 0; key++) {
         exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR, CLIP_POSES);
         exchange(polygon, count, key);
     }
     return count;
