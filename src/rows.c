@@ -211,6 +211,15 @@ SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
     r->color = pixel_after(r->color, n, narrow);
 }
 
+/* Twelve values are as many as ARM has registers for; compilers would rather keep copies of some. */
+#if defined(__arm__) && defined(__OPTIMIZE__)
+#define ALL_IN_REGISTERS \
+    __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
+               : "r"(bend_u), "r"(bend_v), "r"(dz), "r"(texels), "r"(end))
+#else
+#define ALL_IN_REGISTERS (void)0
+#endif
+
 /* n > 1 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
 SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
 {
@@ -245,26 +254,35 @@ SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, i
     run->depth = r.depth;
     run->z = r.z;
 #else
-    /* All in registers, of which there are just as many. */
     uint32_t u = run->u, v = run->v, du = run->du, dv = run->dv, z = run->z;
     const uint32_t bend_u = run->bend_u, bend_v = run->bend_v, dz = run->dz;
     const void *const texels = run->texels;
     void *color = run->color;
-    uint16_t *depth = run->depth, *const end = depth + n;
-    do {
-        uint32_t code = z >> 16;
-        if (code > *depth) {
-            *depth = (uint16_t)code;
-            put_texel(color, 0, texels, v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), narrow);
-        }
-        depth++;
+    uint16_t *depth = run->depth, *const end = depth + (n & ~1);
+#define TEXEL_STEP(I) \
+    do { \
+        ALL_IN_REGISTERS; \
+        if (z >> 16 > depth[I]) { \
+            __asm__ volatile ("");      /* nothing of this in advance */ \
+            depth[I] = (uint16_t)(z >> 16); \
+            put_texel(color, I, texels, v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), narrow); \
+        } \
+        z += dz; \
+        u += du; \
+        v += dv; \
+        du += bend_u; \
+        dv += bend_v; \
+    } while (0)
+    for (; depth != end; depth += 2, color = pixel_after(color, 2, narrow)) {
+        TEXEL_STEP(0);
+        TEXEL_STEP(1);
+    }
+    if (n & 1) {
+        texel_pixel(color, depth, z, texels, packed_uv(u, v), log2_width, log2_height, narrow);
         color = pixel_after(color, 1, narrow);
+        depth++;
         z += dz;
-        u += du;
-        v += dv;
-        du += bend_u;
-        dv += bend_v;
-    } while (depth != end);
+    }
     run->color = color;
     run->depth = depth;
     run->z = z;
@@ -479,12 +497,17 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
-    const bool narrow = target_is_direct(target);
+    const bool narrow = target_is_direct(target), plain = is_plain(s, r);
+    struct piece p;
+    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     for (int32_t i = 0; i < list->count; i++) {
         const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
-        struct piece p;
-        p.b = r->side[row].left;
-        while (piece_next(&p, s, r, row, p.b)) {
+        p.a = r->side[row].left;
+        p.b = r->side[row].right;
+        p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
+        if (!plain && !piece_next(&p, s, r, row, p.a))
+            continue;
+        do {
             int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y), v = plane_at(&t->uv[1], p.a, y);
             uint32_t z = p.z + p.dz * (uint32_t)p.a;
             uint16_t *depth = target->depth + (at + p.a), *const end = target->depth + (at + p.b);
@@ -502,7 +525,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 u = add_wrap(u, t->uv[0].dx);
                 v = add_wrap(v, t->uv[1].dx);
             }
-        }
+        } while (!plain && piece_next(&p, s, r, row, p.b));
     }
 }
 
@@ -628,17 +651,18 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                      bend);
             run.depth = depth + left;
             run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
-            if (plain) {
-                run.z = z + run.dz * (uint32_t)left;
-                if (n == 1 && TEXELS_BY_HAND)
-                    texel_pixel(run.color, run.depth, run.z, run.texels, run_uv(&run), log2_width, log2_height, narrow);
-                else
-                    run_texels(&run, n, log2_width, log2_height, narrow);
-            } else {
-                struct texel_run piece = run;
-                piece.dz = p.dz;
-                piece.z = p.z + p.dz * (uint32_t)left;
+            run.z = z + run.dz * (uint32_t)left;
+            if (!plain) {
+                run.dz = p.dz;
+                run.z = p.z + p.dz * (uint32_t)left;
+            }
+            if (!plain && (p.a != left || p.b != left + n)) {
+                struct texel_run piece = run;       /* that one stays in registers */
                 run_texels_pieces(s, r, row, &piece, &p, left, left + n);
+            } else if (n == 1 && TEXELS_BY_HAND) {
+                texel_pixel(run.color, run.depth, run.z, run.texels, run_uv(&run), log2_width, log2_height, narrow);
+            } else {
+                run_texels(&run, n, log2_width, log2_height, narrow);
             }
         }
         depth += target->window_rows.stride;
