@@ -212,7 +212,7 @@ SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
 }
 
 /* Twelve values are as many as ARM has registers for; compilers would rather keep copies of some. */
-#if defined(__arm__) && defined(__OPTIMIZE__)
+#if defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
 #define ALL_IN_REGISTERS \
     __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
                : "r"(bend_u), "r"(bend_v), "r"(dz), "r"(texels), "r"(end))
@@ -642,8 +642,9 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     run.texels = s->draw->sampler.texels;
     run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     run_index_start(&run, log2_width, log2_height);
-    for (int32_t row = 0, rows = r->count; row < rows; row++) {
-        const int32_t left = r->side[row].left, n = r->side[row].right - left, x = left - x0;
+    const ptrdiff_t stride = target->window_rows.stride;
+    for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
+        const int32_t left = side->left, n = side->right - left, x = left - x0, row = (int32_t)(side - r->side);
         struct piece p;
         if (n > 0 && (plain || piece_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
@@ -665,7 +666,7 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                 run_texels(&run, n, log2_width, log2_height, narrow);
             }
         }
-        depth += target->window_rows.stride;
+        depth += stride;
         z += dz_down;
         place = uv_add(place, dy);
         dy = uv_add(dy, dyy2);

@@ -432,7 +432,7 @@ void smear_setup_texture(struct setup *s)
         k.width[i] = high - low;
     }
     const bool flat = segment_flat_depth(s->segment)
-                   || smear_times_over((uint32_t)(k.high_q - k.low_q), travel, (uint32_t)k.low_q) >> 2 <= TEXTURE_OFF;
+                   || product_u32((uint32_t)(k.high_q - k.low_q), travel) <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
     if (!setup_curved(s, &k, travel, flat)) {
         if (flat)
             setup_affine(s, &k);
