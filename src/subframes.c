@@ -72,6 +72,7 @@ struct subframes {
     uint32_t mover_rest, blend_rest;
     uint32_t lowest, highest;   /* depth codes of what is still */
     uint32_t nearest;           /* nothing that is not still comes nearer */
+    struct box area;            /* and nothing of it is seen elsewhere */
 };
 
 size_t smear_subframes_work(int32_t width, int32_t height)
@@ -271,6 +272,13 @@ static bool touches(const struct subframes *f, uint32_t triangle)
     return b->x0 < tile->x1 && b->x1 > tile->x0 && b->y0 < tile->y1 && b->y1 > tile->y0;
 }
 
+static void note(struct subframes *f, const struct smear_mover *m)
+{
+    const struct smear_path_bounds *b = geometry_bounds(f->t->frame->geometry, m->triangle);
+    f->nearest = max_u32(f->nearest, m->nearest);
+    box_add(&f->area, &(struct box){ b->x0, b->y0, b->x1, b->y1 });
+}
+
 /* Lists what may be seen. True when something moves. */
 static bool list(struct subframes *f)
 {
@@ -280,16 +288,17 @@ static bool list(struct subframes *f)
     bool moves = false;
     find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
     f->nearest = 0;
+    f->area = no_box;
     for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
         const struct smear_mover *m = &t->mover[f->mover_rest];
         if (is_seen(f, m)) {
             f->listed[n++] = m->triangle;
-            f->nearest = max_u32(f->nearest, m->nearest);
+            note(f, m);
         }
     }
     for (uint32_t i = f->mover_rest; i < t->mover_count; i++)
         if (is_seen(f, &t->mover[i]))
-            f->nearest = max_u32(f->nearest, t->mover[i].nearest);
+            note(f, &t->mover[i]);
     moves = n != 0;
     f->movers_listed = n;
     f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
@@ -303,8 +312,10 @@ static bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
-    if (f->blends)
+    if (f->blends) {
         f->nearest = UINT16_MAX;
+        f->area = (struct box){ t->still.x0, t->still.y0, t->still.x1, t->still.y1 };
+    }
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
 
@@ -659,6 +670,24 @@ static void average(const struct subframes *f, const struct box *all, const stru
     }
 }
 
+/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond what was drawn, and reads as far
+ * beyond that. */
+static void clear_sums(const struct subframes *f)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const int32_t reach = 2 * PAIRS_MAX;
+    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    for (int32_t y = b.y0; y < b.y1; y++) {
+        const int32_t at = work_row(f, &b, y);
+        const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
+        for (int i = 0; i < (f->packed ? 2 : 3); i++)
+            __builtin_memset(f->sum[i] + at, 0, bytes);
+        if (!f->packed)
+            __builtin_memset(f->times + at, 0, bytes);
+    }
+}
+
 uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step)
 {
     const struct smear_raster_target *s = &t->still;
@@ -684,9 +713,7 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        __builtin_memset(f.sum[0], 0, (size_t)pixels * (f.packed ? 2 : 3) * sizeof *f.sum[0]);
-        if (!f.packed)
-            __builtin_memset(f.times, 0, (size_t)pixels * sizeof *f.times);
+        clear_sums(&f);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))

@@ -126,12 +126,32 @@ static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32
     load->y1 = (int16_t)clamp_i32(y1, load->y1, INT16_MAX);
 }
 
+struct way_range {
+    int32_t x0, x1, y0, y1;
+};
+
+/* Of a large mover, at the upper and lower end of a tile's side. */
+static struct way_range ways_beside(const struct way *way, int32_t x, int32_t top, int32_t edge)
+{
+    int32_t upper[2], lower[2];
+    way_at(upper, way, x, top);
+    way_at(lower, way, x, top + edge);
+    return (struct way_range){ min_i32(upper[0], lower[0]), max_i32(upper[0], lower[0]), min_i32(upper[1], lower[1]),
+                               max_i32(upper[1], lower[1]) };
+}
+
+static void load_range(struct smear_tile_load *load, const struct way_range *r)
+{
+    load_way(load, r->x0, r->x1, r->y0, r->y1);
+}
+
 /* What columns [x0, x1) of pixels hold; with bounds and a way, of one mover. */
 static void load_tiles(const struct smear_context *c, struct smear_row_movers *r, int32_t x0, int32_t x1,
                        const struct smear_path_bounds *b, const struct way *way, uint16_t flags, int32_t top)
 {
     const struct smear_window *w = &c->window;
     int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
+    struct way_range left = { 0, 0, 0, 0 };
     for (int32_t column = first; column <= last; column++) {
         struct smear_tile_load *load = &r->load[column];
         load->flags |= flags;
@@ -145,13 +165,12 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
             load_way(load, way->x0, way->x1, way->y0, way->y1);
             continue;
         }
-        for (int32_t side = 0; side < 2; side++) {
-            int32_t upper[2], lower[2], x = (column + side) << w->tile_shift;
-            way_at(upper, way, x, top);
-            way_at(lower, way, x, top + w->tile);
-            load_way(load, min_i32(upper[0], lower[0]), max_i32(upper[0], lower[0]), min_i32(upper[1], lower[1]),
-                     max_i32(upper[1], lower[1]));
-        }
+        struct way_range right = ways_beside(way, (column + 1) << w->tile_shift, top, w->tile);
+        if (column == first)
+            left = ways_beside(way, column << w->tile_shift, top, w->tile);
+        load_range(load, &left);
+        load_range(load, &right);
+        left = right;
     }
 }
 
