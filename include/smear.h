@@ -474,7 +474,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* ------------------------------------------------------------------ memory in detail */
 
-#define SMEAR_STRIP 64                      /* desc.strip by default, pixels */
+#define SMEAR_STRIP 128                     /* desc.strip by default, pixels */
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
