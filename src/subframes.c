@@ -72,6 +72,7 @@ struct subframes {
     uint32_t mover_rest, blend_rest;
     uint32_t lowest, highest;   /* depth codes of what is still */
     uint32_t nearest;           /* nothing that is not still comes nearer */
+    struct box area;            /* and nothing of it is seen elsewhere */
 };
 
 size_t smear_subframes_work(int32_t width, int32_t height)
@@ -271,6 +272,13 @@ static bool touches(const struct subframes *f, uint32_t triangle)
     return b->x0 < tile->x1 && b->x1 > tile->x0 && b->y0 < tile->y1 && b->y1 > tile->y0;
 }
 
+static void note(struct subframes *f, const struct smear_mover *m)
+{
+    const struct smear_path_bounds *b = geometry_bounds(f->t->frame->geometry, m->triangle);
+    f->nearest = max_u32(f->nearest, m->nearest);
+    box_add(&f->area, &(struct box){ b->x0, b->y0, b->x1, b->y1 });
+}
+
 /* Lists what may be seen. True when something moves. */
 static bool list(struct subframes *f)
 {
@@ -280,16 +288,17 @@ static bool list(struct subframes *f)
     bool moves = false;
     find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
     f->nearest = 0;
+    f->area = no_box;
     for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
         const struct smear_mover *m = &t->mover[f->mover_rest];
         if (is_seen(f, m)) {
             f->listed[n++] = m->triangle;
-            f->nearest = max_u32(f->nearest, m->nearest);
+            note(f, m);
         }
     }
     for (uint32_t i = f->mover_rest; i < t->mover_count; i++)
         if (is_seen(f, &t->mover[i]))
-            f->nearest = max_u32(f->nearest, t->mover[i].nearest);
+            note(f, &t->mover[i]);
     moves = n != 0;
     f->movers_listed = n;
     f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
@@ -303,8 +312,10 @@ static bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
-    if (f->blends)
+    if (f->blends) {
         f->nearest = UINT16_MAX;
+        f->area = (struct box){ t->still.x0, t->still.y0, t->still.x1, t->still.y1 };
+    }
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
 
@@ -451,10 +462,14 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
  * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
-enum { PAIRS_MAX = 8 };
+enum {
+    PAIRS_MAX = 8,
+    STRIDE_MAX = 2,                 /* pixels from tap to tap of a wide gap */
+    REACH_MAX = PAIRS_MAX * STRIDE_MAX
+};
 
 struct gap {
-    int32_t pairs;
+    int32_t pairs, reach;                   /* reach: pixels along x or y that are not exceeded */
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
     int32_t offset[PAIRS_MAX];              /* the same in the planes */
     uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
@@ -471,7 +486,10 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
 static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
-    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
+    const int32_t longest = max_i32(abs_i32(x), abs_i32(y)), widest = 16 * (2 * PAIRS_MAX + 1);        /* 1/16 px */
+    const int32_t stride = longest <= widest ? 1 : STRIDE_MAX;
+    const int32_t way = min_i32(longest, widest * stride);
+    const uint32_t length = (uint32_t)(way / stride);
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
         whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
@@ -485,9 +503,10 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
     const uint32_t side = (whole - gap->unit) >> 1;
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
+    gap->reach = gap->pairs * stride;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1) * stride, way);
+        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1) * stride, way);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -683,8 +702,8 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
 static bool hides(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
-                        min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
+    struct box near = { max_i32(b->x0 - REACH_MAX, s->x0), max_i32(b->y0 - REACH_MAX, s->y0),
+                        min_i32(b->x1 + REACH_MAX, s->x1), min_i32(b->y1 + REACH_MAX, s->y1) };
     uint32_t low, high;
     find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
     return high > f->nearest;
@@ -720,11 +739,29 @@ static void average(const struct subframes *f, const struct box *all, const stru
     for (int32_t x = s->x0; x < s->x1; x += f->t->tile) {
         struct gap gap;
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
-        const int32_t wide = gap.pairs != 0 ? PAIRS_MAX : 0;
+        const int32_t wide = gap.pairs != 0 ? gap.reach : 0;
         const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
                                min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide), min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
             average_tile(f, &b, &gap);
+    }
+}
+
+/* Empties the sums where they will be read: a gap's mean is taken REACH_MAX beyond what was drawn, and reads as far
+ * beyond that. */
+static void clear_sums(const struct subframes *f)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const int32_t reach = 2 * REACH_MAX;
+    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    for (int32_t y = b.y0; y < b.y1; y++) {
+        const int32_t at = work_row(f, &b, y);
+        const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
+        for (int i = 0; i < (f->packed ? 2 : 3); i++)
+            __builtin_memset(f->sum[i] + at, 0, bytes);
+        if (!f->packed)
+            __builtin_memset(f->times + at, 0, bytes);
     }
 }
 
@@ -753,9 +790,7 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        __builtin_memset(f.sum[0], 0, (size_t)pixels * (f.packed ? 2 : 3) * sizeof *f.sum[0]);
-        if (!f.packed)
-            __builtin_memset(f.times, 0, (size_t)pixels * sizeof *f.times);
+        clear_sums(&f);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))

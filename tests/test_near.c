@@ -63,7 +63,7 @@ static void check_stripe(double near_plane, int least_white)
 {
     static uint8_t want[BYTES], got[BYTES];
     static const struct { uint8_t method; int samples; } by[] = {
-        { SMEAR_SUBFRAMES, 16 }, { SMEAR_TIMEMASK, 8 }, { SMEAR_TIMEMASK, 16 }, { SMEAR_TIMEMASK, 32 },
+        { SMEAR_SUBFRAMES, 16 }, { SMEAR_SUBFRAMES, 32 }, { SMEAR_TIMEMASK, 8 }, { SMEAR_TIMEMASK, 16 }, { SMEAR_TIMEMASK, 32 },
         { SMEAR_AUTO, 0 }
     };
     int white = 0;

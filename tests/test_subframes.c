@@ -179,7 +179,7 @@ static void link_in(uint32_t *head, uint32_t *last, uint32_t i)
     *last = i;
 }
 
-/* Columns are counted in tiles of 8 px here; check_tile() makes them those of its tile. */
+/* Columns are counted in tiles of 8 px here; check_tiles() makes them those of its tile. */
 static void add_mover(int at, const struct corners *c, uint32_t color)
 {
     const struct smear_path_bounds b = bounds_of(c);
