@@ -498,6 +498,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
     const bool narrow = target_is_direct(target), plain = is_plain(s, r);
+    const int up = t->up, log2_width = m->log2_width, log2_height = m->log2_height;
+    const void *const texels = m->texels;
     struct piece p;
     p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     for (int32_t i = 0; i < list->count; i++) {
@@ -516,9 +518,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 if (z >> 16 > *depth) {
                     const struct place place = place_at(t, mode, NULL, q, u, v, true);
                     *depth = (uint16_t)(z >> 16);
-                    put_texel(color, 0, m->texels,
-                              packed_index(packed_uv((uint32_t)place.u << t->up, (uint32_t)place.v << t->up), m->log2_width,
-                                           m->log2_height), narrow);
+                    put_texel(color, 0, texels, (uint32_t)place.v << up >> (32 - log2_height) << log2_width
+                                                | (uint32_t)place.u << up >> (32 - log2_width), narrow);
                 }
                 z += p.dz;
                 q = add_wrap(q, t->q.dx);

@@ -177,7 +177,7 @@ void smear_setup_color(struct setup *s)
 
 enum {
     TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between the ends of a block, or affine */
-    CURVED_OFF = 16             /* and where it is a polynomial, in the farthest corner */
+    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by 0.46 texel in the farthest corner */
 };
 
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)

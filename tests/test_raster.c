@@ -1052,6 +1052,25 @@ static void test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pix
     }
 }
 
+/* Whose coordinates are polynomials, up to the error at which these give way to quotients. */
+static void test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel(void)
+{
+    random_state = 37;
+    for (int n = 0; n < 200; n++) {
+        struct textured t = { .width = 64, .height = 64, .uv_shift = 15 };
+        if (!fat_triangle(t.p, 64, 0, W * 256, H * 256))
+            continue;
+        int32_t nearest = between(1600, 2400);
+        for (int i = 0; i < 3; i++) {
+            t.q[i] = between(1500, nearest) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                t.uv[i][axis] = between(0, 1) * 24576 + between(-2000, 2000);
+        }
+        if (!check_texels(&t))
+            return;
+    }
+}
+
 static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
 {
     /* One texel per pixel, no perspective: each pixel shows its own texel. */
@@ -1692,6 +1711,7 @@ void suite_raster(void)
     RUN(test_colors_of_small_triangles_are_interpolated_within_a_code);
     RUN(test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel);
     RUN(test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel);
+    RUN(test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel);
     RUN(test_texels_of_a_flat_plane_are_exact_away_from_borders);
     RUN(test_velocities_of_unchanging_depth_are_planes);
     RUN(test_velocities_of_changing_depth_are_quotients);
