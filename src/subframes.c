@@ -542,6 +542,12 @@ static inline uint32_t times_at(const struct subframes *f, int32_t at)
     return f->packed ? f->sum[1][at] >> 16 : f->times[at];
 }
 
+/* What is still hides all movers there. */
+static inline bool stays_still(const struct subframes *f, int32_t at)
+{
+    return f->work.depth[at] > f->nearest && times_at(f, at) == 0;
+}
+
 /* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there they go on as at the
  * pixel. Where the pixel itself hides some, others do not spread over it. What is at a pixel at n instants is half a gap
  * away, or less, at n - 1 of them: where it is not and what is still is nearer, that hides it. */
@@ -647,6 +653,8 @@ static void average_covered(const struct subframes *f, int32_t at, int32_t n, co
 {
     int32_t tap[2 * PAIRS_MAX];
     for (int32_t i = at; i < at + n; i++) {
+        if (stays_still(f, i))
+            continue;
         find_taps(tap, f, i, gap, pairs);
         average_one(f, i, gap, pairs, tap);
     }
@@ -684,8 +692,11 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
     int32_t tap[2 * PAIRS_MAX];
     const int32_t *taps = cover != COVER_NONE ? tap : NULL;
     for (int32_t at = s->at; at < s->at + s->n; at++) {
-        if (cover != COVER_NONE)
+        if (cover != COVER_NONE) {
+            if (stays_still(f, at))
+                continue;
             find_taps(tap, f, at, gap, s->pairs);
+        }
         uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f->times, at, gap, s->pairs, taps);
         if (times == 0)
             continue;
