@@ -106,6 +106,7 @@ struct path_batch {
     const struct smear_assembly *d;
     struct smear_segment *segment;
     bool shares;                        /* vertices are the same for all faces */
+    int32_t apart;                      /* nothing of the draw that is nearer is seen: find_apart; 0 not looked for */
 };
 
 static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
@@ -399,6 +400,103 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
     return true;
 }
 
+/* ------------------------------------------------------------------ near the near plane */
+
+/* The ground under a camera passes through the near plane, but beside the frame. What is nearer than some distance then needs
+ * not be drawn, and the rest is cut once, for all instants: its corners are places of the surface like any vertex. */
+
+/* The triangle's places, without what is drawn of it. */
+static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d, const uint16_t index[3])
+{
+    for (int i = 0; i < 3; i++) {
+        corner[i] = (struct smear_clip_vertex){ .now = { 0, 0, 0, 0 } };
+        placement_transform(&corner[i].now, &d->at, index[i]);
+        for (int key = OPEN; key <= CLOSE; key++)
+            placement_transform(&corner[i].pose[key], &d->key[key], index[i]);
+    }
+}
+
+/* The same from here on is in front of the near plane at all times: near plus the longest way towards it. */
+static int32_t safe_distance(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
+{
+    const struct smear_projection *now = &d->at.now;
+    int64_t way = 0;
+    for (int key = OPEN; key <= CLOSE; key++)
+        for (int i = 0; i < 3; i++) {
+            const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
+            const int64_t there = up < 0 ? corner[i].pose[key].w >> -up : (int64_t)corner[i].pose[key].w << up;
+            way = corner[i].now.w - there > way ? corner[i].now.w - there : way;
+        }
+    way += now->near_distance + (int64_t)8;
+    return way < 1 << 28 ? (int32_t)way : 1 << 28;
+}
+
+/* Whether a side of the frame hides all of the polygon: a pose's places lie at
+ * sums of those known, so at all times. */
+static bool is_beside(const struct smear_clip_vertex *v, int count, const struct smear_viewport *viewport)
+{
+    int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
+    for (int i = 0; i < count && beside != 0; i++)
+        for (int key = 0; key < KEYS; key++)
+            beside &= outcode_behind(key == MIDDLE ? &v[i].now : &v[i].pose[key], viewport);
+    return beside != 0;
+}
+
+/* Nothing of the triangle that is nearer than this in the middle of the exposure is seen at any time. */
+static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
+{
+    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_projection behind = b->d->at.now;
+    behind.far_distance = distance;
+    for (int i = 0; i < 3; i++)
+        polygon[i] = corner[i];
+    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR), &b->a->viewport);
+}
+
+static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
+{
+    bool before = false, behind = false;
+    for (int i = 0; i < 3; i++) {
+        for (int key = OPEN; key <= CLOSE; key++) {
+            before = before || corner[i].pose[key].w >= d->key[key].now.near_distance;
+            behind = behind || corner[i].pose[key].w < d->key[key].now.near_distance;
+        }
+        before = before || corner[i].now.w >= d->at.now.near_distance;
+        behind = behind || corner[i].now.w < d->at.now.near_distance;
+    }
+    return before && behind;
+}
+
+/* One distance for all triangles of a draw, so that their edges still meet: the largest of some that holds for all, but
+ * those for which none does. */
+static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
+{
+    enum { DOUBLINGS = 5 };
+    const smear_mesh *mesh = b->d->mesh;
+    struct smear_clip_vertex corner[3];
+    int32_t least = 0;
+    int doublings = DOUBLINGS;
+    for (int pass = 0; pass < 2; pass++) {
+        const uint16_t *index = mesh->index;
+        for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+            if (max_i32(index[0], max_i32(index[1], index[2])) >= (int32_t)mesh->vertex_count)
+                continue;
+            place_corners(corner, b->d, index);
+            if (!passes_near(corner, b->d))
+                continue;
+            if (pass == 0) {
+                least = max_i32(least, safe_distance(corner, b->d));
+                continue;
+            }
+            int here = doublings;
+            while (here >= 0 && ((least >> (29 - here)) != 0 || !is_apart(corner, b, least << here)))
+                here--;
+            doublings = here >= 0 ? here : doublings;
+        }
+    }
+    return least << doublings;
+}
+
 /* `corner` as the mesh has them: counter-clockwise in front. */
 static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3], uint32_t triangle,
                                        const int codes[KEYS], bool back)
@@ -431,8 +529,17 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
         cut.projection[key] = placement_of(d, key)->now;
         near_codes |= codes[key] & OUT_NEAR;
     }
-    return near_codes != 0 && !is_orthographic(&d->at.now) ? add_pieces(b, corner, &cut, &face)
-                                                      : add_cut(b, corner, &cut, &face);
+    if (near_codes == 0 || is_orthographic(&d->at.now))
+        return add_cut(b, corner, &cut, &face);
+    if (b->apart == 0)
+        b->apart = find_apart(b);
+    if (safe_distance(corner, d) > b->apart || !is_apart(corner, b, b->apart))
+        return add_pieces(b, corner, &cut, &face);
+    cut.projection[MIDDLE].near_distance = b->apart;
+    for (int key = 0; key < KEYS; key++)
+        cut.codes[key] = (cut.codes[key] & ~OUT_NEAR) | OUT_GUARD;
+    cut.codes[MIDDLE] |= OUT_NEAR;
+    return add_cut(b, corner, &cut, &face);
 }
 
 /* ------------------------------------------------------------------ the loop */
@@ -500,7 +607,7 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
 
 bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
 {
-    struct path_batch b = { a, d, smear_record_segment(a, d), false };
+    struct path_batch b = { a, d, smear_record_segment(a, d), false, 0 };
     if (b.segment == NULL) {
         if (drop)
             a->triangles_dropped += d->mesh->triangle_count;

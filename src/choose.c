@@ -17,7 +17,7 @@ struct preset {
 
 enum {
     INSTANTS_MAX = 64,
-    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
+    STEP_MAX = 512              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
 };
 
 static const struct preset *preset_of(int32_t target)
@@ -25,10 +25,10 @@ static const struct preset *preset_of(int32_t target)
     static const struct preset preset[] = {
         { 512, 2, 640, 512, 32, 8, 2, 768, 2 },
         { SMEAR_DRAFT, 2, 400, 400, 32, 8, 2, 768, 2 },
-        { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
-        { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
+        { 128, 3, 560, 320, 32, 32, 7, 512, 3 },
+        { SMEAR_BALANCED, 3, 512, 288, 32, 32, 7, 512, 3 },
         { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
-        { SMEAR_FINE, 9, 96, 56, 48, 32, 8, 256, 6 },
+        { SMEAR_FINE, 8, 128, 64, 48, 32, 8, 256, 6 },
         { 20, 13, 64, 36, 48, 32, 8, 256, 6 },
         { 0, 17, 48, 24, 64, 32, 8, 256, 6 }
     };
@@ -55,6 +55,12 @@ static int32_t travel_of(const struct smear_tile_load *load)
         return load->bend;
     int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
     return max_i32(x, y) + (min_i32(x, y) >> 1) + load->bend;
+}
+
+/* The same along x or y, whichever is more. */
+static int32_t reach_of(const struct smear_tile_load *load)
+{
+    return has_ways(load) ? max_i32(largest(load->x0, load->x1), largest(load->y0, load->y1)) + load->bend : load->bend;
 }
 
 /* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
@@ -116,7 +122,7 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         const int32_t travel = travel_of(load);
         int32_t instants = travel / 16 + 1;
         if (may_fill(chooser, load)) {
-            instants = max_i32(p->least + travel / p->step, travel / STEP_MAX + 1);
+            instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
             if (p->least <= 3 && travel < 8)        /* half a pixel */
                 instants = 2;
             instants = max_i32(instants, spread_of(load) / p->spread + 1);

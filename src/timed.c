@@ -13,10 +13,14 @@
 
 /* ------------------------------------------------------------------ lists */
 
+struct range {
+    int32_t low, high;              /* [low, high) */
+};
+
 /* How a mover goes from open to close, 1/16 px: least and most of its vertices. Of a large one whose vertices go unlike ways
  * also what tells the way from place to place: weights in the middle of the exposure give weights at its ends. */
 struct way {
-    int32_t x0, x1, y0, y1;
+    int32_t x0, x1, y0, y1, bend;
     bool large;
     int32_t x[3], y[3];             /* vertices in the middle of the exposure, px */
     struct {
@@ -45,7 +49,7 @@ static struct way way_of(const struct smear_geometry *g, uint32_t triangle)
     const struct smear_triangle *t = geometry_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
     const struct smear_path_bounds *b = geometry_bounds(g, triangle);
-    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN };
+    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .bend = b->bend };
     const int32_t *v[3];
     for (int i = 0; i < 3; i++) {
         v[i] = geometry_vertex(g, s, t->vertex[i]);
@@ -75,9 +79,11 @@ static int shift_to(int32_t largest)
     return max_i32(32 - count_leading_zeros((uint32_t)largest | 1u) - WAY_BITS, 0);
 }
 
-/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the side it is beyond of most. */
-static void weigh(int32_t e[3], const struct way *w, int32_t x, int32_t y)
+/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the side it is beyond of most,
+ * which is then `at`. */
+static void weigh(int32_t e[3], const struct way *w, int32_t at[2])
 {
+    const int32_t x = at[0], y = at[1];
     static const int next[3] = { 1, 2, 0 }, last[3] = { 2, 0, 1 };
     int beyond = 0;
     for (int i = 0; i < 3; i++) {
@@ -92,13 +98,21 @@ static void weigh(int32_t e[3], const struct way *w, int32_t x, int32_t y)
     e[beyond] = 0;
     e[k] = clamp_i32((x - w->x[j]) * dx + (y - w->y[j]) * dy, 0, square);
     e[j] = square - e[k];
+    at[0] = w->x[j] + dx * (e[k] >> 8) / max_i32(square >> 8, 1);
+    at[1] = w->y[j] + dy * (e[k] >> 8) / max_i32(square >> 8, 1);
 }
 
+/* Where a way leads, and how far its middle lies off the chord, 1/16 px: eight times, as places beside the one looked at bend
+ * more, but no more than a vertex. */
+struct local_way {
+    int32_t x, y, bend;
+};
+
 /* At a pixel of the triangle, or near one. */
-static void way_at(int32_t out[2], const struct way *w, int32_t x, int32_t y)
+static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
 {
-    int32_t e[3], at[2][2];
-    weigh(e, w, x, y);
+    int32_t e[3], at[2][2], middle[2] = { x, y };
+    weigh(e, w, middle);
     int shift = shift_to(max_i32(e[0], max_i32(e[1], e[2])));
     for (int k = 0; k < 2; k++) {
         int32_t m[3];
@@ -114,16 +128,83 @@ static void way_at(int32_t out[2], const struct way *w, int32_t x, int32_t y)
         at[k][0] /= sum;
         at[k][1] /= sum;
     }
-    out[0] = clamp_i32(2 * (at[1][0] - at[0][0]), w->x0, w->x1);
-    out[1] = clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1);
+    const int32_t bend = max_i32(abs_i32(at[0][0] + at[1][0] - 16 * middle[0]),
+                                 abs_i32(at[0][1] + at[1][1] - 16 * middle[1]));
+    return (struct local_way){ clamp_i32(2 * (at[1][0] - at[0][0]), w->x0, w->x1),
+                               clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1), min_i32(8 * bend, w->bend) };
 }
 
-static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1, int32_t bend)
 {
+    load->bend = (uint16_t)max_i32(load->bend, bend);
     load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
     load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);
     load->y0 = (int16_t)clamp_i32(y0, INT16_MIN, load->y0);
     load->y1 = (int16_t)clamp_i32(y1, load->y1, INT16_MAX);
+}
+
+/* Ways at the left side of a column of tiles: x and y where the row begins, where it ends, the larger bend. */
+enum { SIDE_VALUES = 5 };
+
+static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t column, int32_t top, int shift)
+{
+    const struct local_way upper = way_at(w, column << shift, top), lower = way_at(w, column << shift, top + (1 << shift));
+    out[0] = upper.x;
+    out[1] = lower.x;
+    out[2] = upper.y;
+    out[3] = lower.y;
+    out[4] = max_i32(upper.bend, lower.bend);
+}
+
+/* Ways of a large triangle in columns of tiles: found at some of their sides, in a line between. */
+static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, const struct way *way, int32_t top, int shift)
+{
+    enum { APART = 2 };
+    int32_t left[SIDE_VALUES], right[SIDE_VALUES];
+    way_at_side(left, way, first, top, shift);
+    for (int32_t column = first; column <= last;) {
+        const int32_t n = min_i32(last + 1 - column, APART), part = 256 / n;
+        int32_t from[SIDE_VALUES], to[SIDE_VALUES], step[SIDE_VALUES];
+        way_at_side(right, way, column + n, top, shift);
+        for (int i = 0; i < SIDE_VALUES; i++) {
+            from[i] = left[i];
+            step[i] = (right[i] - left[i]) * part;
+        }
+        for (int32_t k = 1; k <= n; k++) {
+            for (int i = 0; i < SIDE_VALUES; i++)
+                to[i] = left[i] + (step[i] * k >> 8);
+            load_way(&r->load[column + k - 1], min_i32(min_i32(from[0], from[1]), min_i32(to[0], to[1])),
+                     max_i32(max_i32(from[0], from[1]), max_i32(to[0], to[1])),
+                     min_i32(min_i32(from[2], from[3]), min_i32(to[2], to[3])),
+                     max_i32(max_i32(from[2], from[3]), max_i32(to[2], to[3])), max_i32(from[4], to[4]));
+            for (int i = 0; i < SIDE_VALUES; i++)
+                from[i] = to[i];
+        }
+        for (int i = 0; i < SIDE_VALUES; i++)
+            left[i] = right[i];
+        column += n;
+    }
+}
+
+/* Columns of pixels in which a large triangle may be seen in the row at some time, about: those of its sides between rows
+ * that lie as much farther up and down as it goes. Ways beyond them would be those of other rows. */
+static struct range columns_of(const struct way *w, const struct smear_path_bounds *b, int32_t top, int32_t tile)
+{
+    const int32_t reach_x = max_i32(w->x1, -w->x0) >> 5, reach_y = max_i32(w->y1, -w->y0) >> 5;
+    const int32_t high = top - reach_y - 1, low = top + tile + reach_y + 1;
+    struct range r = { INT32_MAX, INT32_MIN };
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1;
+        const int upper = w->y[i] < w->y[j] ? i : j, lower = i + j - upper;
+        if (w->y[lower] < high || w->y[upper] > low)
+            continue;
+        const int32_t dx = w->x[lower] - w->x[upper], dy = max_i32(w->y[lower] - w->y[upper], 1);
+        const int32_t from = w->x[upper] + dx * max_i32(high - w->y[upper], 0) / dy;
+        const int32_t to = w->x[upper] + dx * min_i32(low - w->y[upper], dy) / dy;
+        r.low = min_i32(r.low, min_i32(from, to));
+        r.high = max_i32(r.high, max_i32(from, to));
+    }
+    return (struct range){ max_i32(r.low - reach_x - 1, b->x0), min_i32(r.high + reach_x + 2, b->x1) };
 }
 
 /* What columns [x0, x1) of pixels hold; with bounds and a way, of one mover. */
@@ -140,19 +221,14 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
         load->flags |= (uint16_t)(b->flags | TILE_MOVES);
         if (b->piece != 0)
             continue;
-        load->bend = (uint16_t)max_i32(load->bend, b->bend);
-        if (!way->large) {
-            load_way(load, way->x0, way->x1, way->y0, way->y1);
-            continue;
-        }
-        for (int32_t side = 0; side < 2; side++) {
-            int32_t upper[2], lower[2], x = (column + side) << w->tile_shift;
-            way_at(upper, way, x, top);
-            way_at(lower, way, x, top + w->tile);
-            load_way(load, min_i32(upper[0], lower[0]), max_i32(upper[0], lower[0]), min_i32(upper[1], lower[1]),
-                     max_i32(upper[1], lower[1]));
-        }
+        if (!way->large)
+            load_way(load, way->x0, way->x1, way->y0, way->y1, way->bend);
     }
+    if (b == NULL || b->piece != 0 || !way->large)
+        return;
+    const struct range seen = columns_of(way, b, top, w->tile);
+    if (seen.low < seen.high)
+        load_ways(r, seen.low >> w->tile_shift, (seen.high - 1) >> w->tile_shift, way, top, w->tile_shift);
 }
 
 /* Columns of pixels that a still triangle may cover. */

@@ -39,6 +39,7 @@ SYMBOLS_HOOKS := gba_enter_stage
 DISPLAY_SRC := platform/gba/display.c
 DEMO_SCREEN := gba
 DEMO_LOOPS  := gba:1 oled:6 gba-full:6
+SHOW = $(SCREENSHOT)
 export SHOT        := platform/gba/shot.sh
 export SHOT_SCREEN := gba
 export SHOT_FRAMES := 8 45
