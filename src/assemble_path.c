@@ -450,7 +450,7 @@ static bool is_apart(const struct smear_clip_vertex corner[3], const struct path
     behind.far_distance = distance;
     for (int i = 0; i < 3; i++)
         polygon[i] = corner[i];
-    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR), &b->a->viewport);
+    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR, CLIP_POSES), &b->a->viewport);
 }
 
 static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
