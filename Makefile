@@ -152,6 +152,7 @@ build/gentables: tools/gentables.c
 # ---------------------------------------------------------------------- forms to hand on
 
 .PHONY: dist install dist-test
+## what `make dist` and `make install` write, compiled and run
 dist-test: dist build/tapes/golden.c
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
 	sh tests/dist.sh
@@ -173,14 +174,16 @@ install: $(LIB)
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e "s|@VERSION@|$$(sh tools/dist/version.sh)|" tools/dist/smear.pc \
 	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/smear.pc
 
+## removes build
 clean:
 	rm -rf build
 
 ## this list
 help:
-	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-10s %s\n",$$0,text;text=""}}' \
+	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-16s %s\n",$$0,text;text=""}}' \
 	    $(filter Makefile %.mk,$(MAKEFILE_LIST))
-	@echo "  SAN=1 CHECK=1 TARGET=cortex-m0plus|cortex-m3|cortex-m4|s390x"
+	@echo "  TARGET=NAME      $(patsubst platform/%/target.mk,%,$(wildcard platform/*/target.mk)); host where it is not given"
+	@echo "  SAN=1            address and undefined behaviour sanitizers; CHECK=1: every fixed-point promise is checked"
 
 # ---------------------------------------------------------------------- tests
 
@@ -221,8 +224,9 @@ print-san-suites:
 	@echo $(SAN_SUITES)
 
 # Real models lie beside the repository where they are at hand.
+## one suite of `make test`, SUITE=api; `make print-suites` lists them
 run-suite: $(TESTS)
-	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(SUITE)
+	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 test-headers:
 	@mkdir -p $(BUILD)
@@ -257,6 +261,7 @@ build/fuzz/%: tests/fuzz_%.c $(FUZZ_OBJ)
 -include $(FUZZ_OBJ:.o=.d)
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
+## fuzzers of blobs, models, pictures and the library (needs clang-14), FUZZ_SECONDS=10 each
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
 	    mkdir -p build/fuzz/found-$$name tests/corpus/$$name && \
@@ -267,10 +272,12 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 include platform/programs.mk
 include tools/web/web.mk
 
-# The demo firmware on a desktop's screen.
-$(BUILD)/demo-screen: $(filter-out $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o),$(FIRMWARE_OBJ)) \
-    $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
-	$(CC) $(LDFLAGS) -o $@ $^ -lm
+# The firmware on a desktop's screen.
+NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)
+$(BUILD)/demo-screen:  $(filter-out $(NOT_OF_SCREENS),$(FIRMWARE_OBJ))
+$(BUILD)/model-screen: $(filter-out $(NOT_OF_SCREENS),$(MODEL_OBJ))
+$(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

@@ -89,10 +89,10 @@ typedef enum smear_texel_format {
 
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
 
-/* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that is `sharp`: with
- * textures of that format alone and nothing blended, triangles are drawn as the display's pixels, and converted never.
- * Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay below
- * 32768 texels, but for repeated powers of two, which may go on for ever. */
+/* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that is
+ * `sharp`: with textures of that format alone and nothing blended, triangles are drawn as the display's pixels, and
+ * converted never. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay
+ * below 32768 texels, but for repeated powers of two, which may go on for ever. */
 typedef struct smear_texture {
     const void *texels;         /* width x height, no padding, aligned to a texel */
     const uint32_t *palette;    /* for SMEAR_TEXEL_PALETTE8 */
@@ -145,10 +145,10 @@ typedef enum smear_billboard {
 
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
- * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now` is
- * that in the middle between them, whatever the exposure is.
- * Otherwise `open` is its pose one frame ago; when null, the library takes what it kept under `id`. A draw
- * whose earlier pose is unknown (first sight, cut, first frame, id 0) has no motion of its own. */
+ * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now`
+ * is that in the middle between them, whatever the exposure is. Otherwise `open` is its pose one frame ago; when
+ * null, the library takes what it kept under `id`. A draw whose earlier pose is unknown (first sight, cut, first
+ * frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
     uint32_t id;                /* identity from frame to frame, unique in a frame; 0: none is kept */
     const smear_mesh *mesh;
@@ -174,14 +174,16 @@ typedef enum smear_method {
                                  * most `samples`; needs desc.timed */
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
                                  * needs desc.timed */
-    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what lies between
-                                 * them, or a time mask; needs desc.timed */
-    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per vertex;
-                                 * needs the window */
+    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what lies
+                                 * between them, or a time mask; needs desc.timed */
+    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per
+                                 * vertex; needs the window */
     SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
-    SMEAR_HALF,                 /* `filter` at half the size, over the whole frame by amount of motion; needs desc.half */
-    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums whose cost does not
-                                 * grow with its length; those without one velocity as in SMEAR_LAYERED; needs desc.layers */
+    SMEAR_HALF,                 /* `filter` at half the size, over the whole frame by amount of motion; needs
+                                 * desc.half */
+    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums whose cost
+                                 * does not grow with its length; those without one velocity as in SMEAR_LAYERED;
+                                 * needs desc.layers */
     SMEAR_LAYERED               /* each blurred layer by velocities of its pixels, over the still scene; likewise */
 } smear_method;
 
@@ -199,7 +201,8 @@ static inline uint8_t smear_method_is_filter(int method)
 /* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
 typedef enum smear_filter {
     SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
-    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion reaches */
+    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion
+                                 * reaches */
     SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
     SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
 } smear_filter;
@@ -209,11 +212,14 @@ typedef enum smear_filter {
 typedef struct smear_pingpong {
     uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
-    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps, base 4 */
-    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either side */
-    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out. 255:
-                                 * none is. 0 means 255, with `spread` 16 */
-    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come over it */
+    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps,
+                                 * base 4 */
+    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either
+                                 * side */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out.
+                                 * 255: none is. 0 means 255, with `spread` 16 */
+    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come
+                                 * over it */
 } smear_pingpong;
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
@@ -225,8 +231,10 @@ enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 /* How the exposure follows the time from frame to frame, smear_frame.frame_us. */
 typedef enum smear_shutter_mode {
     SMEAR_SHUTTER_NATIVE,       /* shutter_degrees of the frame time */
-    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames that come late do not smear more */
-    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time is: streaks keep their length */
+    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames that come late do not smear
+                                 * more */
+    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time is: streaks keep their
+                                 * length */
 } smear_shutter_mode;
 
 /* A scale of motion that is nothing. */
@@ -241,8 +249,8 @@ enum {
     SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
     SMEAR_BOX       = 4,    /* box shutter instead of the tent */
     SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
-    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the pixel's
-                             * own velocity; motion below a pixel stays as it is */
+    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the
+                             * pixel's own velocity; motion below a pixel stays as it is */
 };
 
 /* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX and DIRECTION are departures of the first. */
@@ -252,17 +260,20 @@ typedef enum smear_weights {
     SMEAR_WEIGHTS_GUERTIN,      /* Guertin, McGuire, Nowrouzezahrai 2014 */
     SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
 } smear_weights;
-/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT and SMEAR_LAYERED. A draw is
- * in the first of the frame's layers whose mask shares a bit with smear_draw.layers; in none, it is as SMEAR_NONE draws it,
- * bit for bit where no streak passes over it. So is what does not move. */
+
+/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT and SMEAR_LAYERED. A draw
+ * is in the first of the frame's layers whose mask shares a bit with smear_draw.layers; in none, it is as SMEAR_NONE
+ * draws it, bit for bit where no streak passes over it. So is what does not move. */
 typedef struct smear_layer {
     uint8_t mask;               /* bits of smear_draw.layers; required */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
-    uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the depths are */
-    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one velocity, that of the layer's
-                                 * first draw, in `samples` taps (up to 64), over all that is still */
+    uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the
+                                 * depths are */
+    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one velocity, that of the
+                                 * layer's first draw, in `samples` taps (up to 64), over all that is still */
     uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
-    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the frame's */
+    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the
+                                 * frame's */
     const smear_camera *open, *close;   /* as in smear_frame; null: `camera` does not move */
 } smear_layer;
 
@@ -279,28 +290,32 @@ typedef struct smear_frame {
                                  * present ones those in the middle of the exposure */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
     uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
-    uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and _TIMEMASK */
+    uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and
+                                 * _TIMEMASK */
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
     uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats SMEAR_DRAFT: rounding
                                  * to steps of 17 codes alone errs by 5 */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
-    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
-                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
-                                 * vertices, the background none (SMEAR_CAMERA: as 1) */
+    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth
+                                 * and the two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0:
+                                 * from their vertices, the background none (SMEAR_CAMERA: as 1) */
     uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the `filter` */
     smear_pingpong pingpong;
     uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the application's poses say it all */
     uint16_t reference_hz;      /* 1..1000; 0 means 30 */
-    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by shutter_us and by modes
-                                 * other than native */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by shutter_us and by
+                                 * modes other than native */
     uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by those. CAPPED: at most a
                                  * frame */
-    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to 16128; */
-    uint16_t object_scale;              /* and of draws and their deformation (which grows 8 times at most); 0 means 256 */
-    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a box.
-                                 * Copied. Filters take it for a box */
-    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that moves */
+    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to
+                                         * 16128; */
+    uint16_t object_scale;              /* and of draws and their deformation (which grows 8 times at most); 0 means
+                                         * 256 */
+    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a
+                                 * box. Copied. Filters take it for a box */
+    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
+                                 * moves */
     uint8_t layer_count;
 } smear_frame;
 
@@ -328,8 +343,8 @@ typedef struct smear_band {
     uint32_t size;              /* bytes in all */
 } smear_band;
 
-/* Returns 0, or a negative value that ends the frame and is returned by smear_render; with two bands, a refused band needs
- * no smear_band_done(). */
+/* Returns 0, or a negative value that ends the frame and is returned by smear_render; with two bands, a refused band
+ * needs no smear_band_done(). */
 typedef int smear_flush_fn(void *user, const smear_band *band);
 
 /* Looked at by tests and tools: a drawn row before the blur. depth: codes, see smear_depth_units().
@@ -340,29 +355,31 @@ typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const ui
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
     int16_t reach;              /* longest blur radius of a filter in pixels, 1..64; 0 means 5 % of the height */
-    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such. Without timed, layers, scatter and
-                                 * half also 4: the least memory, a little slower */
+    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such. Without timed, layers,
+                                 * scatter and half also 4: the least memory, a little slower */
     uint8_t format;             /* smear_format */
     uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint8_t sharp;              /* 1: no filter: no window is kept */
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
-    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose rows are
-                                 * assembled anew at every instant: small and slow. 6 bytes without SMEAR_WITH_LINEAR */
+    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose
+                                 * rows are assembled anew at every instant: small and slow. 6 bytes without
+                                 * SMEAR_WITH_LINEAR */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
-    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16 tiles; 0 means
-                                 * SMEAR_STRIP, or one tile where that is wider. Wider is faster, up to a point, and takes
-                                 * 22 bytes per pixel for each worker. The picture depends on it, a little */
-    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for
-                                 * each but the last; 0 and 1: none. In any case one pass may be had */
+    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16 tiles; 0
+                                 * means SMEAR_STRIP, or one tile where that is wider. Wider is faster, up to a point,
+                                 * and takes 22 bytes per pixel for each worker. The picture depends on it, a
+                                 * little */
+    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window
+                                 * for each but the last; 0 and 1: none. In any case one pass may be had */
     uint8_t half;               /* 1: room for SMEAR_HALF */
-    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way, and
-                                 * as many tile rows more are kept. Not with timed, passes or half */
+    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way,
+                                 * and as many tile rows more are kept. Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile. With `sharp`: as many
-                                 * are drawn at once. With a window and without timed, layers and half it may divide the
-                                 * tile: a smaller band buffer, the same picture */
+    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile. With
+                                 * `sharp`: as many are drawn at once. With a window and without timed, layers and
+                                 * half it may divide the tile: a smaller band buffer, the same picture */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
                                  * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in
@@ -458,7 +475,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* ------------------------------------------------------------------ memory in detail */
 
-#define SMEAR_STRIP 64                      /* desc.strip by default, pixels */
+#define SMEAR_STRIP 128                     /* desc.strip by default, pixels */
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
@@ -472,7 +489,8 @@ static inline uint32_t smear_depth_units(uint16_t code)
 /* What a worker needs with `timed`: finished pixels, then sums and depths of instants, or slots and lists. */
 #define SMEAR_TIMED_WORK_BYTES(tile, strip) \
     (SMEAR_ALIGN8((size_t)(strip) * (tile) * 4u) \
-     + (SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u > 8192u ? SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u : 8192u))
+     + (SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u > 8192u \
+            ? SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u : 8192u))
 
 /* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
 #define SMEAR_TIMED_BYTES(width, height, triangles, tile, strip) \
@@ -497,8 +515,9 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
-/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what groups leave
- * for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One worker. */
+/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what
+ * groups leave for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One
+ * worker. */
 #define SMEAR_LAYER_DRAW_BYTES 96u
 #define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
     (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 4u) \
@@ -506,8 +525,10 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
      + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach) + 6u) / (tile) + 1u) * 13u + 16u) \
-     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach) + 6u) * 2u + 16u) + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u + SMEAR_LAYERS_MAX * 272u \
+     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach) + 6u) * 2u + 16u) \
+     + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u \
+     + SMEAR_LAYERS_MAX * 272u \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
 
 /* Of a desc with `layers` and with `sharp`. Give reach and tile, not 0. */

@@ -132,6 +132,14 @@
 #error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
 
+/* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before these are drawn:
+ * where little memory is fast, the code that comes next may be brought there. */
+#define SMEAR_STAGE_ASSEMBLE 0
+#define SMEAR_STAGE_DRAW 1
+#ifndef SMEAR_ENTER_STAGE
+#define SMEAR_ENTER_STAGE(stage) ((void)0)
+#endif
+
 /* 1 when the core multiplies 32 x 32 to 64 bits in an instruction. 0 builds high products from 16-bit
  * halves instead of calling the compiler's 64-bit multiply; the bits are the same. */
 #ifndef SMEAR_HAS_MUL64

@@ -141,7 +141,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     desc.flush = swallow;
     desc.clock = read_clock;
     if (way != NULL)
-        demo_blur_desc(way, &desc);
+        demo_blur_desc(way, screen, &desc);
     platform_clock_start();
     int result = start(screen, &desc);
     player.blur = way;
@@ -168,6 +168,8 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     }
     if (result != SMEAR_OK)
         return failed("frame", result);
+    if (platform_stack_used() == UINT32_MAX)
+        return failed("the stack has overflown", 0);
     uint32_t pixels = (uint32_t)desc.width * (uint32_t)desc.height;
     platform_print(screen->name);
     platform_print(": ");

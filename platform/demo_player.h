@@ -12,6 +12,7 @@ struct demo_screen {
     uint8_t light;                  /* smear_light */
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */
+    uint8_t plain_tile;             /* desc.tile of ways to blur that read no neighbours: larger is faster; 0: desc's */
 };
 
 /* A way to blur, to compare costs (make demo-cost BLUR=...). */
@@ -28,7 +29,7 @@ extern const int demo_blur_count;
 const struct demo_blur *demo_blur_find(const char *name);
 
 /* What the screen's context needs for it. */
-void demo_blur_desc(const struct demo_blur *blur, smear_desc *desc);
+void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc);
 
 extern const struct demo_screen demo_screens[];
 extern const int demo_screen_count;

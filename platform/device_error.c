@@ -51,7 +51,7 @@ static void start(struct demo_player *player, const struct demo_screen *screen, 
 {
     smear_desc desc = screen->desc;
     if (blur != NULL)
-        demo_blur_desc(blur, &desc);
+        demo_blur_desc(blur, screen, &desc);
     desc.format = SMEAR_XRGB8888;
     desc.bands = 1;
     desc.flush = take_band;

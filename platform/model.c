@@ -15,6 +15,10 @@
 
 #include MODEL_HEADER
 
+#ifndef MODEL_DRAWS
+#error "the header is of another name: run smear convert with --name model"
+#endif
+
 #ifndef DEMO_SCREEN
 #define DEMO_SCREEN "pico"
 #endif
@@ -43,9 +47,12 @@ static int failed(const char *what, int result)
 {
     platform_print("model: ");
     platform_print(what);
-    platform_print(" (error ");
-    print_signed(result);
-    platform_print(")\n");
+    if (result != 0) {
+        platform_print(" (error ");
+        print_signed(result);
+        platform_print(")");
+    }
+    platform_print("\n");
     return 1;
 }
 
@@ -170,6 +177,8 @@ static int check(const struct model_screen *screen)
     }
     if (result != SMEAR_OK)
         return failed("frame", result);
+    if (platform_stack_used() == UINT32_MAX)
+        return failed("the stack has overflown", 0);
     print_hex(crc);
     platform_print("\n");
     return 0;
@@ -203,6 +212,8 @@ static int cost(const struct model_screen *screen)
     }
     if (result != SMEAR_OK)
         return failed("frame", result);
+    if (platform_stack_used() == UINT32_MAX)
+        return failed("the stack has overflown", 0);
     uint32_t pixels = (uint32_t)desc.width * (uint32_t)desc.height;
     platform_print(platform_clock_unit);
     platform_print(" per frame ");

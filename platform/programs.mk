@@ -15,7 +15,8 @@
 #
 # A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
 # DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
-# tests/target_demo.sh and platform/lm3s6965evb/target.mk.
+# tests/target_demo.sh and platform/lm3s6965evb/target.mk. For demo-run and model-run, SHOW is a command
+# if it is not to run the program; SHOWN is what their names end in where other programs are shown.
 
 HOST_CC      ?= cc
 TARGET_TESTS ?= unit golden
@@ -67,6 +68,7 @@ $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
+## golden frames with each switch of smear_config.h off
 switches-test: $(TAPES)/golden.c
 	sh tests/target_switches.sh build/switches
 
@@ -79,6 +81,7 @@ $(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) pl
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
 
 .PHONY: template-test
+## platform/template on a board of threads
 template-test: $(BUILD)/template-1 $(BUILD)/template-2
 	timeout 120 $(BUILD)/template-1
 	timeout 120 $(BUILD)/template-2
@@ -128,9 +131,13 @@ $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene
 demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it
-demo-run: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN) $< show
+# Emulators here have no window: what is on their display is a screenshot.
+SCREENSHOT = $(SHOT) $< $(or $(FRAME),45) $(<:$(EXE)=.ppm) && echo "wrote $(<:$(EXE)=.ppm)"
+SHOW      ?= $(RUN) $< show
+
+## shows it; of emulated displays a screenshot, build/TARGET/demo.ppm, FRAME=45
+demo-run: $(BUILD)/demo$(SHOWN)$(EXE) $(RUN_NEEDS)
+	@$(SHOW)
 
 ## its frames and, where there is a display, screenshots against the host's
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
@@ -160,9 +167,9 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur
+## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR) $(STEP)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP)
 
 # ---------------------------------------------------------------------- the smallest
 
@@ -170,6 +177,7 @@ FILE_SRC ?= platform/host/file.c
 TINY_OBJ := $(PROGRAM_OBJ) $(FILE_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/tiny.o
 
 $(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
+	@rm -f $@.*.ci
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
 
 .PHONY: tiny-firmware tiny-test tiny-cost
@@ -205,20 +213,36 @@ MODEL ?= build/model.h
 
 MODEL_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/model.o
 
-$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="../$(MODEL)"'
-$(BUILD)/platform/model.o: $(MODEL)
+$(BUILD)/platform/model.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"' -D'MODEL_HEADER="$(abspath $(MODEL))"'
+$(BUILD)/platform/model.o: $(MODEL) $(BUILD)/model.name
+
+# Changes with the name, so that another model is compiled even if its header is older.
+$(BUILD)/model.name: always
+	@mkdir -p $(@D)
+	@echo '$(abspath $(MODEL))' | cmp -s - $@ || echo '$(abspath $(MODEL))' > $@
+
+.PHONY: always
+$(MODEL):
+	@echo "$(MODEL) is missing: build/smear convert FILE --name model -o $(MODEL)" >&2; exit 1
 
 $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
 
-.PHONY: model-firmware model-run model-cost
+.PHONY: model-firmware model-run model-cost model-test
 ## a converted model (MODEL=build/model.h) as firmware for TARGET
 model-firmware: $(BUILD)/model$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it
-model-run: $(BUILD)/model$(EXE) $(RUN_NEEDS)
-	$(RUN) $< show
+## shows it, as demo-run does
+model-run: $(BUILD)/model$(SHOWN)$(EXE) $(RUN_NEEDS)
+	@$(SHOW)
+
+## its frames against the host's
+model-test: $(BUILD)/model$(EXE) $(RUN_NEEDS)
+	$(MAKE) --no-print-directory -s TARGET=host MODEL="$(MODEL)" build/host/model
+	build/host/model check $(DEMO_SCREEN) > $(BUILD)/model.want
+	$(RUN) $< check $(DEMO_SCREEN) > $(BUILD)/model.got
+	cmp $(BUILD)/model.want $(BUILD)/model.got
 
 ## what its frames cost on TARGET
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
@@ -228,7 +252,7 @@ model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 .PHONY: symbols-test
 ## what the firmware calls, from its symbols
 symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
-	sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
+	HOOKS='$(SYMBOLS_HOOKS)' sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

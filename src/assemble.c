@@ -86,7 +86,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
     struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
     for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
         probe[i] = polygon[i];
-    int count = smear_clip_polygon(probe, 3, &d->at.now, codes);
+    int count = smear_clip_polygon(probe, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
     int64_t area = 0;
     for (int i = 0; i < count; i++)
         smear_project(&screen[i], &d->at.now, &probe[i].now, &a->viewport);
@@ -110,7 +110,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         }
     }
     if (SMEAR_WITH_GOURAUD)
-        count = smear_clip_polygon(polygon, 3, &d->at.now, codes);
+        count = smear_clip_polygon(polygon, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;

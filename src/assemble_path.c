@@ -214,10 +214,10 @@ static void exchange(struct smear_clip_vertex *v, int count, int key)
 /* Leaves what is in front of the near plane and within the guard band at all three instants. */
 static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
 {
-    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE], CLIP_POSES);
     for (int key = OPEN; key <= CLOSE && count != 0; key++) {
         exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR, CLIP_POSES);
         exchange(polygon, count, key);
     }
     return count;
@@ -450,7 +450,7 @@ static bool is_apart(const struct smear_clip_vertex corner[3], const struct path
     behind.far_distance = distance;
     for (int i = 0; i < 3; i++)
         polygon[i] = corner[i];
-    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR), &b->a->viewport);
+    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR, CLIP_POSES), &b->a->viewport);
 }
 
 static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)

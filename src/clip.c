@@ -38,18 +38,16 @@ static void mix_homogeneous(struct smear_homogeneous *out, const struct smear_ho
 
 /* The point where the edge from `in` (distance d_in >= 0) to `out` (distance d_out < 0) meets the plane. */
 static void cut(struct smear_clip_vertex *result, const struct smear_clip_vertex *in, int64_t d_in,
-                const struct smear_clip_vertex *out, int64_t d_out)
+                const struct smear_clip_vertex *out, int64_t d_out, int poses)
 {
     int32_t t = ratio_q30(d_in, d_in - d_out);
-    struct smear_clip_vertex r;
-    mix_homogeneous(&r.now, &in->now, &out->now, t);
-    for (int i = 0; i < CLIP_POSES; i++)
-        mix_homogeneous(&r.pose[i], &in->pose[i], &out->pose[i], t);
+    mix_homogeneous(&result->now, &in->now, &out->now, t);
+    for (int i = 0; i < poses; i++)
+        mix_homogeneous(&result->pose[i], &in->pose[i], &out->pose[i], t);
     for (int i = 0; i < 2; i++)
-        r.uv[i] = mix(in->uv[i], out->uv[i], t);
+        result->uv[i] = mix(in->uv[i], out->uv[i], t);
     for (int i = 0; i < CLIP_COLORS; i++)
-        r.color[i] = mix(in->color[i], out->color[i], t);
-    *result = r;
+        result->color[i] = mix(in->color[i], out->color[i], t);
 }
 
 /* Rounding may leave a new vertex a step outside, and W must be positive to divide by it. */
@@ -69,18 +67,21 @@ static void settle(struct smear_clip_vertex *v, const struct smear_projection *p
 }
 
 static int clip_plane(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
-                      const struct smear_projection *p, enum plane plane)
+                      const struct smear_projection *p, enum plane plane, int poses)
 {
     struct smear_clip_vertex in[SMEAR_CLIP_MAX];
     int64_t distance[SMEAR_CLIP_MAX];
     int result = 0, outside = 0;
     for (int i = 0; i < count; i++) {
-        in[i] = vertex[i];
-        distance[i] = distance_to(&in[i], p, plane);
+        distance[i] = distance_to(&vertex[i], p, plane);
         outside += distance[i] < 0;
     }
     if (outside == 0)
         return count;
+    if (outside == count)
+        return 0;
+    for (int i = 0; i < count; i++)
+        in[i] = vertex[i];
     for (int i = 0; i < count; i++) {
         int next = i + 1 == count ? 0 : i + 1;
         if (distance[i] >= 0)
@@ -88,22 +89,22 @@ static int clip_plane(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count
         if ((distance[i] >= 0) == (distance[next] >= 0) || result == SMEAR_CLIP_MAX)
             continue;
         int inner = distance[i] >= 0 ? i : next, outer = distance[i] >= 0 ? next : i;
-        cut(&vertex[result], &in[inner], distance[inner], &in[outer], distance[outer]);
+        cut(&vertex[result], &in[inner], distance[inner], &in[outer], distance[outer], poses);
         settle(&vertex[result++], p, plane);
     }
     return result < 3 ? 0 : result;
 }
 
 int smear_clip_polygon(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
-                       const struct smear_projection *projection, int codes)
+                       const struct smear_projection *projection, int codes, int poses)
 {
     if (count != 0 && codes & OUT_NEAR)
-        count = clip_plane(vertex, count, projection, PLANE_NEAR);
+        count = clip_plane(vertex, count, projection, PLANE_NEAR, poses);
     if (count != 0 && codes & OUT_FAR)
-        count = clip_plane(vertex, count, projection, PLANE_FAR);
+        count = clip_plane(vertex, count, projection, PLANE_FAR, poses);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
     if (codes & (OUT_NEAR | OUT_GUARD))
         for (int plane = PLANE_LEFT; plane < PLANES && count != 0; plane++)
-            count = clip_plane(vertex, count, projection, (enum plane)plane);
+            count = clip_plane(vertex, count, projection, (enum plane)plane, poses);
     return count;
 }

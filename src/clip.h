@@ -23,9 +23,10 @@ struct smear_clip_vertex {
 #define SMEAR_CLIP_MAX (SMEAR_WITH_SUBFRAMES ? 12 : 9)
 
 /* Clips the convex polygon vertex[0 .. count-1] in place; returns how many corners it has then, 0 when nothing is
- * left. `codes` is the union of the three outcodes: only those planes are looked at. An edge is always cut
+ * left. `codes` is the union of the three outcodes: only those planes are looked at. The first `poses` of a vertex's poses
+ * are in use. An edge is always cut
  * from its inner towards its outer end, so two triangles that share it get the same new vertex, bit for bit. */
 int smear_clip_polygon(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
-                       const struct smear_projection *projection, int codes);
+                       const struct smear_projection *projection, int codes, int poses);
 
 #endif

@@ -173,53 +173,148 @@ static inline uint32_t level_q16(uint32_t code, uint32_t levels)
     return code * (257u * levels) + (code >> 7) * levels;
 }
 
-/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Neighbours often are of one
- * colour: only thresholds differ then, and these repeat. */
-SMEAR_INLINE void row_16bit_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
-                                     smear_dither dither, bool is_555, bool swapped)
+/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Runs of one colour: only
+ * thresholds differ then. */
+static void dither_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither, bool is_555,
+                         bool swapped)
 {
     int32_t mask;
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
-    const uint32_t *end = in + n;
-    while (in < end) {
-#ifdef __OPTIMIZE_SIZE__
-        const uint32_t p = *in, *period = end - 1;
-#else
-        const uint32_t p = *in, *period = end - in > mask ? in + mask : end - 1;
-#endif
-        const uint32_t high = level_q16(is_555 ? pixel_blue(p) : pixel_red(p), 31);
-        const uint32_t green = level_q16(pixel_green(p), is_555 ? 31 : 63);
-        const uint32_t low = level_q16(is_555 ? pixel_red(p) : pixel_blue(p), 31);
-        do {
-            uint32_t t = (uint32_t)threshold[x++ & mask] << 8;
-            uint32_t packed = (is_555 ? (high + t) >> 6 & 0x7c00u : (high + t) >> 5 & 0xf800u)
-                            | ((green + t) >> 11 & 0x7e0u) | (low + t) >> 16;
-            *out++ = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
-        } while (in++ < period && *in == p);
-#ifndef __OPTIMIZE_SIZE__
-        for (; in < end && *in == p; in++, out++, x++)
-            *out = out[-mask - 1];
-#endif
+    uint32_t last = n > 0 ? ~*in : 0, high = 0, green = 0, low = 0;
+    for (; n > 0; n--, in++) {
+        if (*in != last) {
+            last = *in;
+            high = level_q16(is_555 ? pixel_blue(last) : pixel_red(last), 31);
+            green = level_q16(pixel_green(last), is_555 ? 31 : 63);
+            low = level_q16(is_555 ? pixel_red(last) : pixel_blue(last), 31);
+        }
+        uint32_t t = (uint32_t)threshold[x++ & mask] << 8;
+        uint32_t packed = ((high + t) >> 16) << (is_555 ? 10 : 11) | ((green + t) >> 11 & 0x7e0u) | (low + t) >> 16;
+        *out++ = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
     }
 }
+
+#ifndef __OPTIMIZE_SIZE__
+/* Ordered thresholds are 4 k + 2, of 256: six bits of a level's fraction are enough, and level and fraction of two channels
+ * fit into a word, where one sum adds k to both. A column's step is k at both places. */
+enum { ORDERED_HIGH = 20, ORDERED_LOW = 9, ORDERED_LEVEL = ORDERED_LOW + 6, ORDERED_WIDTH = 8 };
+
+/* The step of a pixel's column: steps lie by where pixels lie. */
+static inline uint32_t step_of(const uint32_t step[ORDERED_WIDTH], const uint32_t *pixel)
+{
+    return step[(uintptr_t)pixel / 4u % ORDERED_WIDTH];
+}
+
+/* Pixels [in, end). c levels / 255 in q8 is c levels + ((c + (c >> 7)) levels >> 8), as level_dithered() has it. */
+SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step, bool is_555,
+                                bool swapped)
+{
+    uint32_t last = in < end ? ~*in : 0, red_blue = 0, green = 0;
+    for (; in < end; in++) {
+        const uint32_t p = *in, add = step_of(step, in);
+        if (p != last) {
+            __asm__ volatile ("");      /* one branch: nothing of this is done for nothing */
+            const uint32_t levels = is_555 ? 31 : 63, g = pixel_green(p);
+            last = p;
+            uint32_t both = is_555 ? pixel_blue(p) << 16 | pixel_red(p) : p & 0xff00ffu;
+            both = both * 31u + ((both + (both >> 7 & 0x10001u)) * 31u >> 8 & 0x1f001fu) + 0x20002u;
+            red_blue = (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
+            green = (g * levels + ((g + (g >> 7)) * levels >> 8) + 2u) >> 2 << ORDERED_HIGH;
+        }
+        uint32_t both = red_blue + add;
+        uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)
+                                  : both >> ORDERED_LEVEL & 0xf81fu)
+                        | (green + add) >> (ORDERED_HIGH + 6) << 5;
+        *out++ = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
+    }
+}
+
+typedef void ordered_fn(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step);
+
+static SMEAR_NOINLINE void ordered_555(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+{
+    ordered_16bit(out, in, end, step, true, __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
+}
+
+static SMEAR_NOINLINE void ordered_565(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+{
+    ordered_16bit(out, in, end, step, false, __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
+}
+
+static SMEAR_NOINLINE void ordered_565_swapped(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+{
+    ordered_16bit(out, in, end, step, false, __BYTE_ORDER__ != __ORDER_BIG_ENDIAN__);
+}
+
+static inline bool is_flat_block(const uint32_t *in)
+{
+    const uint32_t p = *in;
+    return in[7] == p && in[1] == p && in[2] == p && in[3] == p && in[4] == p && in[5] == p && in[6] == p;
+}
+
+static inline void copy_block(uint16_t *out, const uint16_t *from)
+{
+    pixel_word *to = (pixel_word *)(void *)out;
+    const pixel_word *words = (const pixel_word *)(const void *)from;
+    to[0] = words[0];
+    to[1] = words[1];
+    to[2] = words[2];
+    to[3] = words[3];
+}
+
+/* Neighbours often are of one colour: a flat block of columns looks like the last of its colour in this row. Rows are
+ * aligned to a pixel. */
+static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, ordered_fn *fn)
+{
+    uint32_t step[ORDERED_WIDTH];
+    const uint8_t *threshold = smear_dither_ordered + ((y & 7) << 3);
+    const int32_t head = -x & (ORDERED_WIDTH - 1);
+    const uint32_t phase = (uint32_t)((uintptr_t)(in + head) / 4u);
+    for (uint32_t i = 0; i < ORDERED_WIDTH; i++)
+        step[(phase + i) % ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2) * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
+    const uint32_t *rest = in, *end = in + n;       /* from `rest` on nothing is done */
+    if (((uintptr_t)(out + head) & 3u) == 0) {
+        const uint16_t *kept = out;
+        uint32_t last = n > 0 ? ~*in : 0;
+        for (in += head, out += head; end - in >= ORDERED_WIDTH; in += ORDERED_WIDTH, out += ORDERED_WIDTH) {
+            if (!is_flat_block(in))
+                continue;
+            if (*in != last) {
+                last = *in;
+                kept = out;
+                continue;
+            }
+            if (rest != in)
+                fn(out - (in - rest), rest, in, step);
+            rest = in + ORDERED_WIDTH;
+            copy_block(out, kept);
+        }
+    }
+    fn(out - (in - rest), rest, end, step);
+}
+#endif
 
 static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
     const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, swapped = (format == SMEAR_RGB565_SWAPPED) != big;
+    const bool is_555 = SMEAR_WITH_RGB555 && format == SMEAR_RGB555;
     if (!is_dithered(dither)) {
         for (int32_t i = 0; SMEAR_WITH_RGB555 && i < n; i++) {
             uint32_t p = in[i], packed = level_nearest(pixel_blue(p), 31) << 10 | level_nearest(pixel_green(p), 31) << 5
                                        | level_nearest(pixel_red(p), 31);
             out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
         }
-    } else if (SMEAR_WITH_RGB555 && format == SMEAR_RGB555) {
-        row_16bit_dithered(out, in, n, x, y, dither, true, swapped);
-    } else if (swapped) {
-        row_16bit_dithered(out, in, n, x, y, dither, false, true);
-    } else {
-        row_16bit_dithered(out, in, n, x, y, dither, false, false);
+        return;
     }
+#ifndef __OPTIMIZE_SIZE__
+    if (!SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED) {
+        row_ordered(out, in, n, x, y, is_555 ? ordered_555
+                    : SMEAR_WITH_RGB565 && format == SMEAR_RGB565_SWAPPED ? ordered_565_swapped : ordered_565);
+        return;
+    }
+#endif
+    dither_16bit(out, in, n, x, y, dither, is_555, swapped);
 }
 
 static uint32_t grey_level(uint32_t p, int32_t x, int32_t y, uint32_t levels, smear_dither dither)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* course.h - texture coordinates along a row: exact where blocks of pixels meet, chords or parabolas between (setup.h). */
+/* course.h - texture coordinates along a row: polynomials, or exact where blocks of pixels meet and chords or parabolas between
+ * (setup.h). */
 #ifndef SMEAR_COURSE_H
 #define SMEAR_COURSE_H
 
@@ -30,7 +31,7 @@ static inline int32_t part_of(int32_t a, int32_t n) { return part_by(a, inverse[
 /* Where blocks meet: texels q16, or turns 2^(32 - shift). */
 struct place {
     int32_t u, v;
-    int32_t nearness;       /* quadratic: middle / (k q), q15. Divided: relative change of q per pixel, q16 */
+    int32_t nearness;       /* relative change of q per pixel, q16 */
 };
 
 /* Coordinates from planes. Slivers, whose planes are anything, give anything: it wraps. */
@@ -38,18 +39,7 @@ SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_m
                                    int32_t q, int32_t u, int32_t v, bool turns)
 {
     struct place p = { u, v, 0 };
-    if (mode == TEXTURE_QUADRATIC) {
-        uint32_t n = (uint32_t)q >> 16, k = t->recip_base + (n * n >> 17);
-        p.u = (u >> 16) * (int32_t)k;
-        p.v = (v >> 16) * (int32_t)k;
-        p.nearness = (int32_t)k;
-        if (!turns) {
-            p.u >>= t->shift;
-            p.v >>= t->shift;
-        }
-        p.u = add_wrap(p.u, t->u_base);
-        p.v = add_wrap(p.v, t->v_base);
-    } else if (mode == TEXTURE_DIVIDED) {
+    if (mode == TEXTURE_DIVIDED) {
         uint32_t d = (uint32_t)max_i32(q, 1 << 11);
         int zeros = count_leading_zeros(d);                     /* at least 1 */
         int32_t r = (int32_t)recip_norm(d << zeros);            /* 1/q = r 2^(zeros - 61) */
@@ -57,8 +47,8 @@ SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_m
         p.u = mulh_i32(shl_wrap(u >> 1, zeros - 1), r);
         p.v = mulh_i32(shl_wrap(v >> 1, zeros - 1), r);
         if (!turns) {
-            p.u = smear_sampler_texel_u(m, shl_wrap(p.u, 2));
-            p.v = smear_sampler_texel_v(m, shl_wrap(p.v, 2));
+            p.u = smear_sampler_texel(m, 0, shl_wrap(p.u, 2));
+            p.v = smear_sampler_texel(m, 1, shl_wrap(p.v, 2));
         }
         if (t->bent)
             p.nearness = mulh_i32(t->slope, r) >> (20 - zeros);
@@ -66,7 +56,7 @@ SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_m
     return p;
 }
 
-/* Coordinates of a block on its way: start, steps, and what these lose every 2 pixels. */
+/* Coordinates of a block on its way: start, steps, and what these lose from pixel to pixel. */
 struct course {
     uint32_t u, v, du, dv, bend_u, bend_v;
 };
@@ -74,30 +64,47 @@ struct course {
 /* From one place to another n pixels further on.
  *
  * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start to its end
- * has steps d + b (n - 2), 4 b less every 2 pixels. */
-SMEAR_INLINE struct course course_between(const struct texture_setup *t, enum texture_mode mode, struct place from,
-                                          struct place to, int32_t n, bool turns)
+ * has steps from d + b (n - 1) on, each 2 b less. */
+SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct place from, struct place to, int32_t n,
+                                          bool turns)
 {
     const int up = t->up;
     struct course c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
     int32_t du = part_of(sub_wrap(to.u, from.u), n), dv = part_of(sub_wrap(to.v, from.v), n);
     if (t->bent) {
-        int32_t nearness = from.nearness + to.nearness;                                     /* q'/q, q16: */
-        int32_t rate = mode == TEXTURE_QUADRATIC ? mul_wrap(t->slope, nearness) >> 17 : nearness >> 1;
-        int32_t bu = mul_wrap(du >> 13, rate) >> 1, bv = mul_wrap(dv >> 13, rate) >> 1;     /* 4 b */
-        du = add_wrap(du, mul_wrap(bu >> 2, n - 2));
-        dv = add_wrap(dv, mul_wrap(bv >> 2, n - 2));
+        int32_t rate = (from.nearness + to.nearness) >> 1;                                  /* q'/q, q16 */
+        int32_t bu = mul_wrap(du >> 13, rate) >> 2, bv = mul_wrap(dv >> 13, rate) >> 2;     /* 2 b */
+        du = add_wrap(du, mul_wrap(bu, n - 1) >> 1);
+        dv = add_wrap(dv, mul_wrap(bv, n - 1) >> 1);
         c.bend_u = (uint32_t)bu << up;
         c.bend_v = (uint32_t)bv << up;
     }
     c.du = (uint32_t)du << up;
     c.dv = (uint32_t)dv << up;
     if (turns) {
-        c.u = turns_start(c.u);
-        c.du = turns_step(c.du);
-        c.bend_u = turns_step(c.bend_u);
+        c.v = turns_start(c.v);
+        c.dv = turns_step(c.dv);
+        c.bend_v = turns_step(c.bend_v);
     }
     return c;
+}
+
+/* Where polynomials hold: from pixel (x, y) on. */
+static inline struct course course_curved(const struct texture_setup *t, const struct smear_sampler *m, int32_t x, int32_t y)
+{
+    uint32_t word[2][3];
+    x -= t->x0;
+    y -= t->y0;
+    for (int i = 0; i < 2; i++) {
+        const struct curve *c = &t->curve[i];
+        int32_t dx = add_wrap(c->dx, mul_wrap(c->dxy, y)), along = mul_wrap(c->dxx, x);
+        int32_t at = add_wrap(c->at, mul_wrap(add_wrap(c->dy, mul_wrap(c->dyy, y)), y));
+        int32_t value[3] = { add_wrap(at, mul_wrap(add_wrap(dx, along), x)), add_wrap(dx, mul_wrap(c->dxx, 2 * x + 1)),
+                             mul_wrap(c->dxx, -2) };
+        for (int k = 0; k < 3; k++)
+            word[i][k] = (uint32_t)(t->turns ? value[k] : smear_sampler_texel(m, i, value[k]));
+    }
+    return (struct course){ word[0][0], word[1][0], word[0][1], word[1][1], word[0][2], word[1][2] };
 }
 
 SMEAR_INLINE struct smear_texture_run course_packed(struct course c)
@@ -111,10 +118,10 @@ static inline int32_t block_start(int32_t left, int32_t last, int32_t a, int32_t
     return left + (max_i32(min_i32(a, last - 1) - left, 0) & -block);
 }
 
-/* In blocks of so many pixels: of a span that is short, single ones. */
+/* In blocks of so many pixels: of a span that is short, single ones, which cost less but where polynomials hold. */
 static inline int32_t block_of(const struct texture_setup *t, int32_t left, int32_t right)
 {
-    return right - left <= SHORT_SPAN ? 1 : t->block;
+    return right - left <= SHORT_SPAN && t->mode != TEXTURE_CURVED ? 1 : t->block;
 }
 
 #endif

@@ -352,7 +352,7 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
 /* ------------------------------------------------------------------ assembling */
 
 /* Assembles all draws for the tile rows [first, end). False when the store is full. */
-static bool assemble_rows(struct smear_context *c, int first, int end, const struct instant *instant,
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct instant *instant,
                           bool drop)
 {
     smear_geometry_reset(&c->geometry, first, end);
@@ -388,6 +388,7 @@ static void cache_free_pool(struct smear_context *c)
 static int assemble_part(struct smear_context *c, int *top, int least, int first, int end, const struct instant *instant)
 {
     uint32_t start = stage_start(c);
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
         bool last = end - first <= 1 && *top == least;
@@ -401,6 +402,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
             ++*top;
         c->stats.triangles_split++;
     }
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = c->moving = SMEAR_NO_TRIANGLE;
     if (SMEAR_RASTER_CACHE)
         cache_free_pool(c);

@@ -573,7 +573,7 @@ static void advance_movers(struct smear_context *c, int row, bool first)
 
 static int finish_row(struct smear_context *c, int row, bool first)
 {
-    struct layers_row r = { .row = { c, row, NULL } };
+    struct layers_row r = { .row = { .c = c, .row = row } };
     uint32_t start = stage_start(c);
     smear_row_target(c, row, &r.still);
     r.still.color_rows = r.still.window_rows = (struct smear_plane_rows){ c->window.width, 0, c->window.tile, 0 };

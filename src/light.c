@@ -99,25 +99,34 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     }
 }
 
-/* max(0, cosine) of an object-space normal of any length, components up to 2^14. */
+/* max(0, cosine) of an object-space normal of any length, components up to 2^14.
+ *
+ * The normal in the world, h 2^12 + l, has 24 bits: sums of products of the halves fit into 32. */
 static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
 {
-    int32_t world[3];
-    for (int i = 0; i < 3; i++)
-        world[i] = dot_q(s->normal_matrix[i], normal, 0) >> 7;      /* 31 bits to 24 */
-    int64_t along = (int64_t)world[0] * light_direction[0] + (int64_t)world[1] * light_direction[1]
-                  + (int64_t)world[2] * light_direction[2];         /* q14 x length */
+    int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *m = s->normal_matrix[i];
+        int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;      /* 31 bits to 24 */
+        int32_t h = world >> 12, l = world & 4095;
+        along_high += h * light_direction[i];
+        along_low += l * light_direction[i];
+        high += h * h;
+        cross += h * l;
+        low += l * l;
+    }
+    int32_t along = (along_high << 4) + (along_low >> 8);       /* q6 x length */
     if (along <= 0)
         return 0;
-    uint32_t length = sqrt_floor_64(square_sum(world[0], world[1], world[2]));
+    uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192) + (uint32_t)low);
     if (length == 0)
         return 0;
-    /* along 2^2 / length, by reciprocal: along has up to 39 bits. */
+    /* along 2^10 / length, by reciprocal */
     int zeros = count_leading_zeros(length);
-    uint64_t q = (uint64_t)(along >> 8) * recip_norm(length << zeros) >> 32;
+    uint32_t q = mulh_u32((uint32_t)along, recip_norm(length << zeros));
     int shift = 61 - 32 - zeros - 8 - 2;
     q = shift >= 0 ? q >> shift : q << -shift;
-    return q > 65536u ? 65536u : (uint32_t)q;
+    return min_u32(q, 65536u);
 }
 
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3])
@@ -135,17 +144,34 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
                           const int16_t c[3])
 {
     int32_t u[3], v[3], n[3];
-    int64_t cross[3];
-    uint64_t largest = 1;
     for (int i = 0; i < 3; i++) {
         u[i] = b[i] - a[i];
         v[i] = c[i] - a[i];
     }
+#ifndef __OPTIMIZE_SIZE__
+    uint32_t size = 0;
+    for (int i = 0; i < 3; i++)
+        size |= (uint32_t)(u[i] ^ u[i] >> 31) | (uint32_t)(v[i] ^ v[i] >> 31);
+    if (size < 1u << 15) {      /* cross products have 31 bits */
+        uint32_t largest = 1;
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+            n[i] = u[j] * v[k] - u[k] * v[j];
+            largest = max_u32(largest, (uint32_t)abs_i32(n[i]));
+        }
+        int shift = 32 - count_leading_zeros(largest) - 14;
+        for (int i = 0; i < 3; i++)
+            n[i] = shift >= 0 ? n[i] >> shift : n[i] * (1 << -shift);
+        return cosine_of(s, n);
+    }
+#endif
+    int64_t cross[3];
+    uint64_t largest = 1;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
-        uint64_t size = cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
-        largest = largest > size ? largest : size;
+        uint64_t length = cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
+        largest = largest > length ? largest : length;
     }
     int shift = 64 - count_leading_zeros_64(largest) - 14;
     for (int i = 0; i < 3; i++)

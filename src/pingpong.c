@@ -24,9 +24,9 @@ bool smear_pingpong_resolve(smear_pingpong *p)
 
 int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear_pingpong *p, int32_t reach)
 {
-    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th pass from the last:
-     * `whole` brings the outermost tap of all passes together, and half a spacing of the last beyond it, to the end of the
-     * streak. */
+    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th pass from
+     * the last: `whole` brings the outermost tap of all passes together, and half a spacing of the last beyond it, to
+     * the end of the streak. */
     int32_t power = 1, sum = 0;
     for (int k = 0; k < p->passes; k++, power *= p->base)
         sum += power;
@@ -39,7 +39,8 @@ int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear
         int32_t farthest = (p->taps - 1) * spacing + (spacing * p->jitter >> 7);
         pass[k] = (struct smear_pass){
             .taps = p->taps, .direct_up_to = p->passes > 1 ? min_i32(p->taps * p->passes, 64) / 2 : -1,
-            .all_taps = min_i32(p->taps * p->passes, 64), .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64),
+            .all_taps = min_i32(p->taps * p->passes, 64),
+            .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64),
             .is_last = k == p->passes - 1, .spacing = spacing,
             .reach = min_i32(((farthest >> 4) * reach + (1 << 15)) >> 16, reach),
             .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread != 0
@@ -105,8 +106,8 @@ SMEAR_INLINE uint32_t sums_mean_shift(const struct sums *s, int shift, bool line
 
 /* ------------------------------------------------------------------ taps */
 
-/* Where the taps of a pixel lie, from its middle: q16 px, x below and y above in one word each: positions are not negative, a
- * sum carries as it should. */
+/* Where the taps of a pixel lie, from its middle: q16 px, x below and y above in one word each: positions are not
+ * negative, a sum carries as it should. */
 struct taps {
     uint64_t first, step;
     uint32_t all;               /* what sums begin with: halves, if there is a shift */
@@ -209,8 +210,9 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
     return mean_of_some(&some, t, in[at], linear);
 }
 
-/* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something as near as the pixel
- * moves far enough to be here at that time; or the pixel's own motion brings what lies there; or the pixel shows itself. */
+/* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something as near as the
+ * pixel moves far enough to be here at that time; or the pixel's own motion brings what lies there; or the pixel
+ * shows itself. */
 static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t at, int32_t x, int32_t y,
                                              struct smear_pixel_velocity own, struct smear_pixel_velocity top)
 {
@@ -240,7 +242,8 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
 /* From the first tap to where jitter moves it, q16 px; `jitter` is q8 of half a spacing. */
 static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32_t x, int32_t y)
 {
-    int32_t step_x = (int32_t)(uint32_t)t->step, step_y = (int32_t)(uint32_t)((t->step - (uint64_t)(int64_t)step_x) >> 32);
+    int32_t step_x = (int32_t)(uint32_t)t->step;
+    int32_t step_y = (int32_t)(uint32_t)((t->step - (uint64_t)(int64_t)step_x) >> 32);
     int32_t noise = (int32_t)noise_of((uint32_t)x * NOISE_X + (uint32_t)y * NOISE_Y) - 32768;
     noise = noise * jitter >> 8;                                        /* q16 of half a spacing */
     return both_of((step_x >> 6) * (noise >> 6) >> 4, (step_y >> 6) * (noise >> 6) >> 4);
@@ -255,8 +258,8 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
 
 typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y);
 
-/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the taps
- * taken. */
+/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the
+ * taps taken. */
 SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y,
                                bool linear, bool wide)
 {
@@ -297,29 +300,18 @@ SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int
     return taken;
 }
 
-static SMEAR_NOINLINE uint32_t row_light(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, true, false);
-}
-
-static SMEAR_NOINLINE uint32_t row_codes(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, false, false);
-}
-
-static SMEAR_NOINLINE uint32_t row_light_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, true, true);
-}
-
-static SMEAR_NOINLINE uint32_t row_codes_wide(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
-                                      int32_t table_y)
-{
-    return pass_row(p, to, at, x, x1, table_y, false, true);
-}
+/* One for each way to add colours and each size of velocities. */
+#define PASS_ROW(NAME, LINEAR, WIDE) \
+    static SMEAR_NOINLINE uint32_t NAME(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, \
+                                        int32_t table_y) \
+    { \
+        return pass_row(p, to, at, x, x1, table_y, LINEAR, WIDE); \
+    }
+PASS_ROW(row_light, true, false)
+PASS_ROW(row_codes, false, false)
+PASS_ROW(row_light_wide, true, true)
+PASS_ROW(row_codes_wide, false, true)
+#undef PASS_ROW
 
 static pass_row_fn *row_of(const struct passing *p)
 {
@@ -328,10 +320,10 @@ static pass_row_fn *row_of(const struct passing *p)
     return p->settings->linear ? row_light : row_codes;
 }
 
-/* The same at the frame's sides, or with jitter, or where moving things spread: top is the longest motion around, in frame
- * row y. */
-static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y, int32_t y,
-                             struct smear_pixel_velocity top)
+/* The same at the frame's sides, or with jitter, or where moving things spread: top is the longest motion around, in
+ * frame row y. */
+static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y,
+                             int32_t y, struct smear_pixel_velocity top)
 {
     const int32_t top_square = top.x * top.x + top.y * top.y, jitter = p->pass->jitter;
     const bool spreads = p->pass->spread && top_square >= 64, linear = p->settings->linear;        /* 1 px */

@@ -278,26 +278,28 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->slot = 0;
 }
 
-/* Pixels of an edge in n rows: one edge after the other, in registers. */
+/* Pixels of an edge in n > 0 rows: one edge after the other, in registers. */
 SMEAR_INLINE void gather_left(struct span_rows *r, struct edge_walk *edge, int32_t n)
 {
     struct edge_walk e = *edge;
-    for (int32_t i = 0; i < n; i++) {
-        r->side[i].left = max_i32(edge_pixel(&e), 0);
+    struct span_side *side = r->side, *const end = side + n;
+    do {
+        side->left = max_i32(edge_pixel(&e), 0);
         edge_step(&e);
-    }
+    } while (++side != end);
     *edge = e;
 }
 
 SMEAR_INLINE void gather_right(struct span_rows *r, struct edge_walk *edge, int32_t n, int32_t width)
 {
     struct edge_walk e = *edge;
-    for (int32_t i = 0; i < n; i++) {
+    struct span_side *side = r->side, *const end = side + n;
+    do {
         int32_t x = edge_pixel(&e);
-        r->side[i].right = min_i32(x, width);
-        r->side[i].edge = x;
+        side->right = min_i32(x, width);
+        side->edge = x;
         edge_step(&e);
-    }
+    } while (++side != end);
     *edge = e;
 }
 

@@ -11,7 +11,7 @@
 
 SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
 {
-    return (uint32_t)uv >> (32 - log2_height) << log2_width | (uint32_t)(uv >> 32) >> (32 - log2_width);
+    return (uint32_t)(uv >> 32) >> (32 - log2_height) << log2_width | (uint32_t)uv >> (32 - log2_width);
 }
 
 /* Pixel i becomes a texel. `narrow`: both have 16 bits, else 32. */
@@ -34,7 +34,7 @@ SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const vo
 }
 
 /* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words have 64 bits,
- * else each alone. Bends are negative: what steps gain every 2 pixels. */
+ * else each alone. Bends are negative: what steps gain. */
 #if UINTPTR_MAX > 0xffffffffu
 struct texel_run {
     uint64_t uv, step, bend;
@@ -42,7 +42,15 @@ struct texel_run {
     uint16_t *depth;
     uint32_t z, dz;
     const void *texels;
+    uint64_t bits, fold;        /* of an index; what brings those of u next to those of v */
 };
+
+SMEAR_INLINE void run_index_start(struct texel_run *r, int log2_width, int log2_height)
+{
+    r->bits = (uint64_t)(0u - (1u << (32 - log2_height))) << 32 | (0u - (1u << (32 - log2_width)));
+    r->fold = 1u + ((uint64_t)1 << (32 - log2_height));
+    __asm__("" : "+r"(r->fold));        /* one product, not a shift and a sum */
+}
 
 SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
 {
@@ -56,11 +64,14 @@ SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return r->uv; }
 
 SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
 {
-    return packed_index(r->uv, log2_width, log2_height);
+    return (uint32_t)((r->uv & r->bits) * r->fold >> (64 - log2_width - log2_height));
 }
 
-SMEAR_INLINE void run_step(struct texel_run *r) { r->uv += r->step; }
-SMEAR_INLINE void run_bend(struct texel_run *r) { r->step += r->bend; }
+SMEAR_INLINE void run_step(struct texel_run *r)
+{
+    r->uv += r->step;
+    r->step += r->bend;
+}
 #else
 struct texel_run {              /* the order in which registers are filled by hand */
     uint32_t dz, du, dv, bend_u, bend_v;
@@ -71,6 +82,11 @@ struct texel_run {              /* the order in which registers are filled by ha
     const void *texels;
     int32_t count;
 };
+
+SMEAR_INLINE void run_index_start(struct texel_run *r, int log2_width, int log2_height)
+{
+    (void)r, (void)log2_width, (void)log2_height;
+}
 
 SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
 {
@@ -93,10 +109,6 @@ SMEAR_INLINE void run_step(struct texel_run *r)
 {
     r->u += r->du;
     r->v += r->dv;
-}
-
-SMEAR_INLINE void run_bend(struct texel_run *r)
-{
     r->du += r->bend_u;
     r->dv += r->bend_v;
 }
@@ -139,6 +151,8 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
         PIXEL_BY_HAND(LOAD, STORE, SIZE, "0", "0", "2") \
         "add r3, r9\n\t" \
         "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
         PIXEL_BY_HAND(LOAD, STORE, SIZE, "2", NEXT, "3") \
         "add r3, r9\n\t" \
         "add r4, r10\n\t" \
@@ -164,7 +178,7 @@ SMEAR_INLINE void run_bend(struct texel_run *r)
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
 /* run_texels on cores with eight registers that do everything and six that only add:
- * compilers keep half of the values on the stack, which doubles the instructions. 17 a pixel. u and v are stepped each
+ * compilers keep half of the values on the stack, which doubles the instructions. 18 a pixel. u and v are stepped each
  * alone. */
 SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, bool narrow)
 {
@@ -197,6 +211,15 @@ SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
     r->color = pixel_after(r->color, n, narrow);
 }
 
+/* Twelve values are as many as ARM has registers for; compilers would rather keep copies of some. */
+#if defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
+#define ALL_IN_REGISTERS \
+    __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
+               : "r"(bend_u), "r"(bend_v), "r"(dz), "r"(texels), "r"(end))
+#else
+#define ALL_IN_REGISTERS (void)0
+#endif
+
 /* n > 1 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
 SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, bool narrow)
 {
@@ -208,21 +231,19 @@ SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, i
         return;
     }
 #endif
+#if UINTPTR_MAX > 0xffffffffu
     struct texel_run r = *run;      /* in registers */
     for (; n >= 4; n -= 4) {
         __asm__("" : "+r"(n));      /* else compilers multiply to know all values at the end in advance */
         texel_step(&r, 0, log2_width, log2_height, narrow);
         texel_step(&r, 1, log2_width, log2_height, narrow);
-        run_bend(&r);
         texel_step(&r, 2, log2_width, log2_height, narrow);
         texel_step(&r, 3, log2_width, log2_height, narrow);
-        run_bend(&r);
         run_advance(&r, 4, narrow);
     }
     if (n & 2) {
         texel_step(&r, 0, log2_width, log2_height, narrow);
         texel_step(&r, 1, log2_width, log2_height, narrow);
-        run_bend(&r);
         run_advance(&r, 2, narrow);
     }
     if (n & 1) {
@@ -232,6 +253,40 @@ SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, i
     run->color = r.color;
     run->depth = r.depth;
     run->z = r.z;
+#else
+    uint32_t u = run->u, v = run->v, du = run->du, dv = run->dv, z = run->z;
+    const uint32_t bend_u = run->bend_u, bend_v = run->bend_v, dz = run->dz;
+    const void *const texels = run->texels;
+    void *color = run->color;
+    uint16_t *depth = run->depth, *const end = depth + (n & ~1);
+#define TEXEL_STEP(I) \
+    do { \
+        ALL_IN_REGISTERS; \
+        if (z >> 16 > depth[I]) { \
+            __asm__ volatile ("");      /* nothing of this in advance */ \
+            depth[I] = (uint16_t)(z >> 16); \
+            put_texel(color, I, texels, v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), narrow); \
+        } \
+        z += dz; \
+        u += du; \
+        v += dv; \
+        du += bend_u; \
+        dv += bend_v; \
+    } while (0)
+    for (; depth != end; depth += 2, color = pixel_after(color, 2, narrow)) {
+        TEXEL_STEP(0);
+        TEXEL_STEP(1);
+    }
+    if (n & 1) {
+        texel_pixel(color, depth, z, texels, packed_uv(u, v), log2_width, log2_height, narrow);
+        color = pixel_after(color, 1, narrow);
+        depth++;
+        z += dz;
+    }
+    run->color = color;
+    run->depth = depth;
+    run->z = z;
+#endif
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -256,10 +311,10 @@ struct track {
 SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
 {
     const struct place from = k->place;
-    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->u.dx, n));
-    const int32_t v = add_wrap(k->v, mul_wrap(t->v.dx, n));
+    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
+    const int32_t v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
     const struct place to = place_at(t, mode, NULL, q, u, v, true);
-    const struct course c = course_between(t, mode, from, to, n, true);
+    const struct course c = course_between(t, from, to, n, true);
     k->q = q;
     k->u = u;
     k->v = v;
@@ -283,9 +338,7 @@ TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, i
 #elif SMEAR_HAS_MUL64
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
-    if (t->mode == TEXTURE_QUADRATIC)
-        track_go(k, t, TEXTURE_QUADRATIC, n);
-    else if (t->mode == TEXTURE_DIVIDED)
+    if (t->mode == TEXTURE_DIVIDED)
         track_go(k, t, TEXTURE_DIVIDED, n);
     else
         track_go(k, t, TEXTURE_AFFINE, n);
@@ -294,76 +347,55 @@ TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, i
 
 /* What both coordinates of a block have in common. */
 struct going {
-    enum texture_mode mode;
     int32_t n, part;            /* 2^16 / n */
-    int32_t recip, rate;        /* place_at's k or r; change of q, q16 */
+    int32_t recip, rate;        /* place_at's r; change of q, q16 */
     int up, recip_up;
     bool bent;
 };
 
 /* track_go for one coordinate after the other: what both take at once is more than there are registers. */
-SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t base, int32_t *restrict value,
+SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t *restrict value,
                                 int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
                                 uint32_t *restrict bend, uint32_t mask)
 {
     const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
-    const int32_t to = g->mode == TEXTURE_QUADRATIC ? add_wrap((here >> 16) * g->recip, base)
-                     : g->mode == TEXTURE_DIVIDED ? mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip) : here;
+    const int32_t to = mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip);
     int32_t change = part_by(sub_wrap(to, from), g->part);
     *value = here;
     *place = to;
     *at = (uint32_t)from << g->up;
     *bend = 0;
     if (g->bent) {
-        const int32_t b = mul_wrap(change >> 13, g->rate) >> 1;
-        change = add_wrap(change, mul_wrap(b >> 2, g->n - 2));
+        const int32_t b = mul_wrap(change >> 13, g->rate) >> 2;
+        change = add_wrap(change, mul_wrap(b, g->n - 1) >> 1);
         *bend = 0u - ((uint32_t)b << g->up & mask);
     }
     *step = (uint32_t)change << g->up & mask;
 }
 
-SMEAR_INLINE void coordinates_go(struct track *restrict k, const struct texture_setup *restrict t, enum texture_mode mode,
-                                 int32_t n)
+static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t, int32_t n)
 {
-    struct going g = { .mode = mode, .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
+    struct going g = { .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
+    const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
+    const int zeros = count_leading_zeros(d);
     int32_t nearness = 0;
     k->q = q;
-    if (mode == TEXTURE_QUADRATIC) {
-        const uint32_t w = (uint32_t)q >> 16;
-        g.recip = nearness = (int32_t)(t->recip_base + (w * w >> 17));
-        g.rate = mul_wrap(t->slope, k->place.nearness + nearness) >> 17;
-    } else if (mode == TEXTURE_DIVIDED) {
-        const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
-        const int zeros = count_leading_zeros(d);
-        g.recip = (int32_t)recip_norm(d << zeros);
-        g.recip_up = zeros - 1;
-        if (g.bent)
-            nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
-        g.rate = (k->place.nearness + nearness) >> 1;
-    }
+    g.recip = (int32_t)recip_norm(d << zeros);
+    g.recip_up = zeros - 1;
+    if (g.bent)
+        nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
+    g.rate = (k->place.nearness + nearness) >> 1;
     k->place.nearness = nearness;
-    coordinate_go(&g, &t->u, t->u_base, &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~255u);
-    k->run.u = turns_start(k->run.u);
-    coordinate_go(&g, &t->v, t->v_base, &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~0u);
-}
-
-static SMEAR_NOINLINE void quadratic_go(struct track *k, const struct texture_setup *t, int32_t n)
-{
-    coordinates_go(k, t, TEXTURE_QUADRATIC, n);
-}
-
-static SMEAR_NOINLINE void divided_go(struct track *k, const struct texture_setup *t, int32_t n)
-{
-    coordinates_go(k, t, TEXTURE_DIVIDED, n);
+    coordinate_go(&g, &t->uv[0], &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~0u);
+    coordinate_go(&g, &t->uv[1], &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~255u);
+    k->run.v = turns_start(k->run.v);
 }
 
 /* The course of the next n pixels. */
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
-    if (t->mode == TEXTURE_QUADRATIC)
-        quadratic_go(k, t, n);
-    else if (t->mode == TEXTURE_DIVIDED)
+    if (t->mode == TEXTURE_DIVIDED)
         divided_go(k, t, n);
     else
         track_go(k, t, TEXTURE_AFFINE, n);
@@ -374,153 +406,9 @@ TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, i
 TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, int32_t x, int32_t y)
 {
     k->q = plane_at(&t->q, x, y);
-    k->u = plane_at(&t->u, x, y);
-    k->v = plane_at(&t->v, x, y);
+    k->u = plane_at(&t->uv[0], x, y);
+    k->v = plane_at(&t->uv[1], x, y);
     k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
-}
-
-/* ------------------------------------------------------------------ quotients */
-
-/* A piece of a row whose blocks would be single pixels: a quotient for each pixel up to `end`. */
-struct quotients {
-    uint32_t dz;                /* in the order in which registers are filled by hand */
-    int32_t dq, du, dv;
-    const uint16_t *end;
-    uint32_t z;
-    int32_t q, u, v;
-    uint16_t *depth;
-    uintptr_t to_color;         /* from (twice, where pixels have 32 bits) a depth's address to its pixel's */
-    /* where 1/q is a parabola, shifted up: */
-    uint32_t recip_base, u_base, v_base;
-    int up;
-    const void *texels;
-};
-
-SMEAR_INLINE void *color_of(const struct quotients *k, const uint16_t *depth, bool narrow)
-{
-    return (void *)((narrow ? 1u : 2u) * (uintptr_t)depth + k->to_color);
-}
-
-#if TEXELS_BY_HAND
-/* quotients_parabola in 39 instructions a pixel: five of the values that change stay in registers, and their steps. */
-#define QUOTIENTS_BY_HAND(LOAD, STORE, SIZE, COLOR) \
-    __asm__ volatile( \
-        ".syntax unified\n\t" \
-        "mov lr, r0\n\t" \
-        "ldm r0!, {r1, r2, r3, r4, r5}\n\t" \
-        "mov r8, r1\n\t" \
-        "mov r9, r2\n\t" \
-        "mov r10, r3\n\t" \
-        "mov r11, r4\n\t" \
-        "mov r12, r5\n\t" \
-        "ldm r0, {r0, r1, r2, r3, r4}\n" \
-        "1:\n\t" \
-        "lsrs r5, r0, #16\n\t" \
-        "ldrh r6, [r4]\n\t" \
-        "cmp r6, r5\n\t" \
-        "bhs 2f\n\t" \
-        "strh r5, [r4]\n\t" \
-        "mov r7, lr\n\t" \
-        "lsrs r5, r1, #16\n\t" \
-        "muls r5, r5, r5\n\t" \
-        "lsrs r5, r5, #17\n\t" \
-        "ldr r6, [r7, #44]\n\t" \
-        "adds r5, r5, r6\n\t" \
-        "ldr r6, [r7, #56]\n\t" \
-        "lsls r5, r6\n\t" \
-        "asrs r6, r3, #16\n\t" \
-        "muls r6, r5, r6\n\t" \
-        "ldr r7, [r7, #52]\n\t" \
-        "adds r6, r6, r7\n\t" \
-        "lsrs r6, r6, %[from_v]\n\t" \
-        "lsls r6, r6, %[to_v]\n\t" \
-        "asrs r7, r2, #16\n\t" \
-        "muls r5, r7, r5\n\t" \
-        "mov r7, lr\n\t" \
-        "ldr r7, [r7, #48]\n\t" \
-        "adds r5, r5, r7\n\t" \
-        "lsrs r5, r5, %[from_u]\n\t" \
-        "orrs r5, r6\n\t" \
-        "lsls r5, r5, #" SIZE "\n\t" \
-        "mov r7, lr\n\t" \
-        "ldr r6, [r7, #60]\n\t" \
-        LOAD " r5, [r6, r5]\n\t" \
-        "ldr r6, [r7, #40]\n\t" \
-        COLOR \
-        STORE "\n" \
-        "2: add r0, r8\n\t" \
-        "add r1, r9\n\t" \
-        "add r2, r10\n\t" \
-        "add r3, r11\n\t" \
-        "adds r4, #2\n\t" \
-        "cmp r4, r12\n\t" \
-        "bne 1b" \
-        : "+r"(r0) \
-        : [from_v] "i"(32 - log2), [to_v] "i"(log2), [from_u] "i"(32 - log2) \
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
-
-SMEAR_INLINE void quotients_by_hand(struct quotients *k, int log2, bool narrow)
-{
-    register struct quotients *r0 __asm__("r0") = k;
-    if (narrow)
-        QUOTIENTS_BY_HAND("ldrh", "strh r5, [r6, r4]", "1", "");
-    else
-        QUOTIENTS_BY_HAND("ldr", "str r5, [r6, r7]", "2", "lsls r7, r4, #1\n\t");
-}
-#endif
-
-/* Quadratic, see place_at. At least a pixel. */
-SMEAR_INLINE void quotients_parabola(struct quotients *k, int log2_width, int log2_height, bool narrow)
-{
-#if TEXELS_BY_HAND
-    if (log2_width == log2_height && log2_width >= 6 && log2_width <= 8) {
-        if (log2_width == 6)
-            quotients_by_hand(k, 6, narrow);
-        else if (log2_width == 7)
-            quotients_by_hand(k, 7, narrow);
-        else
-            quotients_by_hand(k, 8, narrow);
-        return;
-    }
-#endif
-    const struct quotients c = *k;      /* what is constant, in registers */
-    int32_t q = c.q, u = c.u, v = c.v;
-    uint16_t *depth = c.depth;
-    uint32_t z = c.z;
-    do {
-        if ((uint16_t)(z >> 16) > *depth) {
-            const uint32_t w = (uint32_t)q >> 16, r = (c.recip_base + (w * w >> 17)) << c.up;
-            const uint32_t at_u = (uint32_t)(u >> 16) * r + c.u_base, at_v = (uint32_t)(v >> 16) * r + c.v_base;
-            *depth = (uint16_t)(z >> 16);
-            put_texel(color_of(&c, depth, narrow), 0, c.texels,
-                      at_v >> (32 - log2_height) << log2_width | at_u >> (32 - log2_width), narrow);
-        }
-        z += c.dz;
-        q = add_wrap(q, c.dq);
-        u = add_wrap(u, c.du);
-        v = add_wrap(v, c.dv);
-    } while (++depth != c.end);
-}
-
-/* The same by place_at. */
-static SMEAR_NOINLINE void quotients_any(struct quotients *k, const struct setup *s, bool narrow)
-{
-    const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
-    const struct texture_setup *t = texture_of(s);
-    const struct smear_sampler *m = &s->draw->sampler;
-    do {
-        if ((uint16_t)(k->z >> 16) > *k->depth) {
-            const struct place p = place_at(t, mode, NULL, k->q, k->u, k->v, true);
-            *k->depth = (uint16_t)(k->z >> 16);
-            put_texel(color_of(k, k->depth, narrow), 0, k->texels,
-                      packed_index(packed_uv((uint32_t)p.u << t->up, (uint32_t)p.v << t->up), m->log2_width,
-                                   m->log2_height), narrow);
-        }
-        k->z += k->dz;
-        k->q = add_wrap(k->q, k->dq);
-        k->u = add_wrap(k->u, k->du);
-        k->v = add_wrap(k->v, k->dv);
-    } while (++k->depth != k->end);
 }
 
 /* ------------------------------------------------------------------ pieces */
@@ -571,8 +459,6 @@ static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i
             texel_pixel(r->color, r->depth, r->z, m->texels, run_uv(r), m->log2_width, m->log2_height, narrow);
         run_advance(r, 1, narrow);
         run_step(r);
-        if (i & 1)
-            run_bend(r);
     }
 }
 
@@ -604,50 +490,40 @@ struct row_list {
     uint8_t row[SPAN_ROWS];
 };
 
-/* Rows that are drawn by quotients. */
-SMEAR_INLINE void draw_quotients(const struct setup *s, const struct span_rows *r, const struct row_list *list,
-                                 int log2_width, int log2_height, bool narrow)
+/* Rows whose blocks would be single pixels: a place for each. */
+static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_rows *r, const struct row_list *list)
 {
+    const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const bool plain = is_plain(s, r), quadratic = t->mode == TEXTURE_QUADRATIC;
-    struct quotients k;
-    k.texels = s->draw->sampler.texels;
-    k.to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
-                        : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
-    k.up = t->up;
-    k.recip_base = t->recip_base;
-    k.u_base = (uint32_t)t->u_base << t->up;
-    k.v_base = (uint32_t)t->v_base << t->up;
-    k.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    k.dq = t->q.dx;
-    k.du = t->u.dx;
-    k.dv = t->v.dx;
+    const struct smear_sampler *m = &s->draw->sampler;
+    const bool narrow = target_is_direct(target), plain = is_plain(s, r);
+    struct piece p;
+    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     for (int32_t i = 0; i < list->count; i++) {
-        const int32_t row = list->row[i], y = r->y + row;
-        struct piece p;
+        const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
         p.a = r->side[row].left;
         p.b = r->side[row].right;
+        p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
         if (!plain && !piece_next(&p, s, r, row, p.a))
             continue;
         do {
-            uint16_t *row_depth = target->depth + (r->at + row * target->window_rows.stride);
-            k.q = plane_at(&t->q, p.a, y);
-            k.u = plane_at(&t->u, p.a, y);
-            k.v = plane_at(&t->v, p.a, y);
-            if (plain) {
-                k.z = code_from_units(plane_at(&s->depth, p.a, y), s->slope);
-            } else {
-                k.dz = p.dz;
-                k.z = p.z + p.dz * (uint32_t)p.a;
-            }
-            k.depth = row_depth + p.a;
-            k.end = row_depth + p.b;
-            if (quadratic) {
-                quotients_parabola(&k, log2_width, log2_height, narrow);
-            } else {
-                struct quotients copy = k;              /* the other stays in registers */
-                quotients_any(&copy, s, narrow);
+            int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y), v = plane_at(&t->uv[1], p.a, y);
+            uint32_t z = p.z + p.dz * (uint32_t)p.a;
+            uint16_t *depth = target->depth + (at + p.a), *const end = target->depth + (at + p.b);
+            void *color = narrow ? (void *)(target->direct + (at + p.a)) : target->color + (at + p.a);
+            for (; depth < end; depth++, color = pixel_after(color, 1, narrow)) {
+                if (z >> 16 > *depth) {
+                    const struct place place = place_at(t, mode, NULL, q, u, v, true);
+                    *depth = (uint16_t)(z >> 16);
+                    put_texel(color, 0, m->texels,
+                              packed_index(packed_uv((uint32_t)place.u << t->up, (uint32_t)place.v << t->up), m->log2_width,
+                                           m->log2_height), narrow);
+                }
+                z += p.dz;
+                q = add_wrap(q, t->q.dx);
+                u = add_wrap(u, t->uv[0].dx);
+                v = add_wrap(v, t->uv[1].dx);
             }
         } while (!plain && piece_next(&p, s, r, row, p.b));
     }
@@ -665,6 +541,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
+    run_index_start(&k.run, log2_width, log2_height);
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
@@ -710,33 +587,115 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     quotients->count = (int32_t)(next_quotient - quotients->row);
 }
 
-/* Blocks, then quotients: in functions of their own, of which the sizes that are drawn as working pixels share one. */
-#define QUOTIENTS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
-    static SMEAR_NOINLINE void NAME(const struct setup *s, const struct span_rows *r, const struct row_list *list) \
-    { \
-        draw_quotients(s, r, list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
+/* ------------------------------------------------------------------ polynomials */
+
+#if UINTPTR_MAX > 0xffffffffu
+typedef uint64_t uv_pair;
+
+SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return packed_step((uint32_t)u, (uint32_t)v); }
+SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return a + b; }
+SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return a * (uint64_t)(int64_t)n; }
+
+SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
+{
+    r->uv = at;
+    r->step = step;
+    r->bend = bend;
+}
+#else
+typedef struct { uint32_t u, v; } uv_pair;
+
+SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return (uv_pair){ (uint32_t)u, (uint32_t)v }; }
+SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return (uv_pair){ a.u + b.u, a.v + b.v }; }
+SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return (uv_pair){ a.u * (uint32_t)n, a.v * (uint32_t)n }; }
+
+SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
+{
+    r->u = at.u;
+    r->v = at.v;
+    r->du = step.u;
+    r->dv = step.v;
+    r->bend_u = bend.u;
+    r->bend_v = bend.v;
+}
+#endif
+
+/* course_curved, whose values go on from row to row. */
+SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, bool narrow)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    const struct curve *cu = &t->curve[0], *cv = &t->curve[1];
+    const int32_t x0 = t->x0, y = r->y - t->y0;
+    const uv_pair dxx = uv_make(cu->dxx, cv->dxx), dyy = uv_make(cu->dyy, cv->dyy), dxy = uv_make(cu->dxy, cv->dxy);
+    const uv_pair bend = uv_add(dxx, dxx), dyy2 = uv_add(dyy, dyy);
+    uv_pair dx = uv_add(uv_make(cu->dx, cv->dx), uv_times(dxy, y)), dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
+    uv_pair place = uv_add(uv_make(cu->at, cv->at), uv_times(dy, y));
+    dy = uv_add(dy, uv_times(dyy, y + 1));
+    const bool plain = is_plain(s, r);
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
+                                      : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
+    uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+    uint16_t *depth = target->depth + r->at;
+    struct texel_run run;
+    run.texels = s->draw->sampler.texels;
+    run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    run_index_start(&run, log2_width, log2_height);
+    const ptrdiff_t stride = target->window_rows.stride;
+    for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
+        const int32_t left = side->left, n = side->right - left, x = left - x0, row = (int32_t)(side - r->side);
+        struct piece p;
+        if (n > 0 && (plain || piece_next(&p, s, r, row, left))) {
+            const uv_pair along = uv_times(dxx, x);
+            run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)), uv_add(dx, uv_add(along, uv_add(along, dxx))),
+                     bend);
+            run.depth = depth + left;
+            run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
+            run.z = z + run.dz * (uint32_t)left;
+            if (!plain) {
+                run.dz = p.dz;
+                run.z = p.z + p.dz * (uint32_t)left;
+            }
+            if (!plain && (p.a != left || p.b != left + n)) {
+                struct texel_run piece = run;       /* that one stays in registers */
+                run_texels_pieces(s, r, row, &piece, &p, left, left + n);
+            } else if (n == 1 && TEXELS_BY_HAND) {
+                texel_pixel(run.color, run.depth, run.z, run.texels, run_uv(&run), log2_width, log2_height, narrow);
+            } else {
+                run_texels(&run, n, log2_width, log2_height, narrow);
+            }
+        }
+        depth += stride;
+        z += dz_down;
+        place = uv_add(place, dy);
+        dy = uv_add(dy, dyy2);
+        dx = uv_add(dx, dxy);
     }
-#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW, QUOTIENTS_NAME) \
-    static void NAME(const struct setup *s, const struct span_rows *r) \
+}
+
+#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, NARROW) \
+    static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct row_list list; \
         draw_blocks(s, r, &list, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
         if (list.count != 0) \
-            QUOTIENTS_NAME(s, r, &list); \
+            draw_places(s, r, &list); \
+    } \
+    static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        draw_curves(s, r, LOG2_WIDTH, LOG2_HEIGHT, NARROW); \
     }
 
-QUOTIENTS(quotients_wide, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
-ROWS(rows_wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false, quotients_wide)
-ROWS(rows_wide_64, 6, 6, false, quotients_wide)
-ROWS(rows_wide_128, 7, 7, false, quotients_wide)
-ROWS(rows_wide_256, 8, 8, false, quotients_wide)
+ROWS(wide_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, false)
+ROWS(wide_64, 6, 6, false)
+ROWS(wide_128, 7, 7, false)
+ROWS(wide_256, 8, 8, false)
 #if SMEAR_DIRECT
-QUOTIENTS(quotients_narrow, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
-QUOTIENTS(quotients_narrow_64, 6, 6, true)
-ROWS(rows_narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true, quotients_narrow)
-ROWS(rows_narrow_64, 6, 6, true, quotients_narrow_64)
-ROWS(rows_narrow_128, 7, 7, true, quotients_narrow)
-ROWS(rows_narrow_256, 8, 8, true, quotients_narrow)
+ROWS(narrow_any, s->draw->sampler.log2_width, s->draw->sampler.log2_height, true)
+ROWS(narrow_64, 6, 6, true)
+ROWS(narrow_128, 7, 7, true)
+ROWS(narrow_256, 8, 8, true)
 #endif
 
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
@@ -751,8 +710,8 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
         return NULL;
 #if SMEAR_DIRECT
     if (narrow)
-        return CHOOSE(rows_narrow, t);
+        return s->texture.mode == TEXTURE_CURVED ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
 #endif
-    return CHOOSE(rows_wide, t);
+    return s->texture.mode == TEXTURE_CURVED ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
 }
 #endif

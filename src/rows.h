@@ -17,14 +17,16 @@
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 16 };
 
+struct span_side {
+    int32_t left, right;        /* as the frame shows them; there may be none */
+    int32_t edge;               /* right, wherever that is */
+};
+
 struct span_rows {
     int32_t y, count;
     bool cut;                   /* the triangle may reach beyond the target's columns, where there is more of the frame */
     int32_t at;                 /* index of column 0 of the first row in the planes: colour and depth lie alike */
-    struct {
-        int32_t left, right;    /* as the frame shows them; there may be none */
-        int32_t edge;           /* right, wherever that is */
-    } side[SPAN_ROWS];
+    struct span_side side[SPAN_ROWS];
 };
 
 /* Draws rows at once, velocities included. Null where there is no such loop for a triangle. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* setup.c - gradients and planes of a triangle.
  *
- * Perspective: u/w, v/w and 1/w are planes; span.c takes the quotient at the ends of blocks of pixels, and interpolates
- * between. How long blocks are and how quotients are taken is decided here, by bounds of their errors. */
+ * Perspective: u/w, v/w and 1/w are planes. Their quotients are polynomials of second degree where that is near enough; else
+ * span.c takes them at the ends of blocks of pixels, and interpolates between. Which, and how long blocks are, is decided
+ * here, by bounds of their errors. */
 #include "setup.h"
 
 /* ------------------------------------------------------------------ gradients */
@@ -15,20 +16,6 @@ static inline int64_t product(int32_t a, int32_t b)
 #else
     return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
 #endif
-}
-
-/* a b / 2^down, which fits; b often has 16 bits. */
-static inline int32_t times_down(int32_t a, int32_t b, int down)
-{
-#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
-    if ((uint32_t)b + 32768u < 65536u) {
-        int32_t high = (a >> 16) * b, low = (int32_t)((uint32_t)a & 0xffffu) * b;      /* a b = high 2^16 + low */
-        high += low >> 16;
-        return down >= 16 ? high >> (down - 16)
-                          : (int32_t)((uint32_t)high << (16 - down) | ((uint32_t)low & 0xffffu) >> down);
-    }
-#endif
-    return (int32_t)(product(a, b) >> down);
 }
 
 /* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
@@ -51,12 +38,6 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 #else
     return (uint64_t)mulh_u32(a, b) << 32 | a * b;
 #endif
-}
-
-/* a b below 2^64; a is seldom above 2^32. */
-static inline uint64_t times(uint64_t a, uint32_t b)
-{
-    return !SMEAR_ONE_COPY && a >> 32 == 0 ? product_u32((uint32_t)a, b) : a * b;
 }
 
 /* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1
@@ -196,8 +177,7 @@ void smear_setup_color(struct setup *s)
 
 enum {
     TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between the ends of a block, or affine */
-    QUADRATIC_OFF = 1,          /* and at the ends, where 1/q is a parabola */
-    QUADRATIC_RANGE = 23593     /* widest E, q16: 0.36 */
+    CURVED_OFF = 16             /* and where it is a polynomial, in the farthest corner */
 };
 
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
@@ -240,8 +220,8 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
 }
 
 /* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row there can be;
- * `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of their length; a parabola in
- * pieces of 2 pixels errs as a chord of 2 and by a part that falls with the cube. */
+ * `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of their length, those of parabolas
+ * with its cube. */
 static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
 {
     uint32_t n = (uint32_t)min_i32(width, 16);
@@ -251,197 +231,213 @@ static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, 
     t->block = 16;
     if (off <= TEXTURE_OFF)
         return;
-    t->bent = off <= 64 * TEXTURE_OFF && change <= 4096;
-    uint32_t rest = t->bent ? off * (change * n >> 4) >> 13 : 0;
+    uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 13 : UINT32_MAX;
+    t->bent = rest <= 64 * TEXTURE_OFF && change <= 4096;
     t->block = !t->bent ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
 }
 
+/* A triangle's texture coordinates, mesh units, and depths. */
+struct corners {
+    int32_t uv[2][3], q[3];
+    int32_t low_q, high_q;
+    int32_t middle[2], width[2];    /* of coordinates */
+};
+
+/* Texels, q6, of so much of a ratio (texture.h). */
+static uint32_t texels_q6(const struct setup *s, int axis, int32_t ratio)
+{
+    return magnitude_i32(smear_sampler_texel(&s->draw->sampler, axis, ratio) >> 10);
+}
+
 /* Coordinates, which need no perspective. */
-static void setup_affine(struct setup *s, const int32_t u[3], const int32_t v[3])
+static void setup_affine(struct setup *s, const struct corners *k)
 {
     struct texture_setup *t = &s->texture;
-    const struct smear_sampler *m = &s->draw->sampler;
     t->mode = TEXTURE_AFFINE;
     t->q = (struct plane){ 0, 0, 0 };
     t->bent = false;
     t->block = 16;
-    int32_t a[3], b[3];
-    for (int i = 0; i < 3; i++) {
-        a[i] = t->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
-        b[i] = t->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
+    t->shift = (int8_t)(18 - s->draw->sampler.uv_shift);
+    for (int i = 0; i < 2; i++) {
+        int32_t a[3];
+        for (int j = 0; j < 3; j++) {
+            a[j] = k->uv[i][j] * 16384;
+            if (!t->turns)
+                a[j] = smear_sampler_texel(&s->draw->sampler, i, a[j]);
+        }
+        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0, INT32_MAX - 1);
+        plane_place(s, &t->uv[i], a[0]);
     }
-    t->shift = (int8_t)(18 - m->uv_shift);
-    plane_slopes(s, &t->u, sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0, INT32_MAX - 1);
-    plane_slopes(s, &t->v, sub_wrap(b[1], b[0]), sub_wrap(b[2], b[0]), s->area_recip, 0, INT32_MAX - 1);
-    plane_place(s, &t->u, a[0]);
-    plane_place(s, &t->v, b[0]);
 }
 
-/* Divides for every block. */
-static void setup_divided(struct setup *s, const int32_t u[3], const int32_t v[3], const int32_t q[3],
-                          const struct seen *seen)
+/* How the weights of v[1] and v[2] change per pixel, and how far sums of products with them are to be shifted. */
+struct weights {
+    int32_t dx[2], dy[2];
+    int shift;
+};
+
+static void weights_make(struct weights *w, const struct setup *s)
+{
+    const uint32_t longest = magnitude_i32(s->x1) | magnitude_i32(s->y1) | magnitude_i32(s->x2) | magnitude_i32(s->y2);
+    const int up = count_leading_zeros(longest) - 1;
+    const int32_t recip = (int32_t)s->area_recip;
+    w->dx[0] = mulh_i32(shl_wrap(s->y2, up), recip);
+    w->dx[1] = -mulh_i32(shl_wrap(s->y1, up), recip);
+    w->dy[0] = -mulh_i32(shl_wrap(s->x2, up), recip);
+    w->dy[1] = mulh_i32(shl_wrap(s->x1, up), recip);
+    w->shift = clamp_i32(s->area_zeros - up - 21, -31, 31);
+}
+
+/* Slope of what changes by d1 and d2 to v[1] and v[2]. */
+static inline int32_t weighed(const struct weights *w, const int32_t weight[2], int32_t d1, int32_t d2)
+{
+    return scale_sat(mulh_i32(weight[0], d1) + mulh_i32(weight[1], d2), w->shift);
+}
+
+/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the vertices, q14; where in its pixel
+ * v[0] is. */
+struct depth_change {
+    int32_t at, dx, dy;
+    int32_t vertex[3];
+    int32_t fx, fy;
+};
+
+/* One coordinate's polynomial. False where it is steep. */
+static bool curve_make(struct setup *s, const struct weights *w, const struct depth_change *e, const struct corners *k, int axis,
+                       int32_t step)
+{
+    const struct smear_sampler *m = &s->draw->sampler;
+    const int32_t *u = k->uv[axis], middle = k->middle[axis];
+    const int32_t a0 = (u[0] - middle) * e->vertex[0], d1 = (u[1] - middle) * e->vertex[1] - a0;
+    const int32_t d2 = (u[2] - middle) * e->vertex[2] - a0;
+    const int32_t dx = weighed(w, w->dx, d1, d2), dy = weighed(w, w->dy, d1, d2);
+    if ((magnitude_i32(dx) | magnitude_i32(dy)) >> (12 + m->uv_shift) != 0)
+        return false;           /* a quarter turn per pixel */
+    const int32_t here = a0 + part_of(dx, e->fx) + part_of(dy, e->fy);
+    int32_t value[6] = {
+        middle * 16384 + here - mulh_i32(here, e->at),
+        dx - mulh_i32(dx, e->at) - mulh_i32(here, e->dx), dy - mulh_i32(dy, e->at) - mulh_i32(here, e->dy),
+        -mulh_i32(dx, e->dx), -mulh_i32(dx, e->dy) - mulh_i32(dy, e->dx), -mulh_i32(dy, e->dy)
+    };
+    for (int i = 0; i < 6 && s->texture.turns; i++)
+        value[i] = (shl_wrap(value[i], 18 - m->uv_shift) + (step >> 1)) & -step;
+    value[0] += step >> 1;
+    s->texture.curve[axis] = (struct curve){ value[0], value[1], value[2], value[3], value[4], value[5] };
+    return true;
+}
+
+/* Around the middle of its range, q = m (1 + e) with |e| <= E. With planes e and W = (u - u_middle) (1 + e), u is
+ * u_middle + W / (1 + e), nearly u_middle + W (1 + 3/16 E^2 - e): off by at most 13/16 E^2 W, in corners; 3/16 makes it least
+ * on the average. Without perspective (`flat`) e is 0. False where the triangle is too large for 32 bits or the error
+ * is. */
+static bool setup_curved(struct setup *s, const struct corners *k, uint32_t travel, bool flat)
 {
     struct texture_setup *t = &s->texture;
     const struct smear_sampler *m = &s->draw->sampler;
+    const uint32_t across = (uint32_t)max_i32(s->bounds.x1 - s->bounds.x0, s->bounds.y1 - s->bounds.y0) >> 8;
+    const uint32_t size = (uint32_t)max_i32(m->width, m->height);
+    /* A last bit of the coefficients is 2^-(14 + uv_shift) turns. Edges of 2^13 px at most. */
+    if (across * across > (flat ? 1u << 26 : (256u << m->uv_shift) / size) || travel > 65535u
+        || k->width[0] > CURVE_TURNS << m->uv_shift)
+        return false;
+    const int32_t x = s->v[0][VERTEX_X], y = s->v[0][VERTEX_Y];
+    struct depth_change e = { 0, 0, 0, { 16384, 16384, 16384 }, 128 - (x & 255), 128 - (y & 255) };
+    if (!flat) {
+        const uint32_t middle = ((uint32_t)k->low_q + (uint32_t)k->high_q) >> 1;
+        const int up = count_leading_zeros(middle) - 1;
+        const int32_t recip = (int32_t)recip_norm_precise(middle << 1 << up);       /* 1/m = recip 2^(up - 60) */
+        const uint32_t half = ((uint32_t)k->high_q - (uint32_t)k->low_q + 1) >> 1;
+        const uint32_t steep = max_u32(magnitude_i32(s->depth.dx), magnitude_i32(s->depth.dy));
+        /* Depths are rounded by 1/2. */
+        if (max_u32(half, steep) > middle >> 2 || across * travel > middle)
+            return false;
+        const uint32_t most = (uint32_t)mulh_i32((int32_t)(half << up), recip) << 2;        /* E q30 */
+        const uint32_t square = mulh_u32(most, most);
+        if (mulh_u32(square << 2, travel) > CURVED_OFF)               /* E^2 travel / 4 */
+            return false;
+        for (int i = 0; i < 3; i++)
+            e.vertex[i] += (mulh_i32(shl_wrap(k->q[i] - (int32_t)middle, up), recip) + 0x2000) >> 14;
+        e.dx = mulh_i32(shl_wrap(s->depth.dx, up), recip) * 16;
+        e.dy = mulh_i32(shl_wrap(s->depth.dy, up), recip) * 16;
+        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + part_of(e.dx, e.fx) + part_of(e.dy, e.fy);
+        e.at -= (int32_t)(square * 3u);
+    }
+    struct weights w;
+    weights_make(&w, s);
+    t->x0 = x >> 8;
+    t->y0 = y >> 8;
+    t->mode = TEXTURE_CURVED;
+    t->block = 16;
+    return curve_make(s, &w, &e, k, 0, 1) && curve_make(s, &w, &e, k, 1, CURVE_STEP);
+}
+
+/* Divides for every block. */
+static void setup_divided(struct setup *s, const struct corners *k)
+{
+    struct texture_setup *t = &s->texture;
+    struct seen seen;
+    seen_find(&seen, s, k->low_q, k->high_q);
     t->mode = TEXTURE_DIVIDED;
     /* All bits there are, but for differences: what is seen may lie far from the vertices. */
-    int up = max_i32(count_leading_zeros((uint32_t)max_i32(q[0], max_i32(q[1], q[2]))) - 3, 0);    /* 0 .. 16 */
-    int32_t q0 = q[0] << up, q1 = q[1] << up, q2 = q[2] << up;
-    plane_slopes(s, &t->q, q1 - q0, q2 - q0, s->area_recip, 0, INT32_MAX - 1);
-    plane_place(s, &t->q, q0);
-    smear_plane_make(s, &t->u, times_q15(u[0], q0), times_q15(u[1], q1), times_q15(u[2], q2));
-    smear_plane_make(s, &t->v, times_q15(v[0], q0), times_q15(v[1], q1), times_q15(v[2], q2));
-    t->shift = (int8_t)(20 - m->uv_shift);
+    int up = max_i32(count_leading_zeros((uint32_t)k->high_q) - 3, 0);      /* 0 .. 16 */
+    int32_t q[3];
+    for (int i = 0; i < 3; i++)
+        q[i] = k->q[i] << up;
+    plane_slopes(s, &t->q, q[1] - q[0], q[2] - q[0], s->area_recip, 0, INT32_MAX - 1);
+    plane_place(s, &t->q, q[0]);
+    t->shift = (int8_t)(20 - s->draw->sampler.uv_shift);
     t->slope = clamp_i32(t->q.dx, -(1 << 24) + 1, (1 << 24) - 1) * 128;
 
     /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q, linear in u, so a
      * vertex bounds its upper part. */
-    uint32_t seen_q = (uint32_t)seen->low_q << up;
+    uint32_t seen_q = (uint32_t)seen.low_q << up;
     uint32_t worst = 0;             /* texels per pixel, q6 */
-    for (int i = 0; i < 3; i++) {
-        uint32_t ru = smear_times_over(magnitude_i32(sub_wrap(t->u.dx, times_q15(u[i], t->q.dx))),
-                                       1u << 16, seen_q);      /* q16 of 2^15 mesh units */
-        uint32_t rv = smear_times_over(magnitude_i32(sub_wrap(t->v.dx, times_q15(v[i], t->q.dx))),
-                                       1u << 16, seen_q);
-        uint32_t tu = magnitude_i32(smear_sampler_texel_u(m, (int32_t)min_u32(ru, 0xffffu) << 13) >> 10);
-        uint32_t tv = magnitude_i32(smear_sampler_texel_v(m, (int32_t)min_u32(rv, 0xffffu) << 13) >> 10);
-        worst = max_u32(worst, max_u32(tu, tv));
+    for (int i = 0; i < 2; i++) {
+        const int32_t *u = k->uv[i];
+        struct plane *p = &t->uv[i];
+        smear_plane_make(s, p, times_q15(u[0], q[0]), times_q15(u[1], q[1]), times_q15(u[2], q[2]));
+        for (int j = 0; j < 3; j++) {
+            uint32_t r = smear_times_over(magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx))),
+                                          1u << 16, seen_q);       /* q16 of 2^15 mesh units */
+            worst = max_u32(worst, texels_q6(s, i, (int32_t)min_u32(r, 0xffffu) << 13));
+        }
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
     uint32_t change = min_u32(smear_times_over(slope_q << 4, 1u << 12, seen_q), 1u << 16);
     uint64_t off = ((uint64_t)worst << 4) * change >> 14;
-    choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen->width, change);
-}
-
-/* Around the middle of its range, q = m (1 + e) with |e| <= E. The parabola through 1 / (1 + e) at e = 0 and e = +-n is
- *
- *     1 + (e^2 - e) / (1 - n^2) = k ((3/4 - n^2) + (1/2 - e)^2),       k = 1 / (1 - n^2),
- *
- * off by at most E^3 / 4 (and a little) for n^2 = 3/4 E^2. With w = 1/2 - e = 3/2 - q/m a plane, and U = k (u - u_middle)
- * q/m a plane, u is u_middle + U ((3/4 - n^2) + w^2): no division and no leading zeros, 16-bit products. False when the
- * range is too wide for that. */
-static bool setup_quadratic(struct setup *s, const int32_t u[3], const int32_t v[3], const int32_t q[3],
-                            int32_t high_q, const struct seen *seen)
-{
-    struct texture_setup *t = &s->texture;
-    const struct smear_sampler *m = &s->draw->sampler;
-    uint32_t middle = ((uint32_t)seen->low_q + (uint32_t)seen->high_q) >> 1;
-    uint32_t half = ((uint32_t)seen->high_q - (uint32_t)seen->low_q + 1) >> 1;
-    if (half > middle >> 1)
-        return false;
-    int zeros = count_leading_zeros(middle);                                /* 1 .. 19 */
-    uint32_t r = recip_norm_precise(middle << zeros);                       /* 1/middle = r 2^(zeros - 61) */
-    uint32_t e = mulh_u32(half << zeros, r) >> 13;                          /* E, q16 */
-    if (e > QUADRATIC_RANGE)
-        return false;
-
-    /* Mesh units (times the texture's size, where texels are wanted) from the middle. */
-    int32_t size_u = t->turns ? 1 : m->width, size_v = t->turns ? 1 : m->height;
-    int32_t middle_u = (min_i32(u[0], min_i32(u[1], u[2])) + max_i32(u[0], max_i32(u[1], u[2]))) >> 1;
-    int32_t middle_v = (min_i32(v[0], min_i32(v[1], v[2])) + max_i32(v[0], max_i32(v[1], v[2]))) >> 1;
-    int32_t cu[3], cv[3];
-    uint32_t longest = 0;
-    for (int i = 0; i < 3; i++) {
-        cu[i] = (u[i] - middle_u) * size_u;
-        cv[i] = (v[i] - middle_v) * size_v;
-        longest |= magnitude_i32(cu[i]) | magnitude_i32(cv[i]);
-    }
-    int bits = 32 - count_leading_zeros(longest | 1u);                      /* at most 29 */
-    /* |U| < 2 x 2^bits takes 16 bits with its sign: U in 2^-fine units. */
-    int fine = 14 - bits;
-    if (t->turns) {
-        fine = min_i32(fine, 17 - m->uv_shift);
-        t->shift = (int8_t)(17 - m->uv_shift - fine);
-    } else {
-        if (m->uv_shift + fine < 1)
-            return false;
-        t->shift = (int8_t)min_i32(m->uv_shift + fine - 1, 31);
-    }
-    int bits_q = 32 - count_leading_zeros((uint32_t)high_q);
-    if (bits_q + zeros > 32 + 6)            /* vertices so much nearer than what is seen cost precision */
-        return false;
-
-    /* k m and the error it makes: that of the parabola, in texels. */
-    uint32_t n2 = (e * e >> 16) * 3 >> 2;                                   /* q16 */
-    uint32_t k = recip_norm(~(n2 << 16));                                   /* q29 */
-    uint32_t recip_u = mulh_u32(k << 2, r << 1);                            /* k/middle = recip_u 2^(zeros - 61) */
-    uint32_t texels = t->turns ? (uint32_t)max_i32(m->width, m->height) : 1;
-    uint64_t off = times((uint64_t)texels << (bits + 6) >> m->uv_shift, (e * e >> 16) * e >> 16) >> 18;
-    if (off > QUADRATIC_OFF)
-        return false;
-    t->mode = TEXTURE_QUADRATIC;
-    t->recip_base = 24576 - (n2 >> 1);
-
-    int down = max_i32(0, bits + bits_q - 30);              /* what brings c q into 31 bits */
-    int32_t a[3], b[3];
-    for (int i = 0; i < 3; i++) {
-        a[i] = times_down(q[i], cu[i], down);
-        b[i] = times_down(q[i], cv[i], down);
-    }
-    int to_units = 45 - zeros - fine - down;                /* times recip_u, then right: U with 16 more bits */
-    uint32_t slope_recip = mulh_u32(s->area_recip << 1, recip_u << 1);
-    plane_slopes(s, &t->u, a[1] - a[0], a[2] - a[0], slope_recip, 30 - to_units, INT32_MAX - 1);
-    plane_slopes(s, &t->v, b[1] - b[0], b[2] - b[0], slope_recip, 30 - to_units, INT32_MAX - 1);
-    plane_slopes(s, &t->q, q[0] - q[1], q[0] - q[2], mulh_u32(s->area_recip << 1, r << 1), zeros + 1, INT32_MAX - 1);
-    plane_place(s, &t->u, (int32_t)(product(a[0], (int32_t)recip_u) >> to_units));
-    plane_place(s, &t->v, (int32_t)(product(b[0], (int32_t)recip_u) >> to_units));
-    plane_place(s, &t->q, (int32_t)(0x80000000u - (uint32_t)(product_u32((uint32_t)q[0], r) >> (29 - zeros))));
-    for (int i = 0; i < 3; i++) {           /* their upper halves are read: to nearest */
-        struct plane *p = i == 0 ? &t->u : i == 1 ? &t->v : &t->q;
-        p->at = add_wrap(p->at, 0x8000);
-    }
-    if (t->turns) {
-        t->u_base = shl_wrap(middle_u, 15 + fine);
-        t->v_base = shl_wrap(middle_v, 15 + fine);
-    } else {        /* texels q16 */
-        t->u_base = smear_sampler_texel_u(m, middle_u * 16384);
-        t->v_base = smear_sampler_texel_v(m, middle_v * 16384);
-    }
-
-    /* Per pixel u changes by at most |U'| + longest |w'|; its second derivative is twice that times w' = q'/q. */
-    uint32_t change = magnitude_i32(t->q.dx);
-    uint32_t rate = max_u32(magnitude_i32(t->u.dx), magnitude_i32(t->v.dx)) + (change >> 2 >> (14 - bits - fine));
-    off = times(mulh_u32(change, rate), texels) >> (4 + fine + m->uv_shift);
-    off += times(off, 3 * e) >> 16;
-    t->slope = clamp_i32((int32_t)(product(-t->q.dx, (int32_t)(k >> 14)) >> 30), -TEXTURE_BEND_MAX, TEXTURE_BEND_MAX);
-    choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen->width,
-                  min_u32(change >> 16, 0xffffu) + (change >> 18));
-    return true;
+    choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen.width, change);
 }
 
 void smear_setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;
-    const struct smear_sampler *m = &s->draw->sampler;
-    int32_t u[3], v[3], q[3];
-    int32_t low_q = INT32_MAX, high_q = 0;
+    struct corners k = { .low_q = INT32_MAX, .high_q = 0 };
     for (int i = 0; i < 3; i++) {
-        u[i] = setup_mesh_u(s, i);
-        v[i] = setup_mesh_v(s, i);
-        q[i] = s->v[i][VERTEX_DEPTH];
-        low_q = min_i32(low_q, q[i]);
-        high_q = max_i32(high_q, q[i]);
+        k.uv[0][i] = setup_mesh_u(s, i);
+        k.uv[1][i] = setup_mesh_v(s, i);
+        k.q[i] = s->v[i][VERTEX_DEPTH];
+        k.low_q = min_i32(k.low_q, k.q[i]);
+        k.high_q = max_i32(k.high_q, k.q[i]);
     }
-    t->turns = m->turns;
+    t->turns = s->draw->sampler.turns;
 
     /* Texels travelled over the triangle, and the relative change of 1/w: linear interpolation of a quotient over a
      * stretch is off by at most travel x change / 4 in its middle. */
     uint32_t travel = 0;
-    for (int i = 0; i < 3; i++) {
-        int j = i == 2 ? 0 : i + 1;
-        uint32_t du = magnitude_i32(smear_sampler_texel_u(m, (u[i] - u[j]) * 16384) >> 10);  /* q6 texels */
-        uint32_t dv = magnitude_i32(smear_sampler_texel_v(m, (v[i] - v[j]) * 16384) >> 10);
-        travel = max_u32(travel, max_u32(du, dv));
+    for (int i = 0; i < 2; i++) {
+        const int32_t *u = k.uv[i];
+        const int32_t low = min_i32(u[0], min_i32(u[1], u[2])), high = max_i32(u[0], max_i32(u[1], u[2]));
+        travel = max_u32(travel, texels_q6(s, i, (high - low) * 16384));
+        k.middle[i] = (low + high) >> 1;
+        k.width[i] = high - low;
     }
-    uint32_t error = segment_flat_depth(s->segment) ? 0
-                   : smear_times_over((uint32_t)(high_q - low_q), travel, (uint32_t)low_q) >> 2;
-    if (error <= TEXTURE_OFF) {
-        setup_affine(s, u, v);
-    } else {
-        struct seen seen;
-        seen_find(&seen, s, low_q, high_q);
-        if (!setup_quadratic(s, u, v, q, high_q, &seen))
-            setup_divided(s, u, v, q, &seen);
+    const bool flat = segment_flat_depth(s->segment)
+                   || product_u32((uint32_t)(k.high_q - k.low_q), travel) <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
+    if (!setup_curved(s, &k, travel, flat)) {
+        if (flat)
+            setup_affine(s, &k);
+        else
+            setup_divided(s, &k);
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
     t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */

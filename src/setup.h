@@ -20,6 +20,11 @@ static inline int32_t plane_at(const struct plane *p, int32_t x, int32_t y)
     return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
+/* A polynomial of x and y, modulo 2^32. */
+struct curve {
+    int32_t at, dx, dy, dxx, dxy, dyy;
+};
+
 enum depth_slope {          /* smear.h, smear_depth_units */
     SLOPE_FAR,              /* code = units */
     SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
@@ -31,28 +36,31 @@ enum depth_slope {          /* smear.h, smear_depth_units */
 /* How a triangle's texture coordinates follow from planes. */
 enum texture_mode {
     TEXTURE_AFFINE,         /* they are planes */
-    TEXTURE_QUADRATIC,      /* 1/q is a parabola over the small range of q, see setup.c */
+    TEXTURE_CURVED,         /* they are polynomials of second degree */
     TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
 };
 
 enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel in a bent block, q16 of q itself */
 
 /* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what repeats) or,
- * where textures do not repeat by their bits, in texels q16. They are exact at the ends of blocks of pixels, and run
- * along a chord or a parabola between. */
+ * where textures do not repeat by their bits, in texels q16. Where they are no polynomials they are exact at the ends of
+ * blocks of pixels, and run along a chord or a parabola between. */
 struct texture_setup {
     enum texture_mode mode;
     bool turns;
-    bool bent;              /* parabolas, in pieces of 2 pixels; else chords */
+    bool bent;              /* parabolas; else chords */
     uint8_t block;          /* pixels: 1, 4, 8 or 16 */
     uint8_t up;             /* turns: shift; texels: 0 */
-    int8_t shift;           /* what planes yield is turns in 2^(32 - shift). Texels, quadratic: to the right */
-    struct plane q;         /* quadratic: 3/2 - q over its middle, q32. Divided: q */
-    struct plane u, v;      /* affine: coordinates. Divided: mesh units over w */
-    uint32_t recip_base;    /* quadratic: q15 */
-    int32_t u_base, v_base; /* quadratic: coordinates in the middle */
-    int32_t slope;          /* how q changes per pixel; quadratic: over its middle, q17. Divided: times 2^7 */
+    int8_t shift;           /* what planes yield is turns in 2^(32 - shift) */
+    struct plane q;         /* divided: q */
+    struct plane uv[2];     /* affine: coordinates. Divided: mesh units over w */
+    int32_t slope;          /* divided: how q changes per pixel, times 2^7 */
+    int32_t x0, y0;         /* curved: the pixel from which polynomials count, near v[0] */
+    struct curve curve[2];  /* u and v: turns q32 (those of v in steps of CURVE_STEP), or mesh units q14 */
 };
+
+/* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
+enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
 /* The box of a triangle's vertices, q8. */
 struct bounds {

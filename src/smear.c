@@ -53,7 +53,7 @@ static bool resolve(smear_desc *d)
     if (d->reach < 1 || d->reach > 64)
         return false;
     if (d->tile == 0)
-        d->tile = (int16_t)(d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
+        d->tile = (int16_t)(is_timed(d) && d->sharp ? 32 : d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
     if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64 || (d->tile < d->reach && !d->scatter))
         return false;
     if (d->tile == 4 && (d->scatter || d->half || is_timed(d) || is_layered(d)))

@@ -45,7 +45,7 @@ void smear_span_flat(const struct setup *s, const struct span *p)
 /* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the pixel at
  * its end as well, unless blocks are single pixels. */
 struct walk {
-    int32_t x, last;        /* where the next block begins; the span's last pixel */
+    int32_t x, last, y;     /* where the next block begins; the span's last pixel; its row */
     int32_t start;          /* where the one before began */
     int32_t block;          /* their pixels */
     int32_t q, u, v;        /* planes at x */
@@ -59,14 +59,19 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
     const struct texture_setup *t = &s->texture;
     const struct place from = w->place;
     int32_t n = min_i32(w->block, w->last - w->x);
+    const int32_t count = n + (w->x + n == w->last && (n == 0 || w->block > 1));
     w->start = w->x;
     w->x += n;
+    if (t->mode == TEXTURE_CURVED) {
+        w->run = course_packed(course_curved(t, &s->draw->sampler, w->start, w->y));
+        return count;
+    }
     w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
-    w->u = add_wrap(w->u, mul_wrap(t->u.dx, n));
-    w->v = add_wrap(w->v, mul_wrap(t->v.dx, n));
+    w->u = add_wrap(w->u, mul_wrap(t->uv[0].dx, n));
+    w->v = add_wrap(w->v, mul_wrap(t->uv[1].dx, n));
     w->place = place_at(t, t->mode, &s->draw->sampler, w->q, w->u, w->v, t->turns);
-    w->run = course_packed(course_between(t, t->mode, from, w->place, n, t->turns));
-    return n + (w->x == w->last && (n == 0 || w->block > 1));
+    w->run = course_packed(course_between(t, from, w->place, n, t->turns));
+    return count;
 }
 
 static void walk_begin(struct walk *w, const struct setup *s, const struct span *p, bool textured)
@@ -75,6 +80,7 @@ static void walk_begin(struct walk *w, const struct setup *s, const struct span 
     w->last = right - 1;
     w->block = textured ? block_of(&s->texture, left, right) : s->color_block;
     w->x = block_start(left, w->last, p->a, w->block);
+    w->y = p->y;
 }
 
 /* The first block. */
@@ -82,9 +88,11 @@ static int32_t walk_first(struct walk *w, const struct setup *s, const struct sp
 {
     const struct texture_setup *t = &s->texture;
     walk_begin(w, s, p, true);
+    if (t->mode == TEXTURE_CURVED)
+        return walk_next(w, s);
     w->q = plane_at(&t->q, w->x, p->y);
-    w->u = plane_at(&t->u, w->x, p->y);
-    w->v = plane_at(&t->v, w->x, p->y);
+    w->u = plane_at(&t->uv[0], w->x, p->y);
+    w->v = plane_at(&t->uv[1], w->x, p->y);
     w->place = place_at(t, t->mode, &s->draw->sampler, w->q, w->u, w->v, t->turns);
     return walk_next(w, s);
 }

@@ -73,6 +73,7 @@ struct subframes {
     uint32_t mover_rest, blend_rest;
     uint32_t lowest, highest;   /* depth codes of what is still */
     uint32_t nearest;           /* nothing that is not still comes nearer */
+    struct box area;            /* and nothing of it is seen elsewhere */
 };
 
 size_t smear_subframes_work(int32_t width, int32_t height)
@@ -272,6 +273,13 @@ static bool touches(const struct subframes *f, uint32_t triangle)
     return b->x0 < tile->x1 && b->x1 > tile->x0 && b->y0 < tile->y1 && b->y1 > tile->y0;
 }
 
+static void note(struct subframes *f, const struct smear_mover *m)
+{
+    const struct smear_path_bounds *b = geometry_bounds(f->t->frame->geometry, m->triangle);
+    f->nearest = max_u32(f->nearest, m->nearest);
+    box_add(&f->area, &(struct box){ b->x0, b->y0, b->x1, b->y1 });
+}
+
 /* Lists what may be seen. True when something moves. */
 static bool list(struct subframes *f)
 {
@@ -281,16 +289,17 @@ static bool list(struct subframes *f)
     bool moves = false;
     find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
     f->nearest = 0;
+    f->area = no_box;
     for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
         const struct smear_mover *m = &t->mover[f->mover_rest];
         if (is_seen(f, m)) {
             f->listed[n++] = m->triangle;
-            f->nearest = max_u32(f->nearest, m->nearest);
+            note(f, m);
         }
     }
     for (uint32_t i = f->mover_rest; i < t->mover_count; i++)
         if (is_seen(f, &t->mover[i]))
-            f->nearest = max_u32(f->nearest, t->mover[i].nearest);
+            note(f, &t->mover[i]);
     moves = n != 0;
     f->movers_listed = n;
     f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
@@ -304,8 +313,10 @@ static bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
-    if (f->blends)
+    if (f->blends) {
         f->nearest = UINT16_MAX;
+        f->area = (struct box){ t->still.x0, t->still.y0, t->still.x1, t->still.y1 };
+    }
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
 
@@ -452,10 +463,14 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
  * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
-enum { PAIRS_MAX = 8 };
+enum {
+    PAIRS_MAX = 8,
+    STRIDE_MAX = 2,                 /* pixels from tap to tap of a wide gap */
+    REACH_MAX = PAIRS_MAX * STRIDE_MAX
+};
 
 struct gap {
-    int32_t pairs;
+    int32_t pairs, reach;                   /* reach: pixels along x or y that are not exceeded */
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
     int32_t offset[PAIRS_MAX];              /* the same in the planes */
     uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
@@ -472,7 +487,10 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
 static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
-    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
+    const int32_t longest = max_i32(abs_i32(x), abs_i32(y)), widest = 16 * (2 * PAIRS_MAX + 1);        /* 1/16 px */
+    const int32_t stride = longest <= widest ? 1 : STRIDE_MAX;
+    const int32_t way = min_i32(longest, widest * stride);
+    const uint32_t length = (uint32_t)(way / stride);
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
         whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
@@ -486,9 +504,10 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
     const uint32_t side = (whole - gap->unit) >> 1;
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
+    gap->reach = gap->pairs * stride;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1) * stride, way);
+        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1) * stride, way);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -519,17 +538,38 @@ static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
     return i + 1 == gap->pairs ? gap->last : gap->unit;
 }
 
-/* Sum of a plane over the gap at pixel `at`. Where movers are hidden is not where they are not: there they go on as at
- * the pixel. */
-static inline uint32_t gap_sum(const struct subframes *f, const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs)
+static inline uint32_t times_at(const struct subframes *f, int32_t at)
+{
+    return f->packed ? f->sum[1][at] >> 16 : f->times[at];
+}
+
+/* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there they go on as at the
+ * pixel. Where the pixel itself hides some, others do not spread over it. What is at a pixel at n instants is half a gap
+ * away, or less, at n - 1 of them: where it is not and what is still is nearer, that hides it. */
+static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const uint32_t depth = f->work.depth[at], times = times_at(f, at);
+    bool hides = depth > f->nearest;
+    for (int32_t i = 0; i < 2 * pairs; i++) {
+        const int32_t p = i & 1 ? at + gap->offset[i >> 1] : at - gap->offset[i >> 1];
+        const uint32_t depth_there = f->work.depth[p];
+        tap[i] = p;
+        if (depth_there > depth && (depth_there > f->nearest || times_at(f, p) + 1 < times))
+            tap[i] = at;
+        else if (depth_there < depth && times + 1 < times_at(f, p))
+            hides = true;
+    }
+    for (int32_t i = 0; hides && i < 2 * pairs; i++)
+        tap[i] = at;
+}
+
+/* Sum of a plane over the gap at pixel `at`. `tap`: where its taps are; null: nothing hides movers there. */
+static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
 {
     uint32_t all = sum[at] * gap->unit;
-    for (int32_t i = 0; i < pairs; i++) {
-        const int32_t offset = gap->offset[i];
-        const int32_t before = f->work.depth[at - offset] > f->nearest ? at : at - offset;
-        const int32_t after = f->work.depth[at + offset] > f->nearest ? at : at + offset;
-        all += (sum[before] + sum[after]) * pair_weight(gap, i);
-    }
+    for (int32_t i = 0; i < pairs; i++)
+        all += (tap != NULL ? sum[tap[2 * i]] + sum[tap[2 * i + 1]] : sum[at - gap->offset[i]] + sum[at + gap->offset[i]])
+             * pair_weight(gap, i);
     return all;
 }
 
@@ -575,36 +615,83 @@ static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_m
 }
 #endif
 
-/* `hidden`: some pixels there lie before all movers. */
-static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, bool hidden)
+/* What hides movers somewhere near a stretch. */
+enum cover {
+    COVER_NONE,         /* nothing does */
+    COVER_FEW,          /* perhaps still surfaces that movers pass before, too, in places */
+    COVER_ALL           /* some that are nearer than all movers */
+};
+
+#if SMEAR_VECTORS
+/* Whether movers are seen at a tap of one of four pixels at two instants more than at another. */
+static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t pairs)
 {
+    smear_v8i least = (smear_v8i)v4u_load(gn), most = least;
+    for (int32_t i = 0; i < pairs; i++) {
+        const smear_v8i a = (smear_v8i)v4u_load(gn - gap->offset[i]), b = (smear_v8i)v4u_load(gn + gap->offset[i]);
+        least = v8i_min(least, v8i_min(a, b));
+        most = v8i_max(most, v8i_max(a, b));
+    }
+    const smear_v4u more = ((smear_v4u)most >> 16) - ((smear_v4u)least >> 16);
+    return ((more[0] | more[1] | more[2] | more[3]) & ~1u) != 0;
+}
+#endif
+
+static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
+{
+    uint32_t *out = &f->work.color[at];
+    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap), &gap->mean[pairs],
+                        *out);
+}
+
+static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap, int32_t pairs)
+{
+    int32_t tap[2 * PAIRS_MAX];
+    for (int32_t i = at; i < at + n; i++) {
+        find_taps(tap, f, i, gap, pairs);
+        average_one(f, i, gap, pairs, tap);
+    }
+}
+
+static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
+{
+    int32_t i = s->at;
+    const int32_t end = s->at + s->n;
+#if SMEAR_VECTORS
     const struct narrow_mean *m = &gap->mean[s->pairs];
     uint32_t *out = f->work.color;
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
-    const int32_t end = s->at + s->n;
-    int32_t i = s->at;
-#if SMEAR_VECTORS
-    for (; !hidden && i + 4 <= end; i += 4) {
+    for (; cover != COVER_ALL && i + 4 <= end; i += 4) {
+        if (cover == COVER_FEW && is_uneven4(gn + i, gap, s->pairs)) {
+            average_covered(f, i, 4, gap, s->pairs);
+            continue;
+        }
         smear_v4u sum[2];
         gap_sum4(sum, rb + i, gn + i, gap, s->pairs);
         v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
     }
 #endif
-    for (; i < end; i++)
-        if (!hidden || f->work.depth[i] <= f->nearest)
-            out[i] = mixed_packed(gap_sum(f, rb, i, gap, s->pairs), gap_sum(f, gn, i, gap, s->pairs), m, out[i]);
+    if (cover != COVER_NONE)
+        average_covered(f, i, end - i, gap, s->pairs);
+    else
+        for (; i < end; i++)
+            average_one(f, i, gap, s->pairs, NULL);
 }
 
-static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap)
+static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
 {
     const struct mean m = mean_make(gap->weight[s->pairs]);
     const bool linear = frame_is_linear(f->t->frame);
+    int32_t tap[2 * PAIRS_MAX];
+    const int32_t *taps = cover != COVER_NONE ? tap : NULL;
     for (int32_t at = s->at; at < s->at + s->n; at++) {
-        uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f, f->times, at, gap, s->pairs);
-        if (times == 0 || f->work.depth[at] > f->nearest)
+        if (cover != COVER_NONE)
+            find_taps(tap, f, at, gap, s->pairs);
+        uint32_t mean[3], *out = &f->work.color[at], times = gap_sum(f->times, at, gap, s->pairs, taps);
+        if (times == 0)
             continue;
         for (int i = 0; i < 3; i++)
-            mean[i] = mean_of(&m, gap_sum(f, f->sum[i], at, gap, s->pairs)
+            mean[i] = mean_of(&m, gap_sum(f->sum[i], at, gap, s->pairs, taps)
                               + value_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
         *out = linear ? pixel_make(0, smear_srgb_encode[mean[0] >> 4], smear_srgb_encode[mean[1] >> 4],
                                    smear_srgb_encode[mean[2] >> 4])
@@ -616,8 +703,8 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
 static bool hides(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
-                        min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
+    struct box near = { max_i32(b->x0 - REACH_MAX, s->x0), max_i32(b->y0 - REACH_MAX, s->y0),
+                        min_i32(b->x1 + REACH_MAX, s->x1), min_i32(b->y1 + REACH_MAX, s->y1) };
     uint32_t low, high;
     find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
     return high > f->nearest;
@@ -627,7 +714,8 @@ static bool hides(const struct subframes *f, const struct box *b)
 static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const bool hidden = f->highest > f->nearest && hides(f, b);
+    const enum cover cover = f->highest == f->lowest ? COVER_NONE
+                           : f->highest > f->nearest && hides(f, b) ? COVER_ALL : COVER_FEW;
     for (int32_t y = b->y0; y < b->y1; y++) {
         const int32_t row_pairs = pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
         const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
@@ -637,9 +725,9 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
             stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
             stretch.pairs = pairs_within(row_pairs, gap->x, near);
             if (f->packed)
-                average_packed(f, &stretch, gap, hidden);
+                average_packed(f, &stretch, gap, cover);
             else
-                average_wide(f, &stretch, gap);
+                average_wide(f, &stretch, gap, cover);
         }
     }
 }
@@ -652,11 +740,29 @@ static void average(const struct subframes *f, const struct box *all, const stru
     for (int32_t x = s->x0; x < s->x1; x += f->t->tile) {
         struct gap gap;
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
-        const int32_t wide = gap.pairs != 0 ? PAIRS_MAX : 0;
+        const int32_t wide = gap.pairs != 0 ? gap.reach : 0;
         const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
                                min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide), min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
             average_tile(f, &b, &gap);
+    }
+}
+
+/* Empties the sums where they will be read: a gap's mean is taken REACH_MAX beyond what was drawn, and reads as far
+ * beyond that. */
+static void clear_sums(const struct subframes *f)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const int32_t reach = 2 * REACH_MAX;
+    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    for (int32_t y = b.y0; y < b.y1; y++) {
+        const int32_t at = work_row(f, &b, y);
+        const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
+        for (int i = 0; i < (f->packed ? 2 : 3); i++)
+            __builtin_memset(f->sum[i] + at, 0, bytes);
+        if (!f->packed)
+            __builtin_memset(f->times + at, 0, bytes);
     }
 }
 
@@ -685,9 +791,7 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        __builtin_memset(f.sum[0], 0, (size_t)pixels * (f.packed ? 2 : 3) * sizeof *f.sum[0]);
-        if (!f.packed)
-            __builtin_memset(f.times, 0, (size_t)pixels * sizeof *f.times);
+        clear_sums(&f);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))

@@ -39,24 +39,15 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
         s->log2_width = (uint8_t)log2_width;
         s->log2_height = (uint8_t)log2_height;
     }
-    s->scale_u = scale_for(texture->width, uv_shift, &s->shift_u);
-    s->scale_v = scale_for(texture->height, uv_shift, &s->shift_v);
+    s->scale[0] = scale_for(texture->width, uv_shift, &s->shift[0]);
+    s->scale[1] = scale_for(texture->height, uv_shift, &s->shift[1]);
 }
 
-static int32_t texels_of(int32_t ratio, int32_t scale, int shift)
+int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio)
 {
+    const int32_t scale = s->scale[axis], shift = s->shift[axis];
     int32_t t = scale == 1 << 29 ? ratio >> 3 : mulh_i32(ratio, scale);     /* powers of two */
     return shift >= 0 ? shl_wrap(t, shift) : t >> -shift;
-}
-
-int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
-{
-    return texels_of(ratio, s->scale_u, s->shift_u);
-}
-
-int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
-{
-    return texels_of(ratio, s->scale_v, s->shift_v);
 }
 
 SMEAR_INLINE uint32_t fetch_as(const struct smear_sampler *s, uint32_t at, int format)
@@ -122,13 +113,13 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
 SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
 {
     if (turns)
-        return fetch_as(s, sampler_index(s, (uint32_t)(at >> 32), (uint32_t)at), format);
+        return fetch_as(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
     if (SMEAR_WITH_BILINEAR && s->bilinear)
-        return sample_bilinear(s, (int32_t)(at >> 32), (int32_t)at);
-    return texel(s, (int32_t)(at >> 32) >> 16, (int32_t)at >> 16);
+        return sample_bilinear(s, (int32_t)at, (int32_t)(at >> 32));
+    return texel(s, (int32_t)at >> 16, (int32_t)(at >> 32) >> 16);
 }
 
-/* Along one chord, or where a run is bent along chords of 2 pixels. No coordinate is asked for after a loop, which would
+/* Along a chord or a parabola. No coordinate is asked for after a loop, which would
  * be a product of 64 bits: small cores call for that. */
 SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
                              int n, bool turns, int format)
@@ -148,8 +139,7 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s, const
             n--;
         }
         at += step;
-        if (i & 1)
-            step += bend;
+        step += bend;
     }
 }
 

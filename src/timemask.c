@@ -406,6 +406,10 @@ static void draw_segment(struct job *j, const struct mover *m, const struct time
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, (m->bounds->flags & PATH_LEVEL) != 0,
                          m->record, pose, &c,
                          max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
+    if (m->bounds->piece != 0) {    /* its ends may lie before the near plane, where depths end: its middle tells */
+        s.depth.change = s.depth.change_dx = s.depth.change_dy = s.depth.curve = 0;
+        s.slope = 0;
+    }
     struct painter p = { .shade = &s, .first = first, .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first,
                          .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2 };
     for (int i = 0; i < 2; i++) {

@@ -47,13 +47,18 @@ static inline smear_v8i v8i_all(int16_t a)
     return (smear_v8i){ a, a, a, a, a, a, a, a };
 }
 
+/* Per element: a where `which` is all ones, b where it is 0. */
+static inline smear_v8i v8i_choose(smear_v8i which, smear_v8i a, smear_v8i b)
+{
+    return (a & which) | (b & ~which);
+}
+
 static inline smear_v8i v8i_min(smear_v8i a, smear_v8i b)
 {
 #ifdef __SSE2__
     return (smear_v8i)_mm_min_epi16((__m128i)a, (__m128i)b);
 #else
-    smear_v8i less = (smear_v8i)(a < b);
-    return (a & less) | (b & ~less);
+    return v8i_choose((smear_v8i)(a < b), a, b);
 #endif
 }
 
@@ -62,8 +67,7 @@ static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
 #ifdef __SSE2__
     return (smear_v8i)_mm_max_epi16((__m128i)a, (__m128i)b);
 #else
-    smear_v8i less = (smear_v8i)(a < b);
-    return (b & less) | (a & ~less);
+    return v8i_choose((smear_v8i)(a < b), b, a);
 #endif
 }
 

@@ -58,9 +58,12 @@ exr() {
     command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
 }
 
+[ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
+    echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite layers $make -s layers
 jobs=-j$(getconf _NPROCESSORS_ONLN)
 suite build $make -s $jobs all build/host/run
+suite demo sh tests/demo.sh build/test/demo
 suite headers $make -s test-headers
 suite tables $make -s test-tables
 suite readme $make -s test-readme
@@ -73,6 +76,7 @@ if exr; then
 else
     needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
 fi
+needs python3 "python3" || true        # cli.sh reads statistics with it
 suite command-line sh tests/cli.sh build/smear
 suite view sh tests/view.sh build/smear
 suite build-demo-screen $make -s build/host/demo-screen
@@ -91,9 +95,12 @@ if needs wasm-ld-14 "clang-14 lld-14" && needs xz "xz-utils" && needs chromedriv
 fi
 suite golden-host $make -s TARGET=host target-test
 suite switches $make -s switches-test
+needs cmake "cmake" || true            # dist.sh builds packages with it
+needs pkg-config "pkg-config" || true
 suite dist $make -s dist-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
+suite device-chart sh tests/device_chart.sh build/test/device-chart
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
@@ -116,6 +123,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    suite model sh tests/target_model.sh build/smear tests/arm.gltf
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test

@@ -682,6 +682,14 @@ claim "says how much" err_has 'bytes of RAM with 2 poses, more than 100'
 input "$plate" convert "$plate" --scale 1e4 -o no.h
 claim "says that it is too large" err_has 'reaches .* units, more than 30000: use --scale or --fit'
 input missing.glb convert missing.glb -o no.h
+input '""' convert '' -o no.h
+input builtin:demo/race convert builtin:demo/race -o no.h
+claim "says why" err_has "built-in scenes"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n' >"$base/in/line.obj"
+for output in no.h no.smr; do
+    input "$base/in/line.obj" convert "$base/in/line.obj" -o $output
+    claim "says that there is nothing to draw" err_has "nothing to draw"
+done
 input nowhere/x.h convert "$plate" -o nowhere/x.h
 usage convert convert
 usage convert convert "$plate"
@@ -709,6 +717,9 @@ usage nosuch chart --methods nosuch
 usage --jobs chart --jobs
 usage 0 chart --jobs 0
 input nosuch.csv chart --from nosuch.csv
+: >"$base/in/empty.csv"
+input "$base/in/empty.csv" chart --from "$base/in/empty.csv"
+claim "says that no line is there" err_has "no line of a chart"
 usage nosuch bench nosuch
 usage render render
 usage two render one two
@@ -893,12 +904,27 @@ input nowhere/d.pfm render "$plate" --stats /dev/null --depth nowhere/d.pfm
 input nowhere/v.pfm render "$plate" --stats /dev/null --velocity nowhere/v.pfm
 mkdir "$base/in/there.png"
 input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
+mkfifo "$base/in/pipe.h" "$base/in/pipe.ppm" "$base/in/pipe.gif" "$base/in/pipe"
+input "$base/in/pipe.h" convert "$plate" -o "$base/in/pipe.h"
+input "$base/in/pipe.ppm" compare "$base/work/out.ppm" "$base/work/out.ppm" --diff "$base/in/pipe.ppm"
+input "$base/in/pipe.gif" render "$plate" --frames 0-1 -o "$base/in/pipe.gif"
+input "$base/in/pipe" view "$plate" --frames 1 --check "$base/in/pipe" --update
+input "$base/in/pipe" view "$plate" --frames 1 --crc --record "$base/in/pipe"
+claim "what is no regular file stays" [ -p "$base/in/pipe.h" -a -p "$base/in/pipe.ppm" -a -p "$base/in/pipe.gif" -a -p "$base/in/pipe" ]
 if [ -c /dev/full ]; then
     input /dev/full render "$plate" --stats /dev/full
     "$smear" help >/dev/full 2>"$base/err"
     claim "a full disk is an error" equals "$? $(cat "$base/err")" \
         "1 smear: standard output: cannot be written (No space left on device)"
 fi
+# A disk that is full after the first 512 bytes.
+for args in "render builtin:suite/pan -o full.png" "render $plate -o full.pfm" "render $plate --frames 0-1 -o full.gif" \
+    "render $plate --frames 0-1 -o full.apng" "convert $plate -o full.h" "convert $plate -o full.smr"; do
+    mkdir "$base/full"
+    (cd "$base/full" && trap '' XFSZ && ulimit -f 1 && exec "$smear" $args) >/dev/null 2>"$base/err"
+    claim "no room for $args" equals "$? $(ls -A "$base/full" | wc -l) $(wc -l <"$base/err")" "1 0 1"
+    rm -rf "$base/full"
+done
 claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"
 run render "$base/in/vertices.obj" --size 16x16 -o empty.ppm

@@ -4,14 +4,14 @@
 # What the library and firmware made of it call, told from symbols: the archive leaves nothing undefined but memcpy,
 # memset, and what a compiler calls for 32-bit division, 64-bit products, shifts and comparisons; no program holds floating
 # point, 64-bit division, malloc or anything else of a C library. A core with an FPU would hide floating point from
-# this: targets are built without.
+# this: targets are built without. HOOKS: what smear_config.h was told to call.
 set -u
 nm=$1 archive=$2
 shift 2
 status=0
 
 helpers='__aeabi_(u?idiv(mod)?|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|set|clr)[48]?)|__gnu_thumb1_case_[a-z]+'
-helpers="$helpers|__(ashl|ashr|lshr|mul)di3|__clz[sd]i2|__sync_synchronize"
+helpers="$helpers|__(ashl|ashr|lshr|mul)di3|__clz[sd]i2|__sync_synchronize${HOOKS:+|$HOOKS}"
 [ "$archive" = - ] || "$nm" "$archive" 2>/dev/null | awk -v allowed="^($helpers|memcpy|memset)\$" '
     NF == 3 && $2 ~ /[TtDdRrBbVvWw]/ { defined[$3] = 1 }
     $1 == "U" { wanted[$2] = 1 }

@@ -2063,8 +2063,10 @@ static void test_pictures_of_other_programs_round_trip(void)
     static const char *const names[] = {"kenney-platformer/Textures/colormap.png",
                                         "kenney-racing/Textures/colormap.png"};
     const char *folder = getenv("SMEAR_ASSETS");
-    if (folder == NULL)
+    if (folder == NULL || folder[0] == '\0') {
+        test_print("    no folder of models: set SMEAR_ASSETS\n");
         return;
+    }
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[600];
         struct image image;

@@ -464,6 +464,7 @@ static void test_what_is_no_model_is_refused(void)
         { "\xef\xbb\xbf\n{\"asset\":{\"version\":\"3.0\"}}", 31,
           "glTF version 3.0, not 2 (asset.version)" },
         { "{\"asset\":7}", 11, "expected an object, found a number (asset)" },
+        { "SMR1\1\0\0\0", 8, "a converted model, for firmware only: give the file it was made from" },
         { "\x89PNG\r\n\x1a\n\0\0", 10, "neither glTF nor text" },
         { "Dear reader,\n", 13, "holds no faces (if it is an OBJ file at all)" },
     };

@@ -179,7 +179,7 @@ static void link_in(uint32_t *head, uint32_t *last, uint32_t i)
     *last = i;
 }
 
-/* Columns are counted in tiles of 8 px here; check_tile() makes them those of its tile. */
+/* Columns are counted in tiles of 8 px here; check_tiles() makes them those of its tile. */
 static void add_mover(int at, const struct corners *c, uint32_t color)
 {
     const struct smear_path_bounds b = bounds_of(c);
@@ -625,6 +625,39 @@ static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
     CHECK((memory.out[14 * t.pitch + 23] & 255u) > 150u && (memory.out[14 * t.pitch + 27] & 255u) > 150u);
 }
 
+static void test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps(void)
+{
+    /* A post before the square's way, but not before what it might come to: nothing tells but where it is seen. */
+    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
+    uint32_t alone[64], post[64];
+    for (int linear = 0; linear < 2; linear++) {
+        square_scene(linear, 24);
+        for (int with = 0; with < 2; with++) {
+            draw_still();
+            struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+            for (uint32_t i = 0; i < mover_count; i++) {
+                mover[i].first = 0;
+                mover[i].last = 3;
+                mover[i].nearest = UINT16_MAX;
+            }
+            for (int32_t y = 0; with && y < 16; y++)
+                for (int32_t x = 24; x < 27; x++) {
+                    int32_t at = (y + 20) % RING * W + x;
+                    still_color[at] = 0x102030u;
+                    still_depth[at] = 60000;
+                }
+            smear_subframes_tiles(&t, 4, step);
+            for (int32_t x = 0; x < 64; x++)
+                (with ? post : alone)[x] = memory.out[14 * t.pitch + x] & 255u;
+        }
+        for (int32_t x = 24; x < 27; x++)
+            CHECK_EQ(post[x], 0x30);
+        for (int32_t x = 20; x < 31; x++)
+            if ((x < 24 || x >= 27) && !CHECK(post[x] + 32 >= alone[x] && post[x] <= alone[x] + 32))
+                CHECK_EQ(post[x], alone[x]);
+    }
+}
+
 static void test_shutters_weigh_by_their_slots(void)
 {
     random_state = 3;
@@ -829,6 +862,7 @@ void suite_subframes(void)
     RUN(test_tiles_together_are_what_they_are_alone);
     RUN(test_a_step_closes_the_gap_between_instants);
     RUN(test_what_hides_movers_stays_as_it_is_beside_closed_gaps);
+    RUN(test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps);
     RUN(test_shutters_weigh_by_their_slots);
     RUN(test_paths_that_stand_turn_over_or_vanish);
     RUN(test_paths_that_leave_the_guard_band);

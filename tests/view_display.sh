@@ -40,7 +40,7 @@ claim "what differs is told, with pictures; keys arrive" refuses
 claim "a recording" eval 'SMEAR_RECORD=rec frames 2 oled && exists rec'
 claim "no number" eval '! SMEAR_FRAMES=x show oled && has err "SMEAR_FRAMES"'
 claim "no such output" eval '! SMEAR_OUT=paper show oled && has err "SMEAR_OUT=paper"'
-claim "no display" eval '! SMEAR_OUT= SMEAR_FRAMES=1 show oled && has err "DISPLAY is not set"'
+claim "no display" eval '! SMEAR_OUT= SMEAR_FRAMES=1 show oled && has err "smear: no display: x11: DISPLAY is not set"'
 claim "checked where there is no display" eval 'SMEAR_OUT= SMEAR_FRAMES=3 SMEAR_CHECK=gold show oled'
 claim "no file to check" eval '! SMEAR_FRAMES=1 SMEAR_CHECK=none show oled && has err "smear: none: "'
 

@@ -23,7 +23,7 @@ PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/platform.c \
                 $(addprefix platform/common/,arena.c arguments.c memory.c semihost.c)
 
 RUN       := platform/cortexm/run.sh $(BOARD)
-RUN_BENCH := platform/cortexm/run.sh $(BENCH_BOARD) -icount shift=7
+RUN_BENCH := platform/cortexm/run.sh $(BENCH_BOARD) -icount shift=6
 
 SCRIPTS       := $(wildcard platform/cortexm/*.ld)
 TEST_LDFLAGS  := -T $(LAYOUT)

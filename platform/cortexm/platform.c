@@ -2,9 +2,10 @@
 /* platform.c - platform.h on QEMU's Cortex-M boards.
  *
  * The clock is the CMSDK timer of the mps2 boards (32 bits, counts down every TICK_NS). Under
- * `qemu -icount shift=7` each instruction lasts 2^7 ns of virtual time, so a tick of 40 ns is 5/16
- * of an instruction: counts are exact to the single instruction and wrap after 1.3e9 of them. Other
- * boards have no such timer: programs that read the clock are for mps2 only. */
+ * `qemu -icount shift=6` each instruction lasts 2^6 ns of virtual time, so a tick of 40 ns is 5/8 of
+ * an instruction: counts are exact to the single instruction and wrap after 2.7e9 of them (a frame of
+ * 240x240 by time masks on a Cortex-M0+ takes up to 1.4e9). Other boards have no such timer: programs
+ * that read the clock are for mps2 only. */
 #include "../platform.h"
 #include "../common/semihost.h"
 
@@ -18,7 +19,7 @@ struct cmsdk_timer {
 #endif
 #define TIMER ((volatile struct cmsdk_timer *)TIMER_ADDRESS)
 
-enum { INSTRUCTION_NS = 128 };
+enum { INSTRUCTION_NS = 64 };
 
 const char platform_clock_unit[] = "instructions";
 

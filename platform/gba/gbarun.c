@@ -53,7 +53,7 @@ static void take_log(struct mLogger *logger, int category, enum mLogLevel level,
     printf("%s\n", text);
 }
 
-/* --- profile: one slot per word of ROM (256 kB), fast and slow memory --- */
+/* --- profile: one slot per word of ROM (256 kB), fast (and its first mirror) and slow memory --- */
 
 enum { BANKS = 3, SLOTS = 65536 };
 static struct { uint64_t cycles, count; } profile[BANKS][SLOTS];
@@ -72,7 +72,7 @@ static void step_frame(struct mCore *core)
         uint32_t took = (uint32_t)mTimingCurrentTime(core->timing) - before;
         for (int bank = 0; bank < BANKS; bank++)
             if (pc >> 24 == bank_base[bank] >> 24) {
-                uint32_t slot = (pc & (bank == 1 ? 0x7fffu : 0x3ffffu)) >> 2;
+                uint32_t slot = (pc & (bank == 1 ? 0xffffu : 0x3ffffu)) >> 2;
                 profile[bank][slot].cycles += took;
                 profile[bank][slot].count++;
             }

@@ -6,6 +6,7 @@
 #include "../platform.h"
 #include "../common/arguments.h"
 #include "gba.h"
+#include "stage.h"
 
 #include <stdbool.h>
 
@@ -17,6 +18,19 @@ int main(int argc, char **argv);
 void gba_main(void);
 
 const char platform_clock_unit[] = "cycles";
+
+extern uint8_t link_fast_end[], link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[];
+
+void gba_enter_stage(int stage)
+{
+    const bool draws = stage == GBA_STAGE_DRAW;
+    const uint32_t words = (uint32_t)(draws ? link_draw_size : link_assemble_size) / 4;
+    if (words == 0)
+        return;
+    GBA_DMA3_FROM = (uint32_t)(draws ? link_draw_load : link_assemble_load);
+    GBA_DMA3_TO = (uint32_t)link_fast_end;
+    GBA_DMA3_CONTROL = 0x84000000u | words;
+}
 
 /* What the compiler calls for a memory barrier: one core that does everything in order needs none. */
 void gba_barrier(void) __asm("__sync_synchronize");

@@ -43,6 +43,11 @@ boot:
     ldr     r1, =link_fast_start
     ldr     r2, =link_fast_end
     bl      copy
+    ldr     r0, =link_draw_load
+    ldr     r1, =link_fast_end
+    ldr     r2, =link_draw_size
+    add     r2, r2, r1
+    bl      copy
     ldr     r1, =link_bss_start
     ldr     r2, =link_bss_end
     mov     r3, #0

@@ -14,18 +14,19 @@ CFLAGS  += -mcpu=arm7tdmi -mthumb -mthumb-interwork -ffreestanding -ffunction-se
 LDFLAGS += -mcpu=arm7tdmi -mthumb -mthumb-interwork -nostdlib -Wl,--gc-sections -Lplatform/gba
 LDLIBS  += -lgcc
 
-# The library as ARM code, which multiplies to 64 bits.
-$(BUILD)/src/%.o $(BUILD)/platform/common/%.o: CFLAGS += -marm
+# The library as ARM code, which multiplies to 64 bits, and the scene's sines.
+$(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CFLAGS += -marm
 
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
-CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_RASTER_CACHE=0
-$(BUILD)/src/blur_%.o $(BUILD)/src/raster.o: CFLAGS += -Os
+CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_RASTER_CACHE=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
+$(BUILD)/src/blur_%.o $(BUILD)/src/raster.o $(BUILD)/src/setup.o: CFLAGS += -Os
 
 PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o
 RUN_NEEDS    := $(BUILD)/gbarun
 
-SCRIPTS       := platform/gba/gba.ld platform/gba/hot.ld
+HOT           := platform/gba/hot.ld platform/gba/hot_assemble.ld platform/gba/hot_draw.ld
+SCRIPTS       := platform/gba/gba.ld $(HOT)
 TEST_LDFLAGS  := -T gba.ld
 BENCH_LDFLAGS := -T gba.ld
 
@@ -33,10 +34,12 @@ RUN       := platform/gba/run.sh
 RUN_BENCH := platform/gba/run.sh
 
 TARGET_TESTS := golden
+SYMBOLS_HOOKS := gba_enter_stage
 
 DISPLAY_SRC := platform/gba/display.c
 DEMO_SCREEN := gba
 DEMO_LOOPS  := gba:1 oled:6 gba-full:6
+SHOW = $(SCREENSHOT)
 export SHOT        := platform/gba/shot.sh
 export SHOT_SCREEN := gba
 export SHOT_FRAMES := 8 45
@@ -51,9 +54,25 @@ $(BUILD)/gbarun: platform/gba/gbarun.c
 	@mkdir -p $(@D)
 	$(or $(HOST_CC),cc) -std=gnu11 -O2 -Wall -Wextra -o $@ $< -lmgba
 
-.PHONY: gba-hot
-## chooses again what lies in the Game Boy Advance's fast memory
-gba-hot: $(BUILD)/demo$(EXE) $(BUILD)/gbarun
-	LIMIT=3000 $(RUN) -p $(BUILD)/profile $< cost gba
-	sh platform/gba/hot.sh $< $(BUILD)/profile 23500 > $(BUILD)/hot.ld
-	mv $(BUILD)/hot.ld platform/gba/hot.ld
+symbols-test: gba-stages-test
+
+.PHONY: gba-stages-test gba-hot
+## no function of one stage is called in the other
+gba-stages-test: $(BUILD)/libsmear.a
+	sh tests/gba_stages.sh $<
+
+## chooses again what lies in the Game Boy Advance's fast memory, and when; HOT_WAYS: for which ways to blur
+gba-hot: $(BUILD)/gbarun
+	@mkdir -p $(BUILD)/hot
+	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(LIB)
+	for name in $(notdir $(HOT)); do : > $(BUILD)/hot/$$name; done
+	$(CC) -L$(BUILD)/hot $(LDFLAGS) $(TEST_LDFLAGS) -o $(BUILD)/hot/demo.elf $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+	for way in $(HOT_WAYS); do \
+	    LIMIT=3000 $(RUN) -p $(BUILD)/hot/$$way.profile $(BUILD)/hot/demo.elf cost gba $$way 6 || exit 1; \
+	done
+	sh platform/gba/hot.sh $(BUILD)/hot $(LIB) $(HOT_BYTES) $(HOT_WAYS:%=$(BUILD)/hot/%.profile)
+	mv $(HOT:platform/gba/%=$(BUILD)/hot/%) platform/gba/
+
+# Bytes for the functions: fast memory without the stack, interrupts, arithmetic.S and veneers.
+HOT_WAYS  ?= none auto-balanced
+HOT_BYTES ?= 23600

@@ -5,6 +5,9 @@ AR ?= ar
 
 CFLAGS += -D_POSIX_C_SOURCE=200809L
 
+SIZE     := size
+SHOWN    := -screen
+
 PLATFORM_SRC := platform/host/platform.c
 
 RUN       :=

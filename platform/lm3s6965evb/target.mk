@@ -15,6 +15,7 @@ DISPLAY_SRC := platform/lm3s6965evb/display.c
 DEMO_SCREEN := oled
 
 DEMO_LOOPS  := oled:1
+SHOW = $(SCREENSHOT)
 export SHOT        := platform/lm3s6965evb/shot.sh
 export SHOT_SCREEN := oled
 export SHOT_FRAMES := 8 45

@@ -24,6 +24,6 @@ TINY_MEMORY := 9080
 # The library is optimized as a whole, 1 kB less, and tells who calls whom, for the worst stack.
 AR      := arm-none-eabi-gcc-ar
 
-LDFLAGS += -Os -flto -flto-partition=none -fcallgraph-info=su -dumpdir $(BUILD)/call.
+LDFLAGS += -Os -flto -flto-partition=none -fcallgraph-info=su -dumpdir $@.
 $(BUILD)/src/%.o: CFLAGS += -flto
 $(BUILD)/platform/%.o: CFLAGS += -fcallgraph-info=su

@@ -92,6 +92,7 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
 {
     uint8_t *bytes;
     size_t size;
+    int lines = 0;
     bool ok = true;
     FILE *file = fopen(path, "rb");
     memset(chart, 0, sizeof *chart);
@@ -109,7 +110,10 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
         if (number > 1 && !read_line(chart, line, program) && program == NULL)
             ok = fail(f, "not a line of a chart (line %d)", number);
         line = next;
+        lines = number;
     }
+    if (ok && program == NULL && lines < 2)
+        ok = fail(f, "no line of a chart is in it");
     free(bytes);
     return ok;
 }

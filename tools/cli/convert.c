@@ -6,6 +6,7 @@
 #include "../image/image.h"
 #include "arguments.h"
 #include "say.h"
+#include "source.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -402,6 +403,10 @@ int command_convert(int count, char **text)
         return say_bad_usage("convert", "needs -o FILE.h or -o FILE.smr (smear help convert)");
     if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr"))
         return say_bad_usage("-o", "writes .h or .smr (\"%s\")", command.output);
+    if (source_builtin_name(path) != NULL) {
+        fail(&f, "built-in scenes are made by the program; only files of models are converted");
+        return say_bad_input(path, &f);
+    }
     if (!model_load(path, &model, &f))
         return say_bad_input(path, &f);
     if (model.warning[0] != '\0')

@@ -10,7 +10,7 @@ static bool progress_shown;
 static void say_line(const char *what, const char *kind, const char *text)
 {
     char line[4400];
-    int length = snprintf(line, sizeof line, "smear: %s: %s%s", what, kind, text);
+    int length = snprintf(line, sizeof line, "smear: %s: %s%s", *what != '\0' ? what : "\"\"", kind, text);
     say_progress_end();
     for (int i = 0; i < length && line[i] != '\0'; i++)
         if ((unsigned char)line[i] < 32 || line[i] == 127)

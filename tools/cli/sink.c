@@ -2,6 +2,7 @@
 /* sink.c - see sink.h. */
 #include "sink.h"
 
+#include "../image/file.h"
 #include "picture.h"
 #include "say.h"
 
@@ -9,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 static bool find_kind(const char *path, enum sink_kind *kind)
 {
@@ -71,15 +71,6 @@ static void make_name(struct sink *sink, long index)
              digits, index, strchr(percent, 'd') + 1);
 }
 
-/* A complete file replaces what has its name; a device or folder must not be replaced. */
-static bool is_replaceable(const char *path, struct failure *f)
-{
-    struct stat s;
-    if (stat(path, &s) == 0 && !S_ISREG(s.st_mode))
-        return fail(f, "cannot be written (it is there and no regular file)");
-    return true;
-}
-
 /* Milliseconds from one frame to the next; whole ones that do not drift. */
 static int delay_ms(const struct sink *sink, struct failure *f)
 {
@@ -118,7 +109,7 @@ bool sink_add(struct sink *sink, const struct image *picture, const struct float
               long index, struct failure *f)
 {
     make_name(sink, index);
-    if (!is_replaceable(sink->name, f))
+    if (!file_is_replaceable(sink->name, f))
         return false;
     bool ok = false;
     switch (sink->kind) {

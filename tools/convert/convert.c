@@ -245,7 +245,8 @@ bool convert_model(const struct model *model, const struct convert_options *opti
     if (ok) {
         count_file(&c);
         count_bytes(out);
-        ok = measure(&c);
+        ok = out->triangles > 0 ? measure(&c)
+           : fail(f, "has nothing to draw (none of its %d triangles has an area and can be seen)", out->triangles_in_file);
     }
     drop_lists(&c);
     if (!ok)

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size, struct failure *f)
 {
@@ -50,11 +51,21 @@ bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size
     return true;
 }
 
+bool file_is_replaceable(const char *path, struct failure *f)
+{
+    struct stat there;
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
+        return fail(f, "cannot be written (it is there and no regular file)");
+    return true;
+}
+
 bool output_open(struct output *o, const char *path, struct failure *f)
 {
     static const char suffix[] = ".tmp";
     size_t length = strlen(path);
     *o = (struct output){0};
+    if (!file_is_replaceable(path, f))
+        return false;
     o->path = malloc(length + 1);
     o->temporary = malloc(length + sizeof suffix);
     if (o->path == NULL || o->temporary == NULL) {

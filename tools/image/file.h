@@ -12,7 +12,10 @@ struct output {
     char *path, *temporary;     /* the final name, and the one beside it that is written */
 };
 
-/* Opens `path`.tmp for writing and seeking. */
+/* A complete file replaces what has its name; false where that is a device or folder, which must stay. */
+bool file_is_replaceable(const char *path, struct failure *f);
+
+/* Opens `path`.tmp for writing and seeking; `path` must be replaceable. */
 bool output_open(struct output *o, const char *path, struct failure *f);
 
 /* Closes and renames to the final name. Any write error since the opening fails here at the latest;

@@ -130,6 +130,8 @@ bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct m
     *out = (struct model){ 0 };
     if (size == 0)
         return fail(f, "the file is empty");
+    if (size >= 4 && memcmp(bytes, "SMR1", 4) == 0)
+        return fail(f, "a converted model, for firmware only: give the file it was made from");
     bool ok = is_gltf(bytes, size) ? gltf_parse(bytes, size, folder, out, f) :
                                      obj_parse(bytes, size, folder, out, f);
     if (ok && check_instances(out, f)) {

@@ -187,8 +187,12 @@ bool display_open(smear_desc *desc)
         return false;
     display.codes = calloc((size_t)desc->width * (size_t)desc->height, sizeof *display.codes);
     if (display.codes == NULL || !panel_codes_open(&display.decoder, display.format, &f) ||
-        !open_files(&f, &what) || !open_screen(&f)) {
+        !open_files(&f, &what)) {
         say(what, &f);
+        return false;
+    }
+    if (!open_screen(&f)) {
+        say("no display", &f);
         return false;
     }
     display.next_us = clock_us();

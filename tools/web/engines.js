@@ -24,14 +24,14 @@ class Engine {
             return a;
         });
     }
-    ask(todo, message, limit, progress) {
+    ask(command, message, limit, progress) {
         return new Promise(resolve => {
             const id = ++this.serial, entry = { resolve, progress };
             this.waiting.set(id, entry);
             this.busy++;
             if (limit)
                 entry.timer = setTimeout(() => this.die("this takes too long (more than " + limit / 1000 + " s)"), limit);
-            this.worker.postMessage({ ...message, todo, id });
+            this.worker.postMessage({ ...message, command, id });
         });
     }
     take(answer) {

@@ -68,7 +68,7 @@ function picture(left) {
     return memory().slice(at, at + wasm.web_width() * wasm.web_height() * 4).buffer;
 }
 
-const todo = {
+const commands = {
     boards: () => ({ boards: json(wasm.web_boards) }),
     open(m) {
         const status = withFiles(m.files, () => { say(m.words); return wasm.web_open(m.board); });
@@ -121,7 +121,7 @@ onmessage = async event => {
     const m = event.data;
     let answer;
     try {
-        answer = m.todo === "start" ? await start(m) : todo[m.todo](m);
+        answer = m.command === "start" ? await start(m) : commands[m.command](m);
         const words = wasm ? said() : { out: "", err: "" };
         answer.out = words.out;
         answer.err = words.err;

@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# target_model.sh SMEAR MODEL - the way of the README from a file to a board: `smear convert`, the firmware, its frames
+# against this machine's, and a screenshot of the board's panel.
+set -u
+smear=$1 model=$2
+make=${MAKE:-make}
+folder=build/test/model
+header=$folder/model.h
+passed=0
+failed=0
+rm -rf "$folder"
+mkdir -p "$folder"
+
+claim() { # NAME COMMAND...
+    name=$1
+    shift
+    if "$@" >"$folder/claim" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $name"
+        sed 's/^/    /' "$folder/claim" | tail -5
+    fi
+}
+board() { $make -s TARGET=lm3s6965evb MODEL="$1" "$2"; }
+fails_with() { # TEXT COMMAND...
+    text=$1
+    shift
+    if "$@" >"$folder/told" 2>&1; then
+        echo "did not fail"
+        return 1
+    fi
+    grep -q "$text" "$folder/told" || { cat "$folder/told"; return 1; }
+}
+# The panel's 128x64 pixels, 4x4 each: is anything there, and does it change with time?
+shot() { sh platform/lm3s6965evb/shot.sh build/lm3s6965evb/model.elf "$1" "$folder/$1.ppm"; }
+is_lit() { tail -c +16 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | sort -u | awk 'NF' | wc -l | grep -qv '^ *[012]$'; }
+differ() { ! cmp -s "$1" "$2"; }
+
+claim "a missing header is told, and how to make it" fails_with "smear convert FILE --name model" board "$header" model-firmware
+claim "a header" "$smear" convert "$model" --name other -o "$header"
+claim "of another name is told" fails_with "with --name model" board "$header" model-firmware
+claim "a header of the name that is wanted" "$smear" convert "$model" --name model -o "$header"
+claim "the firmware" board "$header" model-firmware
+claim "its frames are this machine's" board "$header" model-test
+claim "what they cost" board "$header" model-cost
+claim "a screenshot" shot 6
+claim "shows something" is_lit "$folder/6.ppm"
+claim "another" shot 12
+claim "is another picture" differ "$folder/6.ppm" "$folder/12.ppm"
+cp build/lm3s6965evb/model.want "$folder/want"
+claim "a model without motion" "$smear" convert "$model" --clip none --name model -o "$folder/rest.h"
+touch -d '2020-01-01' "$folder/rest.h"
+claim "is compiled though its header is older" board "$folder/rest.h" model-test
+claim "and is another" differ build/lm3s6965evb/model.want "$folder/want"
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
