@@ -293,7 +293,8 @@ typedef struct smear_frame {
     uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and
                                  * _TIMEMASK */
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
-    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED */
+    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats SMEAR_DRAFT: rounding
+                                 * to steps of 17 codes alone errs by 5 */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
     uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth

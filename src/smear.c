@@ -365,6 +365,11 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
                                            + (((int64_t)other->pose.origin[i] - now->pose.origin[i]) * f->way_scale >> 8));
 }
 
+static bool is_one_bit(uint8_t format)
+{
+    return format == SMEAR_L1 || format == SMEAR_L1_PAGES;
+}
+
 /* Defaults of a frame; false when something is out of range. */
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
@@ -372,8 +377,9 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE : SMEAR_RECONSTRUCT;
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
+    /* Steps of so few greys hide an error of several codes. */
     if (f->target == 0)
-        f->target = SMEAR_BALANCED;
+        f->target = c->desc.format == SMEAR_L4 || is_one_bit(c->desc.format) ? SMEAR_DRAFT : SMEAR_BALANCED;
     if (f->shutter_degrees == 0)
         f->shutter_degrees = 180;
     if (SMEAR_WITH_FILTERS && f->method == SMEAR_CAMERA && f->camera_step == 0)
@@ -388,7 +394,8 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         return false;
     if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
         || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
-        || f->samples > 1024 || f->shutter_degrees > 3600)
+        || f->samples > 1024 || f->shutter_degrees > 3600
+        || (!SMEAR_WITH_LINEAR && f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_PACKED_INSTANTS))
         return false;
     if (!SMEAR_WITH_FILTERS && (f->camera_step != 0 || f->weights != 0))
         return false;

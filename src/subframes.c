@@ -19,7 +19,8 @@
 
 enum {
     LISTED = 128,           /* triangles of the tile that are remembered; others are looked for at each instant */
-    PACKED_MAX = 256,       /* weights of codes that add up in 16 bits, with half of themselves */
+    PACKED_MAX = SMEAR_PACKED_INSTANTS,     /* weights of codes that add up in 16 bits, with half of themselves */
+    SUM_PLANES = SMEAR_WITH_LINEAR ? 4 : 2,     /* of codes alone all sums are packed */
     RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
 
@@ -77,7 +78,7 @@ struct subframes {
 
 size_t smear_subframes_work(int32_t width, int32_t height)
 {
-    return (size_t)(width * height) * (4 * sizeof(uint32_t) + sizeof(uint16_t)) + LISTED * sizeof(uint32_t);
+    return (size_t)(width * height) * (SUM_PLANES * sizeof(uint32_t) + sizeof(uint16_t)) + LISTED * sizeof(uint32_t);
 }
 
 static struct mean mean_make(uint32_t n)
@@ -781,19 +782,19 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     const struct smear_raster_target *s = &t->still;
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
-    struct subframes f = { .t = t, .packed = !frame_is_linear(t->frame) && instants <= PACKED_MAX,
+    struct subframes f = { .t = t, .packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_MAX),
                            .instants = (uint32_t)instants };
     f.listed = (uint32_t *)t->work;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < min_i32(SUM_PLANES, 3); i++)
         f.sum[i] = f.listed + LISTED + i * pixels;
-    f.times = f.sum[2] + pixels;
+    f.times = SMEAR_WITH_LINEAR ? f.sum[2] + pixels : NULL;
     f.work = *s;
     f.work.velocity8 = NULL;
     f.work.velocity16 = NULL;
     f.work.inspect = NULL;
     f.work.moving = NULL;
     f.work.color = t->out;
-    f.work.depth = (uint16_t *)(void *)(f.times + pixels);
+    f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_PLANES * pixels);
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 
     copy_color(&f, &whole);

@@ -5,6 +5,9 @@
 
 #include "mover.h"
 
+/* Instants of which codes add up in 16 bits: without SMEAR_WITH_LINEAR there are no more. */
+enum { SMEAR_PACKED_INSTANTS = 256 };
+
 /* How all movers of a tile go on from one instant to the next, nearly, in 1/16 px. */
 struct smear_step {
     int16_t x, y;
