@@ -355,8 +355,9 @@ typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const ui
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
     int16_t reach;              /* longest blur radius of a filter in pixels, 1..64; 0 means 5 % of the height */
-    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such. Without timed, layers,
-                                 * scatter and half also 4: the least memory, a little slower */
+    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such; with timed and sharp, where
+                                 * nothing has a reach, 32. Without timed, layers, scatter and half also 4: the least memory,
+                                 * a little slower */
     uint8_t format;             /* smear_format */
     uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */

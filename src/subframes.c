@@ -463,14 +463,10 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
  * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
-enum {
-    PAIRS_MAX = 8,
-    STRIDE_MAX = 2,                 /* pixels from tap to tap of a wide gap */
-    REACH_MAX = PAIRS_MAX * STRIDE_MAX
-};
+enum { PAIRS_MAX = 8 };
 
 struct gap {
-    int32_t pairs, reach;                   /* reach: pixels along x or y that are not exceeded */
+    int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
     int32_t offset[PAIRS_MAX];              /* the same in the planes */
     uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
@@ -487,10 +483,7 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
 static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
-    const int32_t longest = max_i32(abs_i32(x), abs_i32(y)), widest = 16 * (2 * PAIRS_MAX + 1);        /* 1/16 px */
-    const int32_t stride = longest <= widest ? 1 : STRIDE_MAX;
-    const int32_t way = min_i32(longest, widest * stride);
-    const uint32_t length = (uint32_t)(way / stride);
+    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
         whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
@@ -504,10 +497,9 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
     const uint32_t side = (whole - gap->unit) >> 1;
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
-    gap->reach = gap->pairs * stride;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1) * stride, way);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1) * stride, way);
+        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
+        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -629,6 +621,18 @@ enum cover {
 };
 
 #if SMEAR_VECTORS
+/* Whether something nearer than all movers lies at one of four pixels or at their taps. */
+static inline bool is_hidden4(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const uint16_t *depth = f->work.depth + at;
+    const smear_v8i sign = v8i_all(INT16_MIN), limit = v8i_all((int16_t)(f->nearest ^ 0x8000u));
+    smear_v8i most = v4_of_8i_load(depth) ^ sign;      /* in the order of signed numbers */
+    for (int32_t i = 0; i < pairs; i++)
+        most = v8i_max(most, v8i_max(v4_of_8i_load(depth - gap->offset[i]) ^ sign, v4_of_8i_load(depth + gap->offset[i]) ^ sign));
+    const smear_v4u beyond = (smear_v4u)(v8i_max(most, limit) ^ limit);
+    return (beyond[0] | beyond[1]) != 0;
+}
+
 /* Whether movers are seen at a tap of one of four pixels at two instants more than at another. */
 static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t pairs)
 {
@@ -669,8 +673,9 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
     const struct narrow_mean *m = &gap->mean[s->pairs];
     uint32_t *out = f->work.color;
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
-    for (; cover != COVER_ALL && i + 4 <= end; i += 4) {
-        if (cover == COVER_FEW && is_uneven4(gn + i, gap, s->pairs)) {
+    for (; i + 4 <= end; i += 4) {
+        if ((cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))
+            || (cover != COVER_NONE && is_uneven4(gn + i, gap, s->pairs))) {
             average_covered(f, i, 4, gap, s->pairs);
             continue;
         }
@@ -714,8 +719,8 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
 static bool hides(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    struct box near = { max_i32(b->x0 - REACH_MAX, s->x0), max_i32(b->y0 - REACH_MAX, s->y0),
-                        min_i32(b->x1 + REACH_MAX, s->x1), min_i32(b->y1 + REACH_MAX, s->y1) };
+    struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
+                        min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
     uint32_t low, high;
     find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
     return high > f->nearest;
@@ -751,7 +756,7 @@ static void average(const struct subframes *f, const struct box *all, const stru
     for (int32_t x = s->x0; x < s->x1; x += f->t->tile) {
         struct gap gap;
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
-        const int32_t wide = gap.pairs != 0 ? gap.reach : 0;
+        const int32_t wide = gap.pairs;
         const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
                                min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide), min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
@@ -759,12 +764,12 @@ static void average(const struct subframes *f, const struct box *all, const stru
     }
 }
 
-/* Empties the sums where they will be read: a gap's mean is taken REACH_MAX beyond what was drawn, and reads as far
+/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond what was drawn, and reads as far
  * beyond that. */
 static void clear_sums(const struct subframes *f)
 {
     const struct smear_raster_target *s = &f->t->still;
-    const int32_t reach = 2 * REACH_MAX;
+    const int32_t reach = 2 * PAIRS_MAX;
     const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
                            min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
     for (int32_t y = b.y0; y < b.y1; y++) {

@@ -42,6 +42,14 @@ static inline smear_v8i v8i_load(const uint16_t *p)
     return v;
 }
 
+/* Four; the others are 0. */
+static inline smear_v8i v4_of_8i_load(const uint16_t *p)
+{
+    smear_v8i v = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    __builtin_memcpy(&v, p, sizeof v / 2);
+    return v;
+}
+
 static inline smear_v8i v8i_all(int16_t a)
 {
     return (smear_v8i){ a, a, a, a, a, a, a, a };
