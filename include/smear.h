@@ -62,7 +62,8 @@ typedef struct smear_transform {
 } smear_transform;
 
 #define SMEAR_BASIS_ONE (1 << 24)
-#define SMEAR_IDENTITY { { SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE }, { 0, 0, 0 } }
+#define SMEAR_IDENTITY \
+    { { SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE, 0, 0, 0, SMEAR_BASIS_ONE }, { 0, 0, 0 } }
 
 /* Vertices and triangles, all constant data that may stay in flash. Object coordinates are
  * (position + offset) x scale / 2^shift world units. */
@@ -89,10 +90,10 @@ typedef enum smear_texel_format {
 
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
 
-/* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that is
- * `sharp`: with textures of that format alone and nothing blended, triangles are drawn as the display's pixels, and
- * converted never. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and |v| x height must stay
- * below 32768 texels, but for repeated powers of two, which may go on for ever. */
+/* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that
+ * is `sharp`: with textures of that format alone and nothing blended, triangles are drawn as the display's
+ * pixels, and converted never. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and
+ * |v| x height must stay below 32768 texels, but for repeated powers of two, which may go on for ever. */
 typedef struct smear_texture {
     const void *texels;         /* width x height, no padding, aligned to a texel */
     const uint32_t *palette;    /* for SMEAR_TEXEL_PALETTE8 */
@@ -103,7 +104,8 @@ typedef struct smear_texture {
 
 typedef enum smear_alpha {
     SMEAR_OPAQUE,
-    SMEAR_CUTOUT,               /* drawn where alpha >= cutoff; the rest keeps what lies behind, velocity too */
+    SMEAR_CUTOUT,               /* drawn where alpha >= cutoff; the rest keeps
+                                 * what lies behind, velocity too */
     SMEAR_BLEND                 /* drawn over everything opaque, after the blur, in submission order;
                                  * tests depth, writes neither depth nor velocity */
 } smear_alpha;
@@ -145,46 +147,49 @@ typedef enum smear_billboard {
 
 /* One mesh in one place. Everything pointed to is read until smear_render returns.
  *
- * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close, and `now`
- * is that in the middle between them, whatever the exposure is. Otherwise `open` is its pose one frame ago; when
- * null, the library takes what it kept under `id`. A draw whose earlier pose is unknown (first sight, cut, first
- * frame, id 0) has no motion of its own. */
+ * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close,
+ * and `now` is that in the middle between them, whatever the exposure is. Otherwise `open` is its pose one
+ * frame ago; when null, the library takes what it kept under `id`. A draw whose earlier pose is unknown
+ * (first sight, cut, first frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
     uint32_t id;                /* identity from frame to frame, unique in a frame; 0: none is kept */
     const smear_mesh *mesh;
     const smear_material *material;     /* null: white, lit */
     const smear_transform *now;         /* null: identity */
     const smear_transform *open, *close;
-    const int16_t *open_position;       /* deformed meshes: positions at those poses, in the mesh's scale and */
-    const int16_t *close_position;      /* offset; null: mesh->position. Nothing is kept of positions. */
+    const int16_t *open_position;       /* deformed meshes: positions at those poses, in the mesh's scale */
+    const int16_t *close_position;      /* and offset; null: mesh->position. Nothing is kept of positions. */
     uint8_t motion;             /* smear_motion */
     uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
     uint8_t billboard;          /* smear_billboard */
-    uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the mesh has. With
-                                         * another number nothing is known of the deformation: the motion is rigid */
+    uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the
+                                         * mesh has. With another number nothing is known of the
+                                         * deformation: the motion is rigid */
     uint8_t layers;             /* bits: the layers it is in, see smear_layer; 0 means 1, the first */
 } smear_draw;
 
 typedef enum smear_method {
-    SMEAR_DEFAULT_METHOD,       /* SMEAR_AUTO with desc.timed; else SMEAR_RECONSTRUCT, or SMEAR_NONE without a window */
+    SMEAR_DEFAULT_METHOD,       /* SMEAR_AUTO with desc.timed; else SMEAR_RECONSTRUCT,
+                                 * or SMEAR_NONE without a window */
     SMEAR_NONE,                 /* the sharp instant */
     SMEAR_ACCUMULATE,           /* mean of `samples` sharp instants; needs desc.accumulate */
     SMEAR_RECONSTRUCT,          /* tile-maximum reconstruction filter; needs the window */
-    SMEAR_SUBFRAMES,            /* tiles in which something moves: mean of instants, one per half pixel of travel, at
-                                 * most `samples`; needs desc.timed */
-    SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots (8, 16 or 32);
-                                 * needs desc.timed */
-    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what lies
-                                 * between them, or a time mask; needs desc.timed */
-    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is done per
-                                 * vertex; needs the window */
+    SMEAR_SUBFRAMES,            /* tiles in which something moves: mean of instants, one per half pixel of
+                                 * travel, at most `samples`; needs desc.timed */
+    SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots
+                                 * (8, 16 or 32); needs desc.timed */
+    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what
+                                 * lies between them, or a time mask; needs desc.timed */
+    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is
+                                 * done per vertex; needs the window */
     SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
     SMEAR_HALF,                 /* `filter` at half the size, over the whole frame by amount of motion; needs
                                  * desc.half */
-    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums whose cost
-                                 * does not grow with its length; those without one velocity as in SMEAR_LAYERED;
-                                 * needs desc.layers */
-    SMEAR_LAYERED               /* each blurred layer by velocities of its pixels, over the still scene; likewise */
+    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums
+                                 * whose cost does not grow with its length; those without one velocity as in
+                                 * SMEAR_LAYERED; needs desc.layers */
+    SMEAR_LAYERED               /* each blurred layer by velocities of its pixels,
+                                 * over the still scene; likewise */
 } smear_method;
 
 /* What a method needs of the desc: `timed`; a window (no `sharp`). */
@@ -201,25 +206,25 @@ static inline uint8_t smear_method_is_filter(int method)
 /* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
 typedef enum smear_filter {
     SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
-    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion
-                                 * reaches */
+    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all
+                                 * alike, of tiles that motion reaches */
     SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
     SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
 } smear_filter;
 
-/* A blur in passes: each takes few taps of what the one before it left, `base` times closer, so that 8 and 8 taps weigh
- * like 64. */
+/* A blur in passes: each takes few taps of what the one before it left, `base` times
+ * closer, so that 8 and 8 taps weigh like 64. */
 typedef struct smear_pingpong {
     uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
-    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb of the original: 7 taps,
-                                 * base 4 */
-    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128 of their spacing to either
-                                 * side */
-    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is left out.
-                                 * 255: none is. 0 means 255, with `spread` 16 */
-    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell a pixel what may come
-                                 * over it */
+    uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb
+                                 * of the original: 7 taps, base 4 */
+    uint8_t jitter;             /* how far taps are moved from pixel to pixel, in 1/128
+                                 * of their spacing to either side */
+    uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is
+                                 * left out. 255: none is. 0 means 255, with `spread` 16 */
+    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell
+                                 * a pixel what may come over it */
 } smear_pingpong;
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
@@ -231,10 +236,10 @@ enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 /* How the exposure follows the time from frame to frame, smear_frame.frame_us. */
 typedef enum smear_shutter_mode {
     SMEAR_SHUTTER_NATIVE,       /* shutter_degrees of the frame time */
-    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames that come late do not smear
-                                 * more */
-    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time is: streaks keep their
-                                 * length */
+    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames
+                                 * that come late do not smear more */
+    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time
+                                 * is: streaks keep their length */
 } smear_shutter_mode;
 
 /* A scale of motion that is nothing. */
@@ -249,11 +254,12 @@ enum {
     SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
     SMEAR_BOX       = 4,    /* box shutter instead of the tent */
     SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
-    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the
-                             * pixel's own velocity; motion below a pixel stays as it is */
+    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along
+                             * the pixel's own velocity; motion below a pixel stays as it is */
 };
 
-/* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX and DIRECTION are departures of the first. */
+/* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX
+ * and DIRECTION are departures of the first. */
 typedef enum smear_weights {
     SMEAR_WEIGHTS_STACK,        /* Post Processing Stack v2 */
     SMEAR_WEIGHTS_MCGUIRE,      /* McGuire, Hennessy, Bukowski, Osman 2012 */
@@ -261,19 +267,21 @@ typedef enum smear_weights {
     SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
 } smear_weights;
 
-/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT and SMEAR_LAYERED. A draw
- * is in the first of the frame's layers whose mask shares a bit with smear_draw.layers; in none, it is as SMEAR_NONE
- * draws it, bit for bit where no streak passes over it. So is what does not move. */
+/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT
+ * and SMEAR_LAYERED. A draw is in the first of the frame's layers whose mask shares a bit
+ * with smear_draw.layers; in none, it is as SMEAR_NONE draws it, bit for bit where no
+ * streak passes over it. So is what does not move. */
 typedef struct smear_layer {
     uint8_t mask;               /* bits of smear_draw.layers; required */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
-    uint8_t over;               /* 1: over all before it in the frame's list and all that is still, whatever the
-                                 * depths are */
-    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one velocity, that of the
-                                 * layer's first draw, in `samples` taps (up to 64), over all that is still */
+    uint8_t over;               /* 1: over all before it in the frame's list and all that is
+                                 * still, whatever the depths are */
+    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one
+                                 * velocity, that of the layer's first draw, in `samples` taps (up
+                                 * to 64), over all that is still */
     uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
-    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view; implies `over`. Null: the
-                                 * frame's */
+    const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view;
+                                 * implies `over`. Null: the frame's */
     const smear_camera *open, *close;   /* as in smear_frame; null: `camera` does not move */
 } smear_layer;
 
@@ -286,36 +294,38 @@ typedef struct smear_frame {
     uint8_t method;             /* smear_method */
     uint8_t exposure;           /* smear_exposure */
     uint8_t light;              /* smear_light */
-    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago, and the
-                                 * present ones those in the middle of the exposure */
+    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago,
+                                 * and the present ones those in the middle of the exposure */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
     uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
     uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and
                                  * _TIMEMASK */
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
-    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats SMEAR_DRAFT: rounding
-                                 * to steps of 17 codes alone errs by 5 */
+    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats
+                                 * SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5 */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
-    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their velocity from depth
-                                 * and the two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0:
-                                 * from their vertices, the background none (SMEAR_CAMERA: as 1) */
+    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their
+                                 * velocity from depth and the two cameras, at each pixel or each
+                                 * 2 x 2 or 4 x 4; the background too. 0: from their vertices, the
+                                 * background none (SMEAR_CAMERA: as 1) */
     uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the `filter` */
     smear_pingpong pingpong;
-    uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the application's poses say it all */
+    uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the
+                                 * application's poses say it all */
     uint16_t reference_hz;      /* 1..1000; 0 means 30 */
-    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by shutter_us and by
-                                 * modes other than native */
-    uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by those. CAPPED: at most a
-                                 * frame */
-    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its translation, in 1/256, up to
-                                         * 16128; */
-    uint16_t object_scale;              /* and of draws and their deformation (which grows 8 times at most); 0 means
-                                         * 256 */
-    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a
-                                 * box. Copied. Filters take it for a box */
-    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
-                                 * moves */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by
+                                 * shutter_us and by modes other than native */
+    uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by
+                                 * those. CAPPED: at most a frame */
+    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its
+                                         * translation, in 1/256, up to 16128; */
+    uint16_t object_scale;              /* and of draws and their deformation (which grows 8
+                                         * times at most); 0 means 256 */
+    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0;
+                                 * null: a box. Copied. Filters take it for a box */
+    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras;
+                                 * null: one layer of all that moves */
     uint8_t layer_count;
 } smear_frame;
 
@@ -325,7 +335,8 @@ typedef enum smear_format {
     SMEAR_XRGB8888,             /* uint32_t 0x00RRGGBB in the machine's byte order */
     SMEAR_RGB565,               /* uint16_t, red on top, low byte first */
     SMEAR_RGB565_SWAPPED,       /* high byte first, as most SPI panels want it */
-    SMEAR_RGB555,               /* uint16_t 0 rrrrr ggggg bbbbb with BLUE on top (Game Boy Advance), low byte first */
+    SMEAR_RGB555,               /* uint16_t 0 rrrrr ggggg bbbbb with BLUE on top
+                                 * (Game Boy Advance), low byte first */
     SMEAR_RGB332,
     SMEAR_L8,
     SMEAR_L4,                   /* two pixels per byte, left one in the high nibble */
@@ -343,8 +354,8 @@ typedef struct smear_band {
     uint32_t size;              /* bytes in all */
 } smear_band;
 
-/* Returns 0, or a negative value that ends the frame and is returned by smear_render; with two bands, a refused band
- * needs no smear_band_done(). */
+/* Returns 0, or a negative value that ends the frame and is returned by smear_render; with two bands,
+ * a refused band needs no smear_band_done(). */
 typedef int smear_flush_fn(void *user, const smear_band *band);
 
 /* Looked at by tests and tools: a drawn row before the blur. depth: codes, see smear_depth_units().
@@ -354,37 +365,43 @@ typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const ui
 
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
-    int16_t reach;              /* longest blur radius of a filter in pixels, 1..64; 0 means 5 % of the height */
-    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such; with timed and sharp, where
-                                 * nothing has a reach, 32. Without timed, layers, scatter and half also 4: the least memory,
-                                 * a little slower */
+    int16_t reach;              /* longest blur radius of a filter in pixels,
+                                 * 1..64; 0 means 5 % of the height */
+    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such; with timed and
+                                 * sharp, where nothing has a reach, 32. Without timed, layers, scatter and
+                                 * half also 4: the least memory, a little slower */
     uint8_t format;             /* smear_format */
     uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
-    uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
+    uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2,
+                                 * drawing goes on while one is sent */
     uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint8_t sharp;              /* 1: no filter: no window is kept */
     uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
-    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a band, whose
-                                 * rows are assembled anew at every instant: small and slow. 6 bytes without
-                                 * SMEAR_WITH_LINEAR */
-    uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK and SMEAR_AUTO; needs no window */
-    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16 tiles; 0
-                                 * means SMEAR_STRIP, or one tile where that is wider. Wider is faster, up to a point,
-                                 * and takes 22 bytes per pixel for each worker. The picture depends on it, a
-                                 * little */
-    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes per pixel of the window
-                                 * for each but the last; 0 and 1: none. In any case one pass may be had */
+    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a
+                                 * band, whose rows are assembled anew at every instant: small and slow. 6
+                                 * bytes without SMEAR_WITH_LINEAR */
+    uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK
+                                 * and SMEAR_AUTO; needs no window */
+    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16
+                                 * tiles; 0 means SMEAR_STRIP, or one tile where that is wider. Wider is
+                                 * faster, up to a point, and takes 22 bytes per pixel for each worker. The
+                                 * picture depends on it, a little */
+    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes
+                                 * per pixel of the window for each but the last; 0 and 1: none.
+                                 * In any case one pass may be had */
     uint8_t half;               /* 1: room for SMEAR_HALF */
-    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way,
-                                 * and as many tile rows more are kept. Not with timed, passes or half */
+    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to
+                                 * all tiles on its way, and as many tile rows more are kept.
+                                 * Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile. With
-                                 * `sharp`: as many are drawn at once. With a window and without timed, layers and
-                                 * half it may divide the tile: a smaller band buffer, the same picture */
+    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means
+                                 * tile. With `sharp`: as many are drawn at once. With a window and
+                                 * without timed, layers and half it may divide the tile: a smaller
+                                 * band buffer, the same picture */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
-    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for,
-                                 * SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with `timed`; more are drawn in
-                                 * parts; 0 means 1024 */
+    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is
+                                 * memory for, SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with
+                                 * `timed`; more are drawn in parts; 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_flush_fn *flush;      /* required */
     smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
@@ -394,8 +411,8 @@ typedef struct smear_desc {
 } smear_desc;
 
 typedef struct smear_stats {
-    /* submitted; covering a pixel; left out for want of memory or for a bad index. In a frame drawn in parts the last
-     * two count a triangle once per part. */
+    /* submitted; covering a pixel; left out for want of memory or for a bad index. In a frame drawn in parts
+     * the last two count a triangle once per part. */
     uint32_t triangles_in, triangles_drawn, triangles_dropped;
     uint32_t triangles_split;           /* times a frame was drawn in parts because the list was full */
     uint32_t pixels;                    /* of the frame */
@@ -404,8 +421,8 @@ typedef struct smear_stats {
     uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
     uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
     uint32_t tiles_camera, tiles_pingpong, tiles_half;
-    uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or (but with
-                                         * camera_step) the camera did */
+    uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or
+                                         * (but with camera_step) the camera did */
     uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
@@ -417,43 +434,45 @@ typedef struct smear_context smear_context;
 /* Bytes smear_init needs for this desc; 0 when the desc is not valid. */
 size_t smear_memory_size(const smear_desc *desc);
 
-/* The same as a constant for static arrays, rounded up to 8: one band of RGB565 or smaller, one worker, default
- * vertex cache, tile chosen from reach (give the reach, not 0). Never less than smear_memory_size(). */
+/* The same as a constant for static arrays, rounded up to 8: one band of RGB565 or
+ * smaller, one worker, default vertex cache, tile chosen from reach (give the reach,
+ * not 0). Never less than smear_memory_size(). */
 #define SMEAR_MEMORY_SIZE(width, height, reach, triangles, draws) \
     SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, \
         ((reach) <= 8 ? 8 : (reach) <= 16 ? 16 : (reach) <= 32 ? 32 : 64))
 
-/* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The context
- * lives in it and holds nothing else: forgetting the memory frees it. desc is copied. */
+/* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The
+ * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. */
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
 
-/* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered, but its poses count as the
- * past of this one. */
+/* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered,
+ * but its poses count as the past of this one. */
 int smear_begin(smear_context *ctx, const smear_frame *frame);
 
 /* Adds a draw. The struct is copied, what it points to is not. */
 int smear_submit(smear_context *ctx, const smear_draw *draw);
 
-/* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and pixels.
- * A full triangle list is no error: the frame is drawn in parts (stats.triangles_split counts them).
+/* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and
+ * pixels. A full triangle list is no error: the frame is drawn in parts (stats.triangles_split counts them).
  * Returns SMEAR_OK, or what flush returned if negative. */
 int smear_render(smear_context *ctx);
 
-/* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another core.
- * Bands finish in the order in which they were handed out. */
+/* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another
+ * core. Bands finish in the order in which they were handed out. */
 void smear_band_done(smear_context *ctx);
 
-/* With desc.workers > 1: the other cores call this, each with its own index 1..workers-1, once per frame, while
- * core 0 is in smear_render. Returns when the frame is done. smear_render waits for all of them. */
+/* With desc.workers > 1: the other cores call this, each with its own index 1..workers-1, once per frame,
+ * while core 0 is in smear_render. Returns when the frame is done. smear_render waits for all of them. */
 void smear_work(smear_context *ctx, int worker);
 
 void smear_get_stats(const smear_context *ctx, smear_stats *stats);
 
 /* ------------------------------------------------------------------ the filter alone */
 
-/* Blurs a frame that another renderer drew: begin, then every row from top to bottom, each once. Finished bands
- * come through flush as the window moves. Uses the context's desc (width, height, reach, tile, format) and of
- * `frame` method, light, exposure, samples, shutter_degrees and reconstruct; camera needs only near_plane.
+/* Blurs a frame that another renderer drew: begin, then every row from top to bottom, each
+ * once. Finished bands come through flush as the window moves. Uses the context's desc (width,
+ * height, reach, tile, format) and of `frame` method, light, exposure, samples, shutter_degrees
+ * and reconstruct; camera needs only near_plane.
  *
  *   color     width pixels 0x00RRGGBB, sRGB-encoded
  *   depth     width distances along the view in Q16.16 units, 0 for background
@@ -465,8 +484,8 @@ int smear_filter_row(smear_context *ctx, const uint32_t *color, const uint32_t *
 /* ------------------------------------------------------------------ depth codes */
 
 /* 16-bit depth grows towards the eye in two slopes: 0 is the background, 65535 the near plane. A perspective
- * distance is near_plane x SMEAR_DEPTH_NEAR / units; relative step at most 1/2048 for distances up to 256 near planes,
- * 1/557 at 1000. Orthographic: far - (far - near) x units / SMEAR_DEPTH_NEAR. */
+ * distance is near_plane x SMEAR_DEPTH_NEAR / units; relative step at most 1/2048 for distances up to 256
+ * near planes, 1/557 at 1000. Orthographic: far - (far - near) x units / SMEAR_DEPTH_NEAR. */
 #define SMEAR_DEPTH_NEAR 557040u
 
 static inline uint32_t smear_depth_units(uint16_t code)
@@ -481,9 +500,11 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
 #define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
-#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
-                                             * texture, 8 with vertex colours or normals, 12 or 24 when moving */
-#define SMEAR_TIMED_TRIANGLE_BYTES 64u      /* list entry (32), places at three instants: 36 bytes per vertex */
+#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes
+                                             * each, 4 more with a texture, 8 with vertex colours or
+                                             * normals, 12 or 24 when moving */
+#define SMEAR_TIMED_TRIANGLE_BYTES 64u      /* list entry (32), places at three
+                                             * instants: 36 bytes per vertex */
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 
@@ -516,14 +537,15 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
-/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes per pixel; what
- * groups leave for others they pass through, 6 bytes per pixel of a tile row; sums; groups; lists per tile row. One
- * worker. */
+/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes
+ * per pixel; what groups leave for others they pass through, 6 bytes per pixel of a tile row;
+ * sums; groups; lists per tile row. One worker. */
 #define SMEAR_LAYER_DRAW_BYTES 96u
 #define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
     (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 4u) \
      + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 2u) \
-     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * ((reach) <= 15 ? 2u : 4u)) \
+     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) \
+                    * ((reach) <= 15 ? 2u : 4u)) \
      + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
      + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach) + 6u) / (tile) + 1u) * 13u + 16u) \
      + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach) + 6u) * 2u + 16u) \
@@ -560,18 +582,20 @@ static inline uint32_t smear_depth_units(uint16_t code)
           + SMEAR_ALIGN8((size_t)(width) * (tile) * ((reach) <= 15 ? 2u : 4u)) \
           + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 40u) + 8u))
 
-/* Beyond a window's memory: what passes but the last leave; a window of half the size and a tile of it. One worker. */
+/* Beyond a window's memory: what passes but the last leave; a window of
+ * half the size and a tile of it. One worker. */
 #define SMEAR_PASSES_BYTES(width, reach, tile, passes) \
     ((passes) > 1 ? ((passes) - 1u) * SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) : 0u)
 #define SMEAR_HALF_BYTES(width, reach, tile) \
     (SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 4u) \
      + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 2u) \
-     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * ((reach) <= 30 ? 2u : 4u)) \
+     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) \
+                    * ((reach) <= 30 ? 2u : 4u)) \
      + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
      + SMEAR_ALIGN8((size_t)(tile) * (tile)) + 136u)
 
-/* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per tile row;
- * table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
+/* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per
+ * tile row; table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
 #define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
     (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) + SMEAR_FILTERING_BYTES \
      + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) \

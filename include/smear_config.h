@@ -14,9 +14,9 @@
 #define SMEAR_CHECK 0
 #endif
 
-/* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses what was left
- * out (SMEAR_ERR_ARG); SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything that is not named. Link
- * with --gc-sections, or the library as an archive. */
+/* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses
+ * what was left out (SMEAR_ERR_ARG); SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything
+ * that is not named. Link with --gc-sections, or the library as an archive. */
 #ifndef SMEAR_WITH_ALL
 #define SMEAR_WITH_ALL 1
 #endif
@@ -28,7 +28,8 @@
 #ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, velocities; without it every desc is `sharp` */
 #define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_FILTERS              /* SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF, other weights, camera_step, scatter */
+#ifndef SMEAR_WITH_FILTERS              /* SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF, other
+                                         * weights, camera_step, scatter */
 #define SMEAR_WITH_FILTERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
 #ifndef SMEAR_WITH_FILTER_ALONE         /* smear_filter_begin, smear_filter_row */
@@ -37,7 +38,8 @@
 #ifndef SMEAR_WITH_LAYERS               /* SMEAR_OBJECT, SMEAR_LAYERED */
 #define SMEAR_WITH_LAYERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
-#ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at several instants: no desc.timed */
+#ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at
+                                         * several instants: no desc.timed */
 #define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
@@ -132,8 +134,8 @@
 #error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
 
-/* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before these are drawn:
- * where little memory is fast, the code that comes next may be brought there. */
+/* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before
+ * these are drawn: where little memory is fast, the code that comes next may be brought there. */
 #define SMEAR_STAGE_ASSEMBLE 0
 #define SMEAR_STAGE_DRAW 1
 #ifndef SMEAR_ENTER_STAGE

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* smear_model.h - models made by `smear convert`, and their animation on the device. Optional: what a firmware does
- * not call is not linked.
+/* smear_model.h - models made by `smear convert`, and their animation on the device.
+ * Optional: what a firmware does not call is not linked.
  *
- * What it does. It plays the clips of a model (moving nodes, skins, morph targets) in integers, and hands smear_submit
- * the meshes with the transforms and positions of this frame and of the one before. What it does not: no malloc, no
- * floating point, no 64-bit division, no blending of clips.
+ * What it does. It plays the clips of a model (moving nodes, skins, morph targets) in integers, and hands
+ * smear_submit the meshes with the transforms and positions of this frame and of the one before. What it does
+ * not: no malloc, no floating point, no 64-bit division, no blending of clips.
  *
  *     smear convert Fox.glb --clip Run -o fox.h          typed arrays, for any machine
  *
@@ -14,13 +14,15 @@
  *     smear_actor *fox;
  *     smear_actor_init(&fox, &fox_model, 2, fox_memory, sizeof fox_memory);
  *     for (int32_t time = 0;; time += 65536 / 30) {
- *         smear_actor_advance(fox, &(smear_play){ .clip = FOX_CLIP_RUN, .loop = 1, .time = time, .place = &place });
+ *         smear_play play = { .clip = FOX_CLIP_RUN, .loop = 1, .time = time, .place = &place };
+ *         smear_actor_advance(fox, &play);
  *         smear_begin(ctx, &frame);
  *         smear_actor_submit(fox, ctx);
  *         smear_render(ctx);
  *     }
  *
- * A model that does not move needs none of this: its meshes may be submitted as they are (fox_mesh, fox_material).
+ * A model that does not move needs none of this: its meshes may be
+ * submitted as they are (fox_mesh, fox_material).
  *
  *     smear convert Fox.glb --clip Run -o fox.smr        one block of bytes, read where it lies
  *
@@ -30,8 +32,8 @@
  *     if (error != SMEAR_OK)
  *         log(smear_mesh_reason(error));
  *
- * A blob is little-endian and wants to lie on a multiple of 4. Cores with the other byte order refuse it: they take the
- * header, which is C and has no byte order. */
+ * A blob is little-endian and wants to lie on a multiple of 4. Cores with the other byte order refuse it:
+ * they take the header, which is C and has no byte order. */
 #ifndef SMEAR_MODEL_H
 #define SMEAR_MODEL_H
 
@@ -46,8 +48,8 @@ extern "C" {
 
 /* ------------------------------------------------------------------ tables */
 
-/* Written by `smear convert`; all constant, all may stay in flash. Places are in model units: 2^unit_shift world units
- * each, chosen so that the whole model lies within +-2047 of them.
+/* Written by `smear convert`; all constant, all may stay in flash. Places are in model units: 2^unit_shift
+ * world units each, chosen so that the whole model lies within +-2047 of them.
  *
  * The structs have no padding and the same layout on every machine. */
 #define SMEAR_MODEL_NONE 0xffffu
@@ -62,8 +64,8 @@ typedef struct smear_model_draw {
     uint16_t transform;         /* of an actor's transforms; 0 is the place of the model */
     uint16_t deformed;          /* skinned or morphed: index of the actor's mesh, else SMEAR_MODEL_NONE */
     uint16_t influences;        /* joints per vertex, 1..4; 0: no skin */
-    uint32_t influence_first;   /* byte: per vertex `influences` joints of the skin, heaviest first, then all weights
-                                 * but the first, which is what they lack to 256 */
+    uint32_t influence_first;   /* byte: per vertex `influences` joints of the skin, heaviest first, then all
+                                 * weights but the first, which is what they lack to 256 */
     uint32_t vertex_first;      /* of the actor's positions */
 } smear_model_draw;
 
@@ -112,7 +114,8 @@ typedef struct smear_model_clip {
 enum { SMEAR_PATH_TRANSLATION, SMEAR_PATH_ROTATION, SMEAR_PATH_SCALE, SMEAR_PATH_WEIGHTS };
 
 /* Key k is at key_time[time_first + k] ticks and has `width` values from key_value[value_first + k width] on.
- * Rotations: x y z w in 1/32767, mixed and normalised. Else: key x factor / 2^32 x 2^(shift + 14) + offset. */
+ * Rotations: x y z w in 1/32767, mixed and normalised. Else:
+ * key x factor / 2^32 x 2^(shift + 14) + offset. */
 typedef struct smear_model_channel {
     uint16_t target;            /* a node, or the first weight */
     uint8_t path, step;         /* step 1: keys are held; 0: mixed */
@@ -170,8 +173,8 @@ enum {
     SMEAR_MODEL_ERR_CLIP     = -30
 };
 
-/* Looks at every byte of a blob once, at every index, texel and record: what passes can be drawn and played without
- * reading or writing outside of it. SMEAR_OK or why not. */
+/* Looks at every byte of a blob once, at every index, texel and record: what passes can be drawn and played
+ * without reading or writing outside of it. SMEAR_OK or why not. */
 int smear_mesh_check(const void *blob, size_t bytes);
 
 /* The same in words, in English; "" for SMEAR_OK. */
@@ -180,8 +183,8 @@ const char *smear_mesh_reason(int error);
 /* Bytes of the tables with pointers that smear_model_open builds; 0 for what smear_mesh_check refuses. */
 size_t smear_model_memory(const void *blob, size_t bytes);
 
-/* Checks the blob and fills `model`, which points into it and into `memory` (8-byte aligned). All three must stay.
- * SMEAR_OK, a reason, or SMEAR_ERR_MEMORY. */
+/* Checks the blob and fills `model`, which points into it and into `memory` (8-byte aligned). All three must
+ * stay. SMEAR_OK, a reason, or SMEAR_ERR_MEMORY. */
 int smear_model_open(smear_model *model, const void *blob, size_t bytes, void *memory, size_t memory_bytes);
 
 /* Index of a clip by its name, or -1. */
@@ -213,12 +216,12 @@ typedef struct smear_play {
 
 size_t smear_actor_memory(const smear_model *model, int poses);
 
-/* Cuts `memory` (8-byte aligned, at least smear_actor_memory() bytes) into what the actor needs. The model is trusted:
- * it comes from a header or from smear_model_open. SMEAR_OK, SMEAR_ERR_ARG or SMEAR_ERR_MEMORY. */
+/* Cuts `memory` (8-byte aligned, at least smear_actor_memory() bytes) into what the actor needs. The model is
+ * trusted: it comes from a header or from smear_model_open. SMEAR_OK, SMEAR_ERR_ARG or SMEAR_ERR_MEMORY. */
 int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, void *memory, size_t bytes);
 
-/* Now becomes a frame ago (with 2 poses or more), and `play` is now. SMEAR_ERR_ARG, and nothing has changed, when the
- * model has no such clip. Not between smear_actor_submit and smear_render. */
+/* Now becomes a frame ago (with 2 poses or more), and `play` is now. SMEAR_ERR_ARG, and nothing has changed,
+ * when the model has no such clip. Not between smear_actor_submit and smear_render. */
 int smear_actor_advance(smear_actor *actor, const smear_play *play);
 
 /* Sets one pose alone. SMEAR_ERR_ARG also when the actor has no room for that pose. */
@@ -227,8 +230,8 @@ int smear_actor_set(smear_actor *actor, smear_pose pose, const smear_play *play)
 /* All poses but the one now are forgotten: in this frame the actor has no motion of its own. */
 void smear_actor_cut(smear_actor *actor);
 
-/* Draw `index` of the model in the actor's poses, 0 .. model->draw_count - 1; for a motion mode or a material of
- * yours. It points into the actor. */
+/* Draw `index` of the model in the actor's poses, 0 .. model->draw_count - 1; for a motion mode or a
+ * material of yours. It points into the actor. */
 int smear_actor_draw(smear_actor *actor, int index, smear_draw *draw);
 
 /* Submits every draw. SMEAR_OK or what smear_submit returned. */
