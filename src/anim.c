@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* anim.c - actors: a model's clips at an instant, as transforms and positions that smear_submit takes. Optional.
+/* anim.c - actors: a model's clips at an instant, as transforms
+ * and positions that smear_submit takes. Optional.
  *
  *     clip     keys -> translation, rotation, scale of each node that moves; weights of morph targets
  *     nodes    each by its parent: basis Q8.24, origin Q16.16 model units
  *     draws    rigid: place x node; deformed: morph, then skin (skin.c), in steps of the mesh
  *
- * Factors are kept within +-8 and places within +-2048, so that four bits of head room are enough for high products. */
+ * Factors are kept within +-8 and places within +-2048, so that four bits
+ * of head room are enough for high products. */
 #include "smear_model.h"
 
 #include "arena.h"
@@ -33,7 +35,8 @@ struct smear_actor {
     uint8_t known;                      /* bit p: pose p has been set */
 };
 
-SMEAR_STATIC_ASSERT(sizeof(struct smear_actor) <= SMEAR_ACTOR_HEAD_BYTES, "SMEAR_ACTOR_HEAD_BYTES is too small");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_actor) <= SMEAR_ACTOR_HEAD_BYTES,
+                    "SMEAR_ACTOR_HEAD_BYTES is too small");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_joint_matrix) == 48, "SMEAR_ACTOR_MEMORY counts 48 bytes");
 
 /* ------------------------------------------------------------------ transforms */
@@ -62,12 +65,13 @@ static void compose(smear_transform *out, const smear_transform *parent, const s
         for (int j = 0; j < 3; j++)
             out->basis[3 * i + j] = within_factor(row_times(row, local->basis[j], local->basis[3 + j],
                                                             local->basis[6 + j]));
-        out->origin[i] = within_factor(add_wrap(parent->origin[i], row_times(row, local->origin[0],
-                                                                             local->origin[1], local->origin[2])));
+        const int32_t way = row_times(row, local->origin[0], local->origin[1], local->origin[2]);
+        out->origin[i] = within_factor(add_wrap(parent->origin[i], way));
     }
 }
 
-/* Rotation matrix Q2.29 of a quaternion Q2.30 of length 1/2 to 1. 1 - 2 (y^2 + z^2) / |q|^2 and so on: no root. */
+/* Rotation matrix Q2.29 of a quaternion Q2.30 of length 1/2 to 1.
+ * 1 - 2 (y^2 + z^2) / |q|^2 and so on: no root. */
 static void rotation_from(int32_t out[9], const int32_t q[4])
 {
     int32_t xx = mulh_i32(q[0], q[0]), yy = mulh_i32(q[1], q[1]), zz = mulh_i32(q[2], q[2]);     /* q28 */
@@ -80,7 +84,8 @@ static void rotation_from(int32_t out[9], const int32_t q[4])
     }
     int zeros = count_leading_zeros(square);
     int32_t r = (int32_t)recip_norm_precise(square << zeros);           /* 2^(61 - zeros) / |q|^2 */
-    const int32_t sum[9] = { -(yy + zz), xy - wz, xz + wy, xy + wz, -(xx + zz), yz - wx, xz - wy, yz + wx, -(xx + yy) };
+    const int32_t sum[9] = { -(yy + zz), xy - wz, xz + wy, xy + wz, -(xx + zz), yz - wx, xz - wy, yz + wx,
+                             -(xx + yy) };
     for (int i = 0; i < 9; i++)
         out[i] = shl_wrap(mulh_i32(sum[i], r), zeros + 1) + (i % 4 == 0 ? 1 << 29 : 0);
 }
@@ -244,7 +249,8 @@ static void pose_nodes(struct smear_actor *a, const smear_play *play)
 /* ------------------------------------------------------------------ draws */
 
 /* Where the draws of a node stand: place x world, in world units. */
-static void place_node(smear_transform *out, const smear_transform *place, const smear_transform *world, int unit_shift)
+static void place_node(smear_transform *out, const smear_transform *place, const smear_transform *world,
+                       int unit_shift)
 {
     for (int i = 0; i < 3; i++) {
         const int32_t *row = place->basis + 3 * i;
@@ -269,7 +275,8 @@ static void pose_joints(struct smear_actor *a, const smear_model_skin *skin)
                                                 mulh_i32(shl_wrap(basis[1], 4), joint->basis[3 + k])),
                                        mulh_i32(shl_wrap(basis[2], 4), joint->basis[6 + k])), -6),
                     -SMEAR_JOINT_LIMIT, SMEAR_JOINT_LIMIT);
-            int32_t at = within_factor(add_wrap(w->origin[row], row_times(basis, origin[0], origin[1], origin[2])));
+            int32_t at = within_factor(add_wrap(w->origin[row],
+                                                row_times(basis, origin[0], origin[1], origin[2])));
             int32_t step = scale_sat(mulh_i32(shl_wrap(at, 4), skin->steps), skin->shift);
             out->row[row][3] = clamp_i32(within_factor(step) - skin->offset[row], -SMEAR_JOINT_ORIGIN_LIMIT,
                                          SMEAR_JOINT_ORIGIN_LIMIT);
@@ -293,10 +300,12 @@ static void pose_positions(struct smear_actor *a, const smear_model_draw *d, int
         in = out;
         for (uint32_t k = 0; k < d->target_count; k++)
             if (a->weight[d->weight_first + k] != 0)
-                smear_morph_positions(out, m->target + d->target_first + k, m->delta, a->weight[d->weight_first + k]);
+                smear_morph_positions(out, m->target + d->target_first + k, m->delta,
+                                      a->weight[d->weight_first + k]);
     }
     if (d->skin != SMEAR_MODEL_NONE) {
-        struct smear_influences influences = { m->influence + d->influence_first, d->influences, mesh->vertex_count };
+        struct smear_influences influences = { m->influence + d->influence_first, d->influences,
+                                               mesh->vertex_count };
         smear_skin_positions(out, in, &influences, a->joint);
     }
 }
@@ -321,7 +330,8 @@ static void pose_normals(struct smear_actor *a, const smear_model_draw *d, int8_
         changed = true;
     }
     if (d->skin != SMEAR_MODEL_NONE) {
-        struct smear_influences influences = { m->influence + d->influence_first, d->influences, mesh->vertex_count };
+        struct smear_influences influences = { m->influence + d->influence_first, d->influences,
+                                               mesh->vertex_count };
         smear_skin_normals(out, in, &influences, a->joint);
     } else if (changed) {
         smear_unit_normals(out, mesh->vertex_count);
@@ -336,7 +346,8 @@ static void pose_draws(struct smear_actor *a, uint32_t which)
     for (uint32_t i = 0; i < m->draw_count; i++) {
         const smear_model_draw *d = m->draw + i;
         if (d->node != SMEAR_MODEL_NONE && d->transform != 0)
-            place_node(&pose->transform[d->transform], &pose->transform[0], a->world + d->node, m->unit_shift);
+            place_node(&pose->transform[d->transform], &pose->transform[0], a->world + d->node,
+                       m->unit_shift);
         if (d->deformed == SMEAR_MODEL_NONE)
             continue;
         if (d->skin != SMEAR_MODEL_NONE && d->skin != skin) {
@@ -399,7 +410,8 @@ int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, v
 
 static bool can_play(const struct smear_actor *a, const smear_play *play)
 {
-    return a != NULL && play != NULL && (play->rest || play->clip < a->model->clip_count || a->model->clip_count == 0)
+    return a != NULL && play != NULL
+        && (play->rest || play->clip < a->model->clip_count || a->model->clip_count == 0)
         && (play->move != NULL || play->move_count == 0);
 }
 
@@ -443,7 +455,8 @@ int smear_actor_draw(smear_actor *a, int index, smear_draw *draw)
         return SMEAR_ERR_ARG;
     const smear_model_draw *d = a->model->draw + index;
     bool has_open = a->known & 1u << SMEAR_POSE_OPEN, has_close = a->known & 1u << SMEAR_POSE_CLOSE;
-    *draw = (smear_draw){ .mesh = a->model->mesh + d->mesh, .now = a->pose[SMEAR_POSE_NOW].transform + d->transform };
+    *draw = (smear_draw){ .mesh = a->model->mesh + d->mesh,
+                          .now = a->pose[SMEAR_POSE_NOW].transform + d->transform };
     if (d->material != SMEAR_MODEL_NONE)
         draw->material = a->model->material + d->material;
     if (has_open)

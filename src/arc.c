@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* arc.c - interpolation of poses by rotation: once per draw and pose, so 64-bit products are fine here.
  *
- * With Q the rotation from `before` to `now`, a pose at time t is Q^t (now + t (now - Q before)): what is left when the turn
- * is taken out changes linearly, then the turn is put back. */
+ * With Q the rotation from `before` to `now`, a pose at time t is Q^t (now + t (now - Q before)): what is
+ * left when the turn is taken out changes linearly, then the turn is put back. */
 #include "arc.h"
 
 #include "fixmath.h"
@@ -16,8 +16,8 @@ enum { ARC_SKEW = 1 << 18 };
 enum { CORDIC_STEPS = 26, CORDIC_GAIN = 652032874 };       /* the inverse of the gain, q30 */
 
 static const int32_t arctangent[CORDIC_STEPS] = {          /* of 2^-i */
-    536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245, 2670163, 1335087, 667544, 333772,
-    166886, 83443, 41722, 20861, 10430, 5215, 2608, 1304, 652, 326, 163, 81, 41, 20
+    536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245, 2670163, 1335087,
+    667544, 333772, 166886, 83443, 41722, 20861, 10430, 5215, 2608, 1304, 652, 326, 163, 81, 41, 20
 };
 
 /* Angle of (x, y), both >= 0, of length 2^29 to 2^30: 0 .. a quarter turn. Good to 2^-24 radians. */
@@ -68,8 +68,8 @@ struct turn {
     uint32_t angle;         /* 0 .. half a turn */
 };
 
-/* `in`, brought to length one, q30. `length` is what it was after a shift to 30 bits: left, or right if negative. False
- * when it has none. */
+/* `in`, brought to length one, q30. `length` is what it was after a shift to 30 bits: left, or
+ * right if negative. False when it has none. */
 static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int *shift)
 {
     uint64_t largest = 0;
@@ -99,7 +99,8 @@ static int32_t dot(const int32_t a[3], const int32_t b[3])
     return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> 30);
 }
 
-/* The axes of a pose, their scales taken out: axis[j] is where x, y or z points. False unless they are orthogonal. */
+/* The axes of a pose, their scales taken out: axis[j] is where x, y or
+ * z points. False unless they are orthogonal. */
 static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform *t)
 {
     for (int j = 0; j < 3; j++) {
@@ -121,8 +122,8 @@ static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform 
     return true;
 }
 
-/* A quaternion of any length, w x y z, of a rotation in q28; its largest component is 4 c^2 >= 1, the others 4 c times
- * theirs, so nothing cancels. w >= 0: the shorter way. */
+/* A quaternion of any length, w x y z, of a rotation in q28; its largest component is 4 c^2 >= 1, the others
+ * 4 c times theirs, so nothing cancels. w >= 0: the shorter way. */
 static void quaternion_of(int32_t q[4], int32_t m[3][3])
 {
     const int32_t one = 1 << 28;
@@ -158,7 +159,8 @@ static bool find_turn(struct turn *turn, const smear_transform *before, const sm
         return false;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            m[i][j] = (int32_t)(((int64_t)b[0][i] * a[0][j] + (int64_t)b[1][i] * a[1][j] + (int64_t)b[2][i] * a[2][j])
+            m[i][j] = (int32_t)(((int64_t)b[0][i] * a[0][j] + (int64_t)b[1][i] * a[1][j]
+                                 + (int64_t)b[2][i] * a[2][j])
                                 >> 32);
     quaternion_of(q, m);
     const int64_t v[3] = { q[1], q[2], q[3] };

@@ -2,8 +2,8 @@
 /* assemble.c - the loop over a draw's triangles.
  *
  * Order of work, cheapest rejection first: share an outcode, need clipping, face away, touch no pixel centre.
- * Only then are vertices shaded, moved to the other poses and stored, once each. Triangles of one or two plain pixels
- * are finished here: they become points. */
+ * Only then are vertices shaded, moved to the other poses and stored, once each. Triangles of one or two
+ * plain pixels are finished here: they become points. */
 #include "assemble.h"
 
 #include "clip.h"
@@ -37,7 +37,8 @@ static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
 
-/* The words of MOTION_*: the point of the surface that is at `now` on the screen, seen at `h` in another pose. */
+/* The words of MOTION_*: the point of the surface that is at `now`
+ * on the screen, seen at `h` in another pose. */
 static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
                          const struct smear_homogeneous *h, const struct smear_homogeneous *now,
                          const struct smear_screen *screen, const struct smear_viewport *viewport)
@@ -81,7 +82,8 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             v->color[c] = 0;
     }
 
-    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: clip places first. */
+    /* Which side is seen decides the light of vertices, and only
+     * the cut polygon can tell: clip places first. */
     struct smear_clip_vertex copy[SMEAR_WITH_GOURAUD ? SMEAR_CLIP_MAX : 1];
     struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
     for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
@@ -182,8 +184,8 @@ struct covered {
     int32_t x, y, e1, e2;
 };
 
-/* Triangles of up to this many covered pixels become points; in memory they are no larger than a triangle with
- * vertices. */
+/* Triangles of up to this many covered pixels become points; in memory they
+ * are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2, TINY_BOX = 2 };
 
 /* How many centres in the box a triangle covers; the first POINTS_MAX of them. */
@@ -298,12 +300,13 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
         t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
         t->segment = SMEAR_POINT;
         t->color = !segment_colored(s) ? color
-                 : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+                                       : tiny_color(channels[0], channels[1], channels[2], w1, w2,
+                                                    shading_is_linear(&b->d->shading));
     }
 }
 
-/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of the
- * frame that is being filled. False when there is no room. */
+/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of
+ * the frame that is being filled. False when there is no room. */
 static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
                                      struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
                                      uint32_t triangle, bool back, bool cut)
@@ -386,7 +389,8 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     }
     b.shares = shares_vertices(d, b.segment);
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment) && segment_moves(b.segment) == 0 && !d->fixed;
+    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment)
+            && segment_moves(b.segment) == 0 && !d->fixed;
     if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
         b.face_color = mesh->face_color;
     if (!d->shading.lit && d->shading.white && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
@@ -423,7 +427,8 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
             }
         }
         if ((any & OUT_CLIP) != 0) {
-            const struct smear_cached_vertex *corner[3] = { v0, d->mirrored ? v1 : v2, d->mirrored ? v2 : v1 };
+            const struct smear_cached_vertex *corner[3] = { v0, d->mirrored ? v1 : v2,
+                                                            d->mirrored ? v2 : v1 };
             added = add_clipped(a, d, &b.segment, i, corner);
         } else {
             int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);

@@ -8,8 +8,9 @@
 /* Before the draws of a frame, or of a part of it. */
 void smear_assembler_reset(struct smear_assembler *a);
 
-/* Adds the draw's triangles to the geometry. Returns false when the store is full: what was added stays, and the
- * caller draws the frame in parts. With `drop`, triangles that find no room are counted and left out instead. */
+/* Adds the draw's triangles to the geometry. Returns false when the store is full: what
+ * was added stays, and the caller draws the frame in parts. With `drop`, triangles that
+ * find no room are counted and left out instead. */
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *draw, bool drop);
 
 #endif

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* assemble_path.c - the loop over a moving draw's triangles: as assemble.c, at three instants at once.
  *
- * A triangle is kept if it may be seen at any time of the exposure. It is listed under the first tile row it may touch,
- * together with the bounds of its way (struct smear_path_bounds): all that a tile needs to choose its method. */
+ * A triangle is kept if it may be seen at any time of the exposure. It is listed under the
+ * first tile row it may touch, together with the bounds of its way (struct smear_path_bounds):
+ * all that a tile needs to choose its method. */
 #include "assemble_path.h"
 
 #include "clip.h"
@@ -12,7 +13,8 @@
 
 enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
 
-/* A vertex at all three instants, remembered under its index: direct mapped, in the memory of the other cache. */
+/* A vertex at all three instants, remembered under its index:
+ * direct mapped, in the memory of the other cache. */
 struct path_vertex {
     uint32_t tag, stored;               /* as struct smear_cached_vertex */
     struct smear_screen screen[KEYS];
@@ -26,8 +28,8 @@ static const struct smear_placement *placement_of(const struct smear_assembly *d
     return key == MIDDLE ? &d->at : &d->key[key];
 }
 
-static void find_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d,
-                        uint32_t tag)
+static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
+                        const struct smear_assembly *d, uint32_t tag)
 {
     struct smear_homogeneous h;
     v->tag = tag;
@@ -52,11 +54,11 @@ static uint16_t code_above(int32_t depth)
 }
 
 /* False when no pixel of the part of the frame that is being filled can be covered. */
-static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a, const struct smear_assembly *d,
-                        const struct smear_screen *const corner[3])
+static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
+                        const struct smear_assembly *d, const struct smear_screen *const corner[3])
 {
-    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0, travel = 0,
-            bend = 0;
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0,
+            travel = 0, bend = 0;
     for (int i = 0; i < 3; i++) {
         const struct smear_screen *p = corner[i];
         for (int key = 0; key < KEYS; key++) {
@@ -93,7 +95,8 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
 
 /* ------------------------------------------------------------------ records */
 
-static void store_path(uint32_t *record, const struct smear_segment *s, const struct smear_screen screen[KEYS])
+static void store_path(uint32_t *record, const struct smear_segment *s,
+                       const struct smear_screen screen[KEYS])
 {
     store_place(record, &screen[MIDDLE]);
     store_place(record + s->motion, &screen[OPEN]);
@@ -106,7 +109,8 @@ struct path_batch {
     const struct smear_assembly *d;
     struct smear_segment *segment;
     bool shares;                        /* vertices are the same for all faces */
-    int32_t apart;                      /* nothing of the draw that is nearer is seen: find_apart; 0 not looked for */
+    int32_t apart;                      /* nothing of the draw that is nearer is seen:
+                                         * find_apart; 0 not looked for */
 };
 
 static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
@@ -173,8 +177,8 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
 }
 
 /* Three vertices, clockwise on the screen where the triangle is seen from the side that is drawn. */
-static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1, struct path_vertex *v2,
-                         uint32_t triangle, bool back)
+static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1,
+                         struct path_vertex *v2, uint32_t triangle, bool back)
 {
     const struct smear_screen *const corner[3] = { v0->screen, v1->screen, v2->screen };
     struct smear_path_bounds bounds;
@@ -217,7 +221,8 @@ static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const stru
     int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE], CLIP_POSES);
     for (int key = OPEN; key <= CLOSE && count != 0; key++) {
         exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR, CLIP_POSES);
+        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR,
+                                   CLIP_POSES);
         exchange(polygon, count, key);
     }
     return count;
@@ -283,7 +288,8 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     bounds.piece = p->piece;
     if (p->piece != 0) {
         bounds.flags |= PATH_PIECE;
-        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);      /* of the whole exposure */
+        /* of the whole exposure */
+        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_PIECES, 65535);
     }
     const struct smear_segment *s = b->segment;
     uint16_t offset[3];
@@ -293,8 +299,8 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     return true;
 }
 
-/* Adds what is left of a triangle, if it is seen from the side that is drawn (`back`: counter-clockwise) at some
- * instant. */
+/* Adds what is left of a triangle, if it is seen from the side that is drawn
+ * (`back`: counter-clockwise) at some instant. */
 static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
                     const struct smear_face *face)
 {
@@ -360,9 +366,9 @@ static void scale_homogeneous(struct smear_homogeneous *h, int down)
     h->w = scale_sat(h->w, clamp_i32(-down, -31, 31));
 }
 
-/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout would be too
- * little. In short parts of the exposure it is about what is in front in the middle; at their ends a little of that may
- * lie behind, though not behind the eye. */
+/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout
+ * would be too little. In short parts of the exposure it is about what is in front in the middle; at their
+ * ends a little of that may lie behind, though not behind the eye. */
 static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_clip_vertex corner[3],
                                       struct cut *cut, const struct smear_face *face)
 {
@@ -402,11 +408,13 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
 
 /* ------------------------------------------------------------------ near the near plane */
 
-/* The ground under a camera passes through the near plane, but beside the frame. What is nearer than some distance then needs
- * not be drawn, and the rest is cut once, for all instants: its corners are places of the surface like any vertex. */
+/* The ground under a camera passes through the near plane, but beside the frame. What is nearer
+ * than some distance then needs not be drawn, and the rest is cut once, for all instants: its
+ * corners are places of the surface like any vertex. */
 
 /* The triangle's places, without what is drawn of it. */
-static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d, const uint16_t index[3])
+static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d,
+                          const uint16_t index[3])
 {
     for (int i = 0; i < 3; i++) {
         corner[i] = (struct smear_clip_vertex){ .now = { 0, 0, 0, 0 } };
@@ -424,7 +432,8 @@ static int32_t safe_distance(const struct smear_clip_vertex corner[3], const str
     for (int key = OPEN; key <= CLOSE; key++)
         for (int i = 0; i < 3; i++) {
             const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
-            const int64_t there = up < 0 ? corner[i].pose[key].w >> -up : (int64_t)corner[i].pose[key].w << up;
+            const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
+                                         : (int64_t)corner[i].pose[key].w << up;
             way = corner[i].now.w - there > way ? corner[i].now.w - there : way;
         }
     way += now->near_distance + (int64_t)8;
@@ -467,8 +476,8 @@ static bool passes_near(const struct smear_clip_vertex corner[3], const struct s
     return before && behind;
 }
 
-/* One distance for all triangles of a draw, so that their edges still meet: the largest of some that holds for all, but
- * those for which none does. */
+/* One distance for all triangles of a draw, so that their edges still meet: the largest of some that
+ * holds for all, but those for which none does. */
 static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 {
     enum { DOUBLINGS = 5 };
@@ -498,8 +507,8 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 }
 
 /* `corner` as the mesh has them: counter-clockwise in front. */
-static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3], uint32_t triangle,
-                                       const int codes[KEYS], bool back)
+static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3],
+                                       uint32_t triangle, const int codes[KEYS], bool back)
 {
     const struct smear_assembly *d = b->d;
     struct smear_clip_vertex corner[3];
@@ -559,8 +568,9 @@ static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
 }
 
 static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
-                                   const struct smear_assembly *d, uint32_t tag, const struct path_vertex *in_use1,
-                                   const struct path_vertex *in_use2, struct path_vertex *spare)
+                                   const struct smear_assembly *d, uint32_t tag,
+                                   const struct path_vertex *in_use1, const struct path_vertex *in_use2,
+                                   struct path_vertex *spare)
 {
     struct path_vertex *v = &cache[tag & mask];
     if (v->tag == tag)

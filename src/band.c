@@ -5,7 +5,8 @@
 #include "convert.h"
 
 /* The window's rows [y0, y1). */
-static void window_target(const struct smear_context *c, int32_t y0, int32_t y1, struct smear_raster_target *t)
+static void window_target(const struct smear_context *c, int32_t y0, int32_t y1,
+                          struct smear_raster_target *t)
 {
     const struct smear_window *w = &c->window;
     struct smear_plane_rows rows = { w->width, window_slot(w, y0), w->ring, 0 };
@@ -91,7 +92,8 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                       format, (smear_dither)c->desc.dither);
 }
 
-void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1)
+void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
+                             int32_t x1)
 {
     for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
         convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* band.h - tile rows on their way to the display: where they lie in the frame, their buffers, conversion, flush. */
+/* band.h - tile rows on their way to the display: where they lie in
+ * the frame, their buffers, conversion, flush. */
 #ifndef SMEAR_BAND_H
 #define SMEAR_BAND_H
 
@@ -47,7 +48,8 @@ void smear_row_target(const struct smear_context *c, int row, struct smear_raste
 /* Columns of a raster job: the frame's width in as many equal cuts as there are workers. */
 void smear_job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1);
 
-/* What the jobs of a tile row share. A band may be a part of the row: pixel rows [y0, y1); with y1 = 0, all. */
+/* What the jobs of a tile row share. A band may be a part of the
+ * row: pixel rows [y0, y1); with y1 = 0, all. */
 struct row_job {
     struct smear_context *c;
     int row;
@@ -56,19 +58,25 @@ struct row_job {
 };
 
 static inline int32_t job_top(const struct row_job *r) { return r->y1 != 0 ? r->y0 : row_top(r->c, r->row); }
-static inline int32_t job_bottom(const struct row_job *r) { return r->y1 != 0 ? r->y1 : row_bottom(r->c, r->row); }
+
+static inline int32_t job_bottom(const struct row_job *r)
+{
+    return r->y1 != 0 ? r->y1 : row_bottom(r->c, r->row);
+}
 
 /* ------------------------------------------------------------------ bands */
 
 /* A buffer for the next rows; waits until what it held has been sent. */
 uint8_t *smear_band_begin(struct smear_context *c);
 
-/* Hands a tile row, or the job's part of it, to the display. Returns SMEAR_OK, or what flush says if negative. */
+/* Hands a tile row, or the job's part of it, to the display.
+ * Returns SMEAR_OK, or what flush says if negative. */
 int smear_band_flush(struct smear_context *c, int row, uint8_t *band);
 int smear_band_flush_part(const struct row_job *r);
 
 /* Converts columns [x0, x1) of the job's rows, which lie in a target or in the window. */
-void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1);
+void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
+                             int32_t x1);
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1);
 
 /* Converts a tile of finished pixels, rows a tile apart. */

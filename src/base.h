@@ -16,15 +16,16 @@
 #define SMEAR_ASSERT(condition) ((void)0)
 #endif
 
-/* Inner loops that take constants: inlined so that each call site becomes a loop of its own, unless size counts. */
+/* Inner loops that take constants: inlined so that each call site
+ * becomes a loop of its own, unless size counts. */
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_INLINE static inline
 #else
 #define SMEAR_INLINE static inline __attribute__((always_inline))
 #endif
 
-/* Helpers of fixed.h and fixmath.h that take many instructions on cores without wide products: where size counts, one copy
- * of each in fixmath.c; else inlined. */
+/* Helpers of fixed.h and fixmath.h that take many instructions on cores without wide products: where size
+ * counts, one copy of each in fixmath.c; else inlined. */
 #if defined(__OPTIMIZE_SIZE__) && !SMEAR_HAS_MUL64
 #define SMEAR_ONE_COPY 1
 #define SMEAR_SHARED

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* blob.h - how a .smr file is laid out. Written by tools/convert, read in place by model.c.
  *
- *     head, tables, data         little-endian; every table and array on a multiple of 4; no padding is left undefined
+ *     head, tables, data         little-endian; every table and array on a multiple of 4;
+ *                                no padding is left undefined
  *
- * Tables of smear_model.h lie in it as they are. Meshes, textures and materials of smear.h hold pointers, so they have
- * records of their own here. Offsets are bytes from the start of the blob; 0: there is none. */
+ * Tables of smear_model.h lie in it as they are. Meshes, textures and materials of smear.h hold pointers, so
+ * they have records of their own here. Offsets are bytes from the start of the blob; 0: there is none. */
 #ifndef SMEAR_BLOB_H
 #define SMEAR_BLOB_H
 
@@ -16,9 +17,9 @@
 #define SMEAR_BLOB_CRC_FROM 16u             /* the CRC is over everything from this byte on */
 
 enum {
-    BLOB_TEXTURE, BLOB_MATERIAL, BLOB_MESH, BLOB_DRAW, BLOB_NODE, BLOB_JOINT, BLOB_SKIN, BLOB_INFLUENCE, BLOB_TARGET,
-    BLOB_DELTA, BLOB_DELTA_NORMAL, BLOB_WEIGHT, BLOB_CLIP, BLOB_CHANNEL, BLOB_KEY_TIME, BLOB_KEY_VALUE, BLOB_TEXT,
-    BLOB_TABLES
+    BLOB_TEXTURE, BLOB_MATERIAL, BLOB_MESH, BLOB_DRAW, BLOB_NODE, BLOB_JOINT, BLOB_SKIN, BLOB_INFLUENCE,
+    BLOB_TARGET, BLOB_DELTA, BLOB_DELTA_NORMAL, BLOB_WEIGHT, BLOB_CLIP, BLOB_CHANNEL, BLOB_KEY_TIME,
+    BLOB_KEY_VALUE, BLOB_TEXT, BLOB_TABLES
 };
 
 struct smear_blob_table {
@@ -73,8 +74,8 @@ SMEAR_STATIC_ASSERT(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) =
 /* Bytes of an element of each table. */
 static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(struct smear_blob_texture), sizeof(struct smear_blob_material), sizeof(struct smear_blob_mesh),
-    sizeof(smear_model_draw), sizeof(smear_model_node), sizeof(smear_model_joint), sizeof(smear_model_skin), 1,
-    sizeof(smear_model_target), sizeof(smear_model_delta), 1, 2, sizeof(smear_model_clip),
+    sizeof(smear_model_draw), sizeof(smear_model_node), sizeof(smear_model_joint), sizeof(smear_model_skin),
+    1, sizeof(smear_model_target), sizeof(smear_model_delta), 1, 2, sizeof(smear_model_clip),
     sizeof(smear_model_channel), 2, 2, 1
 };
 #endif

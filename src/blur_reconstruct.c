@@ -10,8 +10,8 @@
  * weights in 1/4096, directions in 1/256 px; whether a tap is in front is decided on depth codes, and its
  * velocity is only read if it is.
  *
- * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction, from
- * the pixel's velocity, from its depth and from the velocity of the last tap in front. */
+ * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction,
+ * from the pixel's velocity, from its depth and from the velocity of the last tap in front. */
 #include "blur.h"
 
 #include "fixmath.h"
@@ -194,8 +194,10 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
-    uint32_t step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic ? part_of(g->far_units - d->units, share_19)
-                                            : part_of(d->units, share_20), 1);
+    uint32_t step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic
+                                ? part_of(g->far_units - d->units, share_19)
+                                : part_of(d->units, share_20),
+                            1);
     d->behind = d->units > step ? d->units - step : 0;
     d->behind_scale = inverse_q30(d->units - d->behind);
     d->has_behind = true;

@@ -6,7 +6,8 @@
 #include "fixmath.h"
 #include "pixel.h"
 
-void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column)
+void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
+                     int32_t column)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
     for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
@@ -59,13 +60,14 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
                       ((red_blue & 0xffffu) * over + 0x8000u) >> 16);
 }
 
-/* The same where things that move with the camera may be in front: a tap that meets one, still and nearer, counts as the
- * pixel itself. */
-static SMEAR_NOINLINE uint32_t mean_behind(const struct smear_window *w, const uint32_t *row_offset, uint32_t at, int32_t x,
-                                           int32_t y, const struct uniform_taps *taps, int32_t n, uint32_t over,
-                                           bool linear)
+/* The same where things that move with the camera may be in front: a tap that meets one,
+ * still and nearer, counts as the pixel itself. */
+static SMEAR_NOINLINE uint32_t mean_behind(const struct smear_window *w, const uint32_t *row_offset,
+                                           uint32_t at, int32_t x, int32_t y, const struct uniform_taps *taps,
+                                           int32_t n, uint32_t over, bool linear)
 {
-    int32_t dx = -taps->first_x - (n / 2 - 1) * taps->step_x, dy = -taps->first_y - (n / 2 - 1) * taps->step_y;
+    int32_t dx = -taps->first_x - (n / 2 - 1) * taps->step_x,
+            dy = -taps->first_y - (n / 2 - 1) * taps->step_y;
     uint32_t sum[3] = { 0, 0, 0 };
     for (int32_t i = n; i > 0; i--, dx += taps->step_x, dy += taps->step_y) {
         int32_t column = clamp_i32(((x << 16) + 0x8000 + dx) >> 16, 0, w->width - 1);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* blur_weights.c - the gather with the weights of other published filters in place of those of Post Processing Stack v2:
- * [McGuire12], [Guertin14], and [Jimenez14] "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH
- * 2014. All are integer: shares of depth and cover in 1/256, directions in 1/256 px.
+/* blur_weights.c - the gather with the weights of other published filters in place of those of
+ * Post Processing Stack v2: [McGuire12], [Guertin14], and [Jimenez14] "Next Generation Post
+ * Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014. All are integer: shares of
+ * depth and cover in 1/256, directions in 1/256 px.
  *
- * Depths are compared by the nearer of the two: [Guertin14] as published, the others with a soft border of a twentieth of
- * the distance, where theirs is a length that each scene has to choose. */
+ * Depths are compared by the nearer of the two: [Guertin14] as published, the others with a soft border of a
+ * twentieth of the distance, where theirs is a length that each scene has to choose. */
 #include "blur.h"
 
 #include "fixmath.h"
@@ -41,7 +42,8 @@ static uint32_t sum_pixel(const struct sum *s, bool linear)
 {
     uint32_t r = quotient(s->r, s->weight), g = quotient(s->g, s->weight), b = quotient(s->b, s->weight);
     if (linear)
-        return pixel_make(0, smear_srgb_encode[min_u32(r, 65535u) >> 4], smear_srgb_encode[min_u32(g, 65535u) >> 4],
+        return pixel_make(0, smear_srgb_encode[min_u32(r, 65535u) >> 4],
+                          smear_srgb_encode[min_u32(g, 65535u) >> 4],
                           smear_srgb_encode[min_u32(b, 65535u) >> 4]);
     return pixel_make(0, min_u32(r, 255u), min_u32(g, 255u), min_u32(b, 255u));
 }
@@ -104,7 +106,8 @@ static struct sample sample_along(const struct gathering *g, int32_t x, int32_t 
 }
 
 /* How much farther a is than b, over the distance of the nearer: q8 times `sharpness`, at most 256 of it. */
-static int32_t farther(const struct gathering *g, const struct sample *a, const struct sample *b, int32_t sharpness)
+static int32_t farther(const struct gathering *g, const struct sample *a, const struct sample *b,
+                       int32_t sharpness)
 {
     uint32_t difference = b->units - a->units, nearer = a->units;
     if (a->units >= b->units)
@@ -136,13 +139,14 @@ static int32_t cylinder(int32_t d, int32_t r)
 
 /* ------------------------------------------------------------------ the filters */
 
-static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x, int32_t y, struct vector top,
-                               int32_t length, int32_t noise)
+static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x, int32_t y,
+                               struct vector top, int32_t length, int32_t noise)
 {
     struct sample here = sample_at(g, at);
     struct sum sum = { 0, 0, 0, 0 };
     int32_t taps = g->taps | 1;         /* one of them is the pixel itself */
-    sum_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1), g->settings->linear);
+    sum_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1),
+            g->settings->linear);
     for (int32_t i = 0; i < taps; i++) {
         if (2 * i == taps - 1)
             continue;
@@ -151,14 +155,15 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
         int32_t d = abs_i32(t) * length >> 12;
         int32_t front = 256 - farther(g, &tap, &here, 20), back = 256 - farther(g, &here, &tap, 20);
         int32_t weight = (front * cone(d, max_i32(tap.speed, 128)) + back * cone(d, max_i32(here.speed, 128))
-                          + 2 * cylinder(d, max_i32(tap.speed, 128)) * cylinder(d, max_i32(here.speed, 128))) >> 8;
+                          + 2 * cylinder(d, max_i32(tap.speed, 128)) * cylinder(d, max_i32(here.speed, 128)))
+                      >> 8;
         sum_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
     }
     return sum_pixel(&sum, g->settings->linear);
 }
 
-/* The second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity to that
- * velocity, as the pixel gets faster than 1/2 px. */
+/* The second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity
+ * to that velocity, as the pixel gets faster than 1/2 px. */
 static struct vector second_direction(const struct sample *here, struct vector top, int32_t length)
 {
     struct vector side = { -top.y, top.x };
@@ -171,8 +176,8 @@ static struct vector second_direction(const struct sample *here, struct vector t
     return (struct vector){ mixed.x * length / mixed_length, mixed.y * length / mixed_length };
 }
 
-static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x, int32_t y, struct vector top,
-                               int32_t length, int32_t noise)
+static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x, int32_t y,
+                               struct vector top, int32_t length, int32_t noise)
 {
     struct sample here = sample_at(g, at);
     struct vector second = second_direction(&here, top, length);
@@ -181,7 +186,8 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
     own_alike[0] = alike(top, length, second, length);
     sum_add(&sum, g->w->color[at], (uint32_t)max_i32(g->taps * 65536 / (40 * speed), 1), g->settings->linear);
     for (int32_t i = 0; i < g->taps; i++) {
-        int32_t t = ((i + 1) * 8192 + (noise * 243 >> 10)) / (g->taps + 1) - 4096;     /* 0.95 of a tap to either side */
+        /* 0.95 of a tap to either side */
+        int32_t t = ((i + 1) * 8192 + (noise * 243 >> 10)) / (g->taps + 1) - 4096;
         struct vector d = i & 1 ? second : top;
         struct sample tap = sample_along(g, x, y, d, t);
         int32_t distance = abs_i32(t) * length >> 12, tap_speed = max_i32(tap.speed, 128);
@@ -189,24 +195,28 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
         int32_t tap_alike = alike(d, length, tap.v, tap.speed), here_alike = own_alike[i & 1];
         int32_t weight = ((front * cone(distance, tap_speed) >> 8) * tap_alike
                           + (back * cone(distance, speed) >> 8) * here_alike
-                          + 2 * cylinder(distance, min_i32(tap_speed, speed)) * max_i32(tap_alike, here_alike)) >> 8;
+                          + 2 * cylinder(distance, min_i32(tap_speed, speed))
+                                * max_i32(tap_alike, here_alike))
+                      >> 8;
         sum_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
     }
     return sum_pixel(&sum, g->settings->linear);
 }
 
 /* How much a tap counts by its depth and its smear or the pixel's, q8. */
-static int32_t jimenez_weight(const struct gathering *g, const struct sample *here, const struct sample *tap, int32_t d)
+static int32_t jimenez_weight(const struct gathering *g, const struct sample *here, const struct sample *tap,
+                              int32_t d)
 {
     int32_t beyond = max_i32(d - 256, 0);
     /* 1/2 where depths are equal; a twentieth of the distance decides. */
     int32_t behind = clamp_i32(128 + (farther(g, tap, here, 20) - farther(g, here, tap, 20)) / 2, 0, 256);
-    int32_t of_tap = clamp_i32(tap->speed - beyond, 0, 256), of_here = clamp_i32(here->speed - beyond, 0, 256);
+    int32_t of_tap = clamp_i32(tap->speed - beyond, 0, 256),
+            of_here = clamp_i32(here->speed - beyond, 0, 256);
     return ((256 - behind) * of_tap + behind * of_here) >> 8;
 }
 
-static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x, int32_t y, struct vector top,
-                               int32_t length, int32_t noise)
+static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x, int32_t y,
+                               struct vector top, int32_t length, int32_t noise)
 {
     struct sample here = sample_at(g, at);
     struct sum sum = { 0, 0, 0, 0 };
@@ -215,7 +225,8 @@ static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x
         int32_t t = ((2 * i + 1) * 2048 + (noise >> 4)) / pairs;
         struct sample one = sample_along(g, x, y, top, t), other = sample_along(g, x, y, top, -t);
         int32_t d = t * length >> 12;
-        int32_t one_weight = jimenez_weight(g, &here, &one, d), other_weight = jimenez_weight(g, &here, &other, d);
+        int32_t one_weight = jimenez_weight(g, &here, &one, d),
+                other_weight = jimenez_weight(g, &here, &other, d);
         /* Behind a moving silhouette, what the one side hides is told by the other. */
         bool is_behind = one.units < other.units, is_slower = other.speed > one.speed;
         int32_t first = is_behind && is_slower ? other_weight : one_weight;
@@ -230,8 +241,8 @@ static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x
     return sum_pixel(&sum, g->settings->linear);
 }
 
-uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
-                            int32_t column, const struct smear_blur_settings *settings)
+uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
+                            int32_t row, int32_t column, const struct smear_blur_settings *settings)
 {
     struct gathering g = { .w = w, .row = rows->offset, .settings = settings,
                            .taps = clamp_i32(settings->samples, 2, 64) };
@@ -244,7 +255,8 @@ uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const s
         uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
         for (int32_t x = x0; x < x1; x++, at++) {
             uint32_t inner = (uint32_t)x * NOISE_X + (uint32_t)y * NOISE_Y;
-            const struct smear_tile_neighborhood *around = tile_looked_up(w, row, column, x - x0, y - tile_top, inner);
+            const struct smear_tile_neighborhood *around = tile_looked_up(w, row, column, x - x0,
+                                                                          y - tile_top, inner);
             struct vector top = { around->x, around->y };
             int32_t length = length_of(top);
             if (length <= 128) {                                /* 1/2 px */

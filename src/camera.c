@@ -15,8 +15,8 @@ struct kept {
     int32_t x, y, wide_x, wide_y;
 };
 
-static struct kept velocity_of(const struct smear_reprojection *r, const struct smear_camera_store *store, int32_t x2,
-                               int32_t y2, uint32_t code)
+static struct kept velocity_of(const struct smear_reprojection *r, const struct smear_camera_store *store,
+                               int32_t x2, int32_t y2, uint32_t code)
 {
     int32_t displacement[2], stored[2];
     smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
@@ -29,7 +29,8 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
     return k;
 }
 
-static inline void keep(const struct smear_window *w, const struct smear_camera_store *store, int32_t at, struct kept k)
+static inline void keep(const struct smear_window *w, const struct smear_camera_store *store, int32_t at,
+                        struct kept k)
 {
     if (w->velocity8 != NULL) {
         w->velocity8[2 * at] = (int8_t)k.x;
@@ -61,8 +62,8 @@ static void fill_row(const struct smear_window *w, const struct smear_reprojecti
 
 /* Pixels of a block, which has `at` for the first of its rows. */
 static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
-                       const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y, int32_t columns,
-                       int32_t rows)
+                       const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
+                       int32_t columns, int32_t rows)
 {
     int32_t nearest = -1;
     for (int32_t j = 0; j < rows; j++)
@@ -90,8 +91,8 @@ static void fill_block(const struct smear_window *w, const struct smear_reprojec
 }
 
 void smear_camera_velocity(const struct smear_window *w, const struct smear_reprojection *r,
-                           const struct smear_camera_store *store, int32_t step, int32_t x0, int32_t x1, int32_t y0,
-                           int32_t y1)
+                           const struct smear_camera_store *store, int32_t step, int32_t x0, int32_t x1,
+                           int32_t y0, int32_t y1)
 {
     for (int32_t y = y0; y < y1; y += step) {
         int32_t at[4], rows = min_i32(step, y1 - y);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* context.h - all state of a context. Only smear.c (the public functions) and frame.c (the order of stages) see it;
- * stages get the plain structs they work on. */
+/* context.h - all state of a context. Only smear.c (the public functions) and frame.c (the order of stages)
+ * see it; stages get the plain structs they work on. */
 #ifndef SMEAR_CONTEXT_H
 #define SMEAR_CONTEXT_H
 
@@ -62,7 +62,8 @@ struct smear_filtering {
     struct smear_reprojection reprojection;             /* where raster.velocity_from_depth */
     struct smear_pass pass[PINGPONG_PASSES_MAX];
     int passes;
-    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
+    uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves:
+                                                         * planes like the window's */
     int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */
 };
 
@@ -82,7 +83,8 @@ struct smear_context {
     struct smear_kept_pose *kept;
     struct smear_raster_draw *raster_draw;
     uint32_t draw_count;
-    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];   /* poses of the draw at hand that are not the application's: now, open, close */
+    /* poses of the draw at hand that are not the application's: now, open, close */
+    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];
 
     /* stages */
     struct smear_geometry geometry;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* convert.c - rounding and dither to the display's formats.
  *
- * Undithered levels are the nearest: 5 bits (249 c + 1014) >> 11, 6 bits (253 c + 505) >> 10, both exact for every
- * code. Dithered levels are floor(c levels / 255 + threshold): white stays white and black black. */
+ * Undithered levels are the nearest: 5 bits (249 c + 1014) >> 11, 6 bits (253 c + 505) >> 10, both exact for
+ * every code. Dithered levels are floor(c levels / 255 + threshold): white stays white and black black. */
 #include "convert.h"
 
 #include "pixel.h"
@@ -10,8 +10,8 @@
 bool smear_convert_has(int format, int dither)
 {
     static const bool has[] = {
-        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332, SMEAR_WITH_L8,
-        SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
+        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332,
+        SMEAR_WITH_L8, SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
     };
     if (format > SMEAR_L1_PAGES || dither > SMEAR_DITHER_BLUE || !has[format])
         return false;
@@ -44,13 +44,18 @@ uint32_t smear_convert_size(int32_t width, int32_t rows, smear_format format)
 /* 0 .. 255 in steps of 1/256 of a level. */
 static inline uint32_t threshold_at(int32_t x, int32_t y, smear_dither dither)
 {
-    return !SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
-                                          : smear_dither_blue[(y & 31) << 5 | (x & 31)];
+    return !SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED
+             ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
+             : smear_dither_blue[(y & 31) << 5 | (x & 31)];
 }
 
-static inline bool is_dithered(smear_dither dither) { return SMEAR_WITH_DITHER && dither != SMEAR_DITHER_NONE; }
+static inline bool is_dithered(smear_dither dither)
+{
+    return SMEAR_WITH_DITHER && dither != SMEAR_DITHER_NONE;
+}
 
-/* floor(c levels / 255 + t / 256): c 257 / 65536 is c / 255 for all that matters here, and exactly 1 at 255. */
+/* floor(c levels / 255 + t / 256): c 257 / 65536 is c / 255 for
+ * all that matters here, and exactly 1 at 255. */
 static inline uint32_t level_dithered(uint32_t code, uint32_t levels, uint32_t t)
 {
     return (code * 257u * levels + (code >> 7) * levels + (t << 8)) >> 16;
@@ -73,7 +78,8 @@ static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, ui
     const uint32_t code[3] = { pixel_red(p), pixel_green(p), pixel_blue(p) };
     uint32_t t = is_dithered(dither) ? threshold_at(x, y, dither) : 0;
     for (int i = 0; i < 3; i++)
-        out[i] = is_dithered(dither) ? level_dithered(code[i], levels[i], t) : level_nearest(code[i], levels[i]);
+        out[i] = is_dithered(dither) ? level_dithered(code[i], levels[i], t)
+                                     : level_nearest(code[i], levels[i]);
 }
 
 static inline uint32_t rgb565_bytes(uint32_t p, bool swapped)
@@ -110,7 +116,8 @@ static inline void store_pair(uint16_t *out, uint32_t pair)
     __builtin_memcpy(__builtin_assume_aligned(out, 4), &pair, 4);
 }
 
-/* Flat areas are long: pairs of pixels that stay as they were cost a comparison. Rows are aligned to a pixel. */
+/* Flat areas are long: pairs of pixels that stay as they were cost
+ * a comparison. Rows are aligned to a pixel. */
 SMEAR_INLINE void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
 {
     if (((uintptr_t)out & 2u) != 0 && n > 0) {
@@ -173,10 +180,10 @@ static inline uint32_t level_q16(uint32_t code, uint32_t levels)
     return code * (257u * levels) + (code >> 7) * levels;
 }
 
-/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Runs of one colour: only
- * thresholds differ then. */
-static void dither_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither, bool is_555,
-                         bool swapped)
+/* Blue over green over red of 5 bits each (`is_555`), or red over green over blue of 5, 6, 5. Runs
+ * of one colour: only thresholds differ then. */
+static void dither_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
+                         smear_dither dither, bool is_555, bool swapped)
 {
     int32_t mask;
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
@@ -189,14 +196,15 @@ static void dither_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x
             low = level_q16(is_555 ? pixel_red(last) : pixel_blue(last), 31);
         }
         uint32_t t = (uint32_t)threshold[x++ & mask] << 8;
-        uint32_t packed = ((high + t) >> 16) << (is_555 ? 10 : 11) | ((green + t) >> 11 & 0x7e0u) | (low + t) >> 16;
+        uint32_t packed = ((high + t) >> 16) << (is_555 ? 10 : 11) | ((green + t) >> 11 & 0x7e0u)
+                        | (low + t) >> 16;
         *out++ = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
     }
 }
 
 #ifndef __OPTIMIZE_SIZE__
-/* Ordered thresholds are 4 k + 2, of 256: six bits of a level's fraction are enough, and level and fraction of two channels
- * fit into a word, where one sum adds k to both. A column's step is k at both places. */
+/* Ordered thresholds are 4 k + 2, of 256: six bits of a level's fraction are enough, and level and fraction
+ * of two channels fit into a word, where one sum adds k to both. A column's step is k at both places. */
 enum { ORDERED_HIGH = 20, ORDERED_LOW = 9, ORDERED_LEVEL = ORDERED_LOW + 6, ORDERED_WIDTH = 8 };
 
 /* The step of a pixel's column: steps lie by where pixels lie. */
@@ -205,9 +213,10 @@ static inline uint32_t step_of(const uint32_t step[ORDERED_WIDTH], const uint32_
     return step[(uintptr_t)pixel / 4u % ORDERED_WIDTH];
 }
 
-/* Pixels [in, end). c levels / 255 in q8 is c levels + ((c + (c >> 7)) levels >> 8), as level_dithered() has it. */
-SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step, bool is_555,
-                                bool swapped)
+/* Pixels [in, end). c levels / 255 in q8 is c levels + ((c + (c >> 7))
+ * levels >> 8), as level_dithered() has it. */
+SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step,
+                                bool is_555, bool swapped)
 {
     uint32_t last = in < end ? ~*in : 0, red_blue = 0, green = 0;
     for (; in < end; in++) {
@@ -231,17 +240,20 @@ SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_
 
 typedef void ordered_fn(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step);
 
-static SMEAR_NOINLINE void ordered_555(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+static SMEAR_NOINLINE void ordered_555(uint16_t *out, const uint32_t *in, const uint32_t *end,
+                                       const uint32_t *step)
 {
     ordered_16bit(out, in, end, step, true, __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
 }
 
-static SMEAR_NOINLINE void ordered_565(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+static SMEAR_NOINLINE void ordered_565(uint16_t *out, const uint32_t *in, const uint32_t *end,
+                                       const uint32_t *step)
 {
     ordered_16bit(out, in, end, step, false, __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
 }
 
-static SMEAR_NOINLINE void ordered_565_swapped(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step)
+static SMEAR_NOINLINE void ordered_565_swapped(uint16_t *out, const uint32_t *in, const uint32_t *end,
+                                               const uint32_t *step)
 {
     ordered_16bit(out, in, end, step, false, __BYTE_ORDER__ != __ORDER_BIG_ENDIAN__);
 }
@@ -262,16 +274,18 @@ static inline void copy_block(uint16_t *out, const uint16_t *from)
     to[3] = words[3];
 }
 
-/* Neighbours often are of one colour: a flat block of columns looks like the last of its colour in this row. Rows are
- * aligned to a pixel. */
-static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, ordered_fn *fn)
+/* Neighbours often are of one colour: a flat block of columns looks like the last of its
+ * colour in this row. Rows are aligned to a pixel. */
+static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
+                                       ordered_fn *fn)
 {
     uint32_t step[ORDERED_WIDTH];
     const uint8_t *threshold = smear_dither_ordered + ((y & 7) << 3);
     const int32_t head = -x & (ORDERED_WIDTH - 1);
     const uint32_t phase = (uint32_t)((uintptr_t)(in + head) / 4u);
     for (uint32_t i = 0; i < ORDERED_WIDTH; i++)
-        step[(phase + i) % ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2) * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
+        step[(phase + i) % ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2)
+                                          * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
     const uint32_t *rest = in, *end = in + n;       /* from `rest` on nothing is done */
     if (((uintptr_t)(out + head) & 3u) == 0) {
         const uint16_t *kept = out;
@@ -297,11 +311,13 @@ static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_
 static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
-    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, swapped = (format == SMEAR_RGB565_SWAPPED) != big;
+    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__,
+               swapped = (format == SMEAR_RGB565_SWAPPED) != big;
     const bool is_555 = SMEAR_WITH_RGB555 && format == SMEAR_RGB555;
     if (!is_dithered(dither)) {
         for (int32_t i = 0; SMEAR_WITH_RGB555 && i < n; i++) {
-            uint32_t p = in[i], packed = level_nearest(pixel_blue(p), 31) << 10 | level_nearest(pixel_green(p), 31) << 5
+            uint32_t p = in[i], packed = level_nearest(pixel_blue(p), 31) << 10
+                                       | level_nearest(pixel_green(p), 31) << 5
                                        | level_nearest(pixel_red(p), 31);
             out[i] = (uint16_t)(swapped ? packed >> 8 | packed << 8 : packed);
         }
@@ -309,8 +325,10 @@ static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, i
     }
 #ifndef __OPTIMIZE_SIZE__
     if (!SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED) {
-        row_ordered(out, in, n, x, y, is_555 ? ordered_555
-                    : SMEAR_WITH_RGB565 && format == SMEAR_RGB565_SWAPPED ? ordered_565_swapped : ordered_565);
+        row_ordered(out, in, n, x, y,
+                    is_555                                                ? ordered_555
+                    : SMEAR_WITH_RGB565 && format == SMEAR_RGB565_SWAPPED ? ordered_565_swapped
+                                                                          : ordered_565);
         return;
     }
 #endif
@@ -378,7 +396,8 @@ static void row_l1(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32
     }
 }
 
-static void row_page(uint8_t *page, const uint32_t *in, int32_t n, int32_t x, int32_t y, int bit, smear_dither dither)
+static void row_page(uint8_t *page, const uint32_t *in, int32_t n, int32_t x, int32_t y, int bit,
+                     smear_dither dither)
 {
     for (int32_t i = 0; i < n; i++)
         if (grey_level(in[i], x + i, y, 1, dither) != 0)
@@ -391,9 +410,11 @@ void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
     if (SMEAR_WITH_XRGB8888 && format == SMEAR_XRGB8888)
         row_xrgb8888((uint32_t *)(void *)row + x, in, n);
-    else if (SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED) && !is_dithered(dither))
+    else if (SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED)
+             && !is_dithered(dither))
         row_rgb565_any((uint16_t *)(void *)row + x, in, n, format == SMEAR_RGB565_SWAPPED);
-    else if ((SMEAR_WITH_RGB565 && SMEAR_WITH_DITHER && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
+    else if ((SMEAR_WITH_RGB565 && SMEAR_WITH_DITHER
+              && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
              || (SMEAR_WITH_RGB555 && format == SMEAR_RGB555))
         row_16bit((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
     else if (SMEAR_WITH_RGB332 && format == SMEAR_RGB332)

@@ -16,9 +16,9 @@ uint32_t smear_convert_stride(int32_t width, smear_format format);
 /* Bytes of `rows` pixel rows. */
 uint32_t smear_convert_size(int32_t width, int32_t rows, smear_format format);
 
-/* Writes n pixels that start at (x, y) of the frame into `band`, whose first row is y0. Formats of less than a
- * byte per pixel need x (SMEAR_L1_PAGES: y0) on a multiple of 8. Rows of a page are added: the band starts at
- * zero. */
+/* Writes n pixels that start at (x, y) of the frame into `band`, whose first row is y0.
+ * Formats of less than a byte per pixel need x (SMEAR_L1_PAGES: y0) on a multiple of 8. Rows
+ * of a page are added: the band starts at zero. */
 void smear_convert_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                        int32_t y0, smear_format format, smear_dither dither);
 

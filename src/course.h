@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* course.h - texture coordinates along a row: polynomials, or exact where blocks of pixels meet and chords or parabolas between
- * (setup.h). */
+/* course.h - texture coordinates along a row: polynomials, or exact where blocks of pixels meet
+ * and chords or parabolas between (setup.h). */
 #ifndef SMEAR_COURSE_H
 #define SMEAR_COURSE_H
 
@@ -35,15 +35,16 @@ struct place {
 };
 
 /* Coordinates from planes. Slivers, whose planes are anything, give anything: it wraps. */
-SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_mode mode, const struct smear_sampler *m,
-                                   int32_t q, int32_t u, int32_t v, bool turns)
+SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_mode mode,
+                                   const struct smear_sampler *m, int32_t q, int32_t u, int32_t v, bool turns)
 {
     struct place p = { u, v, 0 };
     if (mode == TEXTURE_DIVIDED) {
         uint32_t d = (uint32_t)max_i32(q, 1 << 11);
         int zeros = count_leading_zeros(d);                     /* at least 1 */
         int32_t r = (int32_t)recip_norm(d << zeros);            /* 1/q = r 2^(zeros - 61) */
-        /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2) fits; its quotient is the ratio in q27. */
+        /* |U| <= q (and a step more by rounding), so U 2^(zeros - 2)
+         * fits; its quotient is the ratio in q27. */
         p.u = mulh_i32(shl_wrap(u >> 1, zeros - 1), r);
         p.v = mulh_i32(shl_wrap(v >> 1, zeros - 1), r);
         if (!turns) {
@@ -63,10 +64,10 @@ struct course {
 
 /* From one place to another n pixels further on.
  *
- * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start to its end
- * has steps from d + b (n - 1) on, each 2 b less. */
-SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct place from, struct place to, int32_t n,
-                                          bool turns)
+ * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start
+ * to its end has steps from d + b (n - 1) on, each 2 b less. */
+SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct place from, struct place to,
+                                          int32_t n, bool turns)
 {
     const int up = t->up;
     struct course c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
@@ -90,7 +91,8 @@ SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct 
 }
 
 /* Where polynomials hold: from pixel (x, y) on. */
-static inline struct course course_curved(const struct texture_setup *t, const struct smear_sampler *m, int32_t x, int32_t y)
+static inline struct course course_curved(const struct texture_setup *t, const struct smear_sampler *m,
+                                          int32_t x, int32_t y)
 {
     uint32_t word[2][3];
     x -= t->x0;
@@ -99,8 +101,8 @@ static inline struct course course_curved(const struct texture_setup *t, const s
         const struct curve *c = &t->curve[i];
         int32_t dx = add_wrap(c->dx, mul_wrap(c->dxy, y)), along = mul_wrap(c->dxx, x);
         int32_t at = add_wrap(c->at, mul_wrap(add_wrap(c->dy, mul_wrap(c->dyy, y)), y));
-        int32_t value[3] = { add_wrap(at, mul_wrap(add_wrap(dx, along), x)), add_wrap(dx, mul_wrap(c->dxx, 2 * x + 1)),
-                             mul_wrap(c->dxx, -2) };
+        int32_t value[3] = { add_wrap(at, mul_wrap(add_wrap(dx, along), x)),
+                             add_wrap(dx, mul_wrap(c->dxx, 2 * x + 1)), mul_wrap(c->dxx, -2) };
         for (int k = 0; k < 3; k++)
             word[i][k] = (uint32_t)(t->turns ? value[k] : smear_sampler_texel(m, i, value[k]));
     }
@@ -109,7 +111,8 @@ static inline struct course course_curved(const struct texture_setup *t, const s
 
 SMEAR_INLINE struct smear_texture_run course_packed(struct course c)
 {
-    return (struct smear_texture_run){ packed_uv(c.u, c.v), packed_step(c.du, c.dv), 0u - packed_step(c.bend_u, c.bend_v) };
+    return (struct smear_texture_run){ packed_uv(c.u, c.v), packed_step(c.du, c.dv),
+                                       0u - packed_step(c.bend_u, c.bend_v) };
 }
 
 /* Where the block begins in which pixel a is drawn, of a span from `left` to `last`. */
@@ -118,7 +121,8 @@ static inline int32_t block_start(int32_t left, int32_t last, int32_t a, int32_t
     return left + (max_i32(min_i32(a, last - 1) - left, 0) & -block);
 }
 
-/* In blocks of so many pixels: of a span that is short, single ones, which cost less but where polynomials hold. */
+/* In blocks of so many pixels: of a span that is short, single ones,
+ * which cost less but where polynomials hold. */
 static inline int32_t block_of(const struct texture_setup *t, int32_t left, int32_t right)
 {
     return right - left <= SHORT_SPAN && t->mode != TEXTURE_CURVED ? 1 : t->block;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fixmath.h - reciprocals, lengths and roots in fixed point. Errors are stated and tested (test_fixmath.c). */
+/* fixmath.h - reciprocals, lengths and roots in fixed point.
+ * Errors are stated and tested (test_fixmath.c). */
 #ifndef SMEAR_FIXMATH_H
 #define SMEAR_FIXMATH_H
 
@@ -60,8 +61,9 @@ SMEAR_SHARED int count_leading_zeros_64(uint64_t x)
 
 /* 2^61 / m for a normalised m in [2^31, 2^32); result in [2^29, 2^30]. Relative error below 2^-18.
  *
- * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton step r (1 - e) squares
- * the error. All products fit 32 bits: m is cut to 21 bits, r has 11, and r x (e >> 4) stays below 2^30. */
+ * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton
+ * step r (1 - e) squares the error. All products fit 32 bits: m is cut to 21 bits, r
+ * has 11, and r x (e >> 4) stays below 2^30. */
 SMEAR_SHARED uint32_t recip_norm(uint32_t m)
 {
     uint32_t r = smear_recip_seed[m >> 22 & 511u];
@@ -77,7 +79,8 @@ SMEAR_SHARED uint32_t recip_norm_precise(uint32_t m)
     return (uint32_t)((int32_t)r + ((int32_t)(r >> 12) * error >> 17));
 }
 
-/* a b / c with c > 0 as a ratio in [0, 1]: a <= c. Used where few vertices are made (clipping). Result q30. */
+/* a b / c with c > 0 as a ratio in [0, 1]: a <= c. Used where
+ * few vertices are made (clipping). Result q30. */
 SMEAR_SHARED int32_t ratio_q30(int64_t a, int64_t c)
 {
     SMEAR_ASSERT(a >= 0 && c > 0 && a <= c);
@@ -109,8 +112,8 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 #else
 /* floor(sqrt(x)), exact.
  *
- * Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22 and less than
- * what the quotients lack. What is left are a few steps of x's own root. */
+ * Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22
+ * and less than what the quotients lack. What is left are a few steps of x's own root. */
 SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 {
     if (x == 0)

@@ -87,12 +87,14 @@ struct draw_poses {
 };
 
 /* The layer of a draw, if it has a camera of its own. */
-static const struct smear_layer_setting *layer_with_camera(const struct smear_context *c, const struct smear_submitted *s)
+static const struct smear_layer_setting *layer_with_camera(const struct smear_context *c,
+                                                           const struct smear_submitted *s)
 {
     if (!has_layers(c))
         return NULL;
     uint32_t layer = c->layers->layer_of[s - c->submitted];
-    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? &c->layers->setting[layer] : NULL;
+    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? &c->layers->setting[layer]
+                                                                           : NULL;
 }
 
 static uint32_t magnitude_of(int32_t a)
@@ -135,7 +137,8 @@ static void turn_billboard(struct draw_poses *p, smear_transform made_poses[3], 
             turn[i] = camera[i];
         if (upright) {
             /* The camera's x axis, without its y. Looking straight up or down it stays as long. */
-            uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
+            uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0]
+                                                       + (int64_t)camera[6] * camera[6]));
             int32_t x = 1 << 24, z = 0;
             if (length > 1u << 16) {
                 x = ratio_q30((int64_t)min_u32(magnitude_of(camera[0]), length), length) >> 6;
@@ -214,12 +217,13 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
 
 static bool pose_differs(const struct draw_poses *p, int i)
 {
-    return (SMEAR_WITH_DEFORM && p->position[i] != p->position[0]) || !same_transform(p->object[i], p->object[0])
-        || !same_camera(p->camera[i], p->camera[0]);
+    return (SMEAR_WITH_DEFORM && p->position[i] != p->position[0])
+        || !same_transform(p->object[i], p->object[0]) || !same_camera(p->camera[i], p->camera[0]);
 }
 
 /* Where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
-static void classify_draw(struct smear_context *c, const struct smear_submitted *s, struct smear_raster_draw *r)
+static void classify_draw(struct smear_context *c, const struct smear_submitted *s,
+                          struct smear_raster_draw *r)
 {
     struct draw_poses p;
     poses_of(c, s, &p);
@@ -230,7 +234,8 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         for (int i = 1; i < 3; i++) {
             bool deforms = p.position[i] != p.position[0];
             own = own || deforms || !same_transform(p.object[i], p.object[0]);
-            attached = attached && !deforms && smear_is_attached(p.object[i], p.camera[i], p.object[0], p.camera[0]);
+            attached = attached && !deforms
+                    && smear_is_attached(p.object[i], p.camera[i], p.object[0], p.camera[0]);
         }
         r->fixed = s->draw.motion == SMEAR_MOTION_NONE || (own && attached);
         r->moves = own && !attached;
@@ -295,7 +300,8 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
 }
 
 /* A pose between which velocity is measured. */
-static void add_pose(struct smear_assembly *a, const struct smear_context *c, const struct draw_poses *p, int k)
+static void add_pose(struct smear_assembly *a, const struct smear_context *c, const struct draw_poses *p,
+                     int k)
 {
     const int i = a->moves++;
     project_pose(&a->pose[i], c, p, k, a->mesh);
@@ -342,8 +348,8 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     a->fixed = c->raster_draw[i].fixed;
     if (!SMEAR_WITH_RECONSTRUCT || !c->assembler.keep_motion || !c->raster_draw[i].moves)
         return;
-    /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
-     * itself, one further pose is enough. */
+    /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the
+     * later pose itself, one further pose is enough. */
     add_pose(a, c, &poses, 1);
     if (c->frame.shutter_poses || instant->weight[0] != 1 << 24)
         add_pose(a, c, &poses, c->frame.shutter_poses ? 2 : 0);
@@ -352,8 +358,8 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
 /* ------------------------------------------------------------------ assembling */
 
 /* Assembles all draws for the tile rows [first, end). False when the store is full. */
-static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct instant *instant,
-                          bool drop)
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
+                                         const struct instant *instant, bool drop)
 {
     smear_geometry_reset(&c->geometry, first, end);
     smear_assembler_reset(&c->assembler);
@@ -364,9 +370,11 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
                                         ? &c->layers->group[c->layers->group_of[i]] : NULL;
         if (has_layers(c))
             c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
-        make_assembly(c, i, has_layers(c) && (group == NULL || group->method == SMEAR_NONE) ? &sharp_instant : instant, &a);
+        const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
+        make_assembly(c, i, is_sharp ? &sharp_instant : instant, &a);
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
-            : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop) : smear_assemble(&c->assembler, &a, drop)))
+                          : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop)
+                                                             : smear_assemble(&c->assembler, &a, drop)))
             return false;
     }
     return true;
@@ -382,10 +390,11 @@ static void cache_free_pool(struct smear_context *c)
     c->cache = smear_raster_cache_make(g->pool + first, bytes, c->jobs.workers);
 }
 
-/* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included for what is
- * finished a row late: from *top on, at most from `least` on where room is short. When that is too much, triangles are
- * dropped and counted. */
-static int assemble_part(struct smear_context *c, int *top, int least, int first, int end, const struct instant *instant)
+/* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included
+ * for what is finished a row late: from *top on, at most from `least` on where room is short. When that
+ * is too much, triangles are dropped and counted. */
+static int assemble_part(struct smear_context *c, int *top, int least, int first, int end,
+                         const struct instant *instant)
 {
     uint32_t start = stage_start(c);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
@@ -432,8 +441,8 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
     }
 }
 
-/* Sharp frames straight into the band: neither working pixels nor a conversion. A row's place in the band is its place
- * in the window, which has no more rows. */
+/* Sharp frames straight into the band: neither working pixels nor a conversion. A row's place in the band is
+ * its place in the window, which has no more rows. */
 static void direct_job(void *argument, int job, int worker)
 {
     const struct row_job *r = (const struct row_job *)argument;
@@ -490,9 +499,10 @@ static void raster_job(void *argument, int job, int worker)
     smear_raster_list(&c->raster, &t, c->opaque);
     if (!SMEAR_WITH_FILTERS || !c->raster.velocity_from_depth)
         return;
-    const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale, c->raster.reach_q3,
-                                              c->inspect };
-    smear_camera_velocity(w, &c->filtering->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0, t.y1);
+    const struct smear_camera_store store = { c->raster.velocity_scale, c->raster.inspect_scale,
+                                              c->raster.reach_q3, c->inspect };
+    smear_camera_velocity(w, &c->filtering->reprojection, &store, c->frame.camera_step, t.x0, t.x1, t.y0,
+                          t.y1);
 }
 
 /* Blended draws straight over the window's rows: where no filter will read them. */
@@ -551,8 +561,8 @@ static void convert_job(void *argument, int job, int worker)
     smear_band_convert_window(r, x0, x1);
 }
 
-/* The tile row's next band, after job->y1; false when there is none. A windowed context may have bands of fewer rows than
- * a tile. */
+/* The tile row's next band, after job->y1; false when there is none. A windowed
+ * context may have bands of fewer rows than a tile. */
 static bool next_band(struct row_job *job)
 {
     struct smear_context *c = job->c;
@@ -628,7 +638,8 @@ static bool is_still(const struct smear_window *w, int row, int column)
     return window_around(w, row)[column].kind == TILE_STILL;
 }
 
-/* Still tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
+/* Still tiles go to the display as they lie in the window, a run of
+ * them at once: the job of the run's first tile. */
 static void convert_still(const struct row_job *r, int column)
 {
     const struct smear_window *w = r->c->filtered;
@@ -646,8 +657,10 @@ static const uint32_t *pass_input(const struct smear_context *c, int pass)
     return pass == 0 ? c->filtered->color : c->filtering->pass_plane[pass - 1];
 }
 
-/* The filter, over rows [y0, y1) of a tile of the window it reads; rows of `tile` are that window's tile apart. */
-static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int32_t y0, int32_t y1, int worker)
+/* The filter, over rows [y0, y1) of a tile of the window it reads;
+ * rows of `tile` are that window's tile apart. */
+static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int column, int32_t y0, int32_t y1,
+                        int worker)
 {
     const struct smear_window *w = c->filtered;
     struct smear_row_table rows = row_table(c, row, y0, y1);
@@ -656,8 +669,9 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
     if (kind == TILE_STILL)
         smear_blur_copy(tile, w, &rows, column);
     else if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG)
-        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows, &c->filtering->pass[c->filtering->passes - 1], row,
-                                      column, y0, y1, &c->blur);
+        samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows,
+                                      &c->filtering->pass[c->filtering->passes - 1], row, column, y0, y1,
+                                      &c->blur);
     else if ((SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_MEAN)
              || (kind == TILE_UNIFORM && (c->frame.reconstruct & SMEAR_UNIFORM)))
         samples = smear_blur_uniform(tile, w, &rows, row, column, &c->blur);
@@ -707,8 +721,10 @@ static void pass_tile_job(void *argument, int column, int worker)
     const struct pass_job *r = (const struct pass_job *)argument;
     struct smear_context *c = r->c;
     struct smear_row_table rows = row_table(c, r->row, r->y0, r->y1);
-    c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0, pass_input(c, r->pass), c->filtered, &rows,
-                                                     &c->filtering->pass[r->pass], r->row, column, r->y0, r->y1, &c->blur);
+    c->worker_samples[worker] += smear_pingpong_pass(c->filtering->pass_plane[r->pass], 0,
+                                                     pass_input(c, r->pass), c->filtered, &rows,
+                                                     &c->filtering->pass[r->pass], r->row, column, r->y0,
+                                                     r->y1, &c->blur);
 }
 
 /* Offsets of the rows that a blur of tile row `row` may read; those below row `end` stand for row end - 1. */
@@ -720,8 +736,8 @@ static void fill_row_table(struct smear_context *c, int row, int32_t end)
         c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, end - 1)) * w->width);
 }
 
-/* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays as far
- * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
+/* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays
+ * as far behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
 static int32_t run_passes(struct smear_context *c, int known)
 {
     int32_t end = filtered_bottom(c, known);
@@ -746,9 +762,11 @@ static int32_t run_passes(struct smear_context *c, int known)
 static uint32_t *count_of(struct smear_context *c)
 {
     smear_stats *s = &c->stats;
-    return !SMEAR_WITH_FILTERS ? &s->tiles_reconstruct
-         : c->frame.method == SMEAR_CAMERA ? &s->tiles_camera : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
-         : c->frame.method == SMEAR_HALF ? &s->tiles_half : &s->tiles_reconstruct;
+    return !SMEAR_WITH_FILTERS               ? &s->tiles_reconstruct
+         : c->frame.method == SMEAR_CAMERA   ? &s->tiles_camera
+         : c->frame.method == SMEAR_PINGPONG ? &s->tiles_pingpong
+         : c->frame.method == SMEAR_HALF     ? &s->tiles_half
+                                             : &s->tiles_reconstruct;
 }
 
 static void count_tiles(struct smear_context *c, int row)
@@ -803,7 +821,8 @@ static struct instant middle_of(const struct smear_context *c)
     return c->frame.shutter_poses ? sharp_instant : instant_at(c, 0);
 }
 
-/* Part after part: assembled at an instant, its tile rows [first, end) then drawn, finished and handed out. */
+/* Part after part: assembled at an instant, its tile rows
+ * [first, end) then drawn, finished and handed out. */
 typedef int rows_fn(struct smear_context *c, int first, int end);
 
 static int render_parts(struct smear_context *c, const struct instant *instant, rows_fn *rows)
@@ -839,8 +858,8 @@ static int sharp_rows(struct smear_context *c, int first, int end)
  *      drawn      drawn      drawn       colour, depth, velocity: the blur only reads them
  *                 blurred -> band -> flush
  *
- * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks it). Where it
- * reaches farther, it is finished as many rows later. */
+ * Invariant: a filter reaches at most one tile, and the ring keeps `reach` rows of row - 2 (smear_init checks
+ * it). Where it reaches farther, it is finished as many rows later. */
 static int roll(struct smear_context *c, int row)
 {
     reduce_row(c, row);
@@ -857,10 +876,11 @@ static int render_filter(struct smear_context *c)
 {
     struct instant middle = middle_of(c);
     if (SMEAR_WITH_FILTERS && c->raster.velocity_from_depth)
-        smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close, middle.weight,
-                             c->frame.shutter_poses, c->window.width, c->window.height);
+        smear_reproject_make(&c->filtering->reprojection, &c->camera, &c->camera_open, &c->camera_close,
+                             middle.weight, c->frame.shutter_poses, c->window.width, c->window.height);
     for (int row = 0; row < c->window.rows;) {
-        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0), end = assemble_part(c, &top, top, row, c->window.rows, &middle);
+        int top = max_i32(row - (c->blends ? c->filtered->lag : 0), 0),
+            end = assemble_part(c, &top, top, row, c->window.rows, &middle);
         for (; row < end; row++) {
             draw_row(c, row);
             int result = roll(c, row);
@@ -891,7 +911,8 @@ static void find_layers(struct smear_context *c, const struct instant *middle)
             continue;
         const struct smear_layer_setting *setting = &c->layers->setting[c->layers->layer_of[i]];
         poses_of(c, s, &poses);
-        bool moves = setting->layer.method != SMEAR_NONE && (pose_differs(&poses, 1) || pose_differs(&poses, 2));
+        bool moves = setting->layer.method != SMEAR_NONE
+                  && (pose_differs(&poses, 1) || pose_differs(&poses, 2));
         if (!moves && !setting->has_camera && !setting->layer.over)
             continue;
         place(&key[0], c, &poses, mesh, moves ? &open : &sharp_instant);
@@ -1017,8 +1038,9 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
     c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
-    c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion && c->frame.camera_step != 0 && c->camera_moves
-                                 && !c->frame.cut && c->state != STATE_FILTER
+    c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion
+                                 && c->frame.camera_step != 0 && c->camera_moves && !c->frame.cut
+                                 && c->state != STATE_FILTER
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
@@ -1028,9 +1050,9 @@ static void prepare(struct smear_context *c)
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
 
     c->blur = (struct smear_blur_settings){
-        .linear = linear, .orthographic = SMEAR_WITH_ORTHOGRAPHIC && c->camera.half_height > 0, .samples = c->frame.samples,
-        .dense = c->frame.method == SMEAR_HALF, .flags = c->frame.reconstruct,
-        .weights = c->frame.weights
+        .linear = linear, .orthographic = SMEAR_WITH_ORTHOGRAPHIC && c->camera.half_height > 0,
+        .samples = c->frame.samples, .dense = c->frame.method == SMEAR_HALF,
+        .flags = c->frame.reconstruct, .weights = c->frame.weights
     };
     if (SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_ORTHOGRAPHIC && c->blur.orthographic) {
         uint32_t range = (uint32_t)(c->camera.far_plane - c->camera.near_plane);
@@ -1042,13 +1064,15 @@ static void prepare(struct smear_context *c)
 
     c->filtered = c->frame.method == SMEAR_HALF ? c->half : w;
     if (SMEAR_WITH_FILTERS && c->filtering != NULL) {
-        c->filtering->passes = smear_pingpong_plan(c->filtering->pass, &c->frame.pingpong, c->filtered->reach);
+        c->filtering->passes = smear_pingpong_plan(c->filtering->pass, &c->frame.pingpong,
+                                                   c->filtered->reach);
         for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
             c->filtering->pass_end[i] = 0;
     }
 
     c->blends = false;
-    c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE && c->desc.dither == SMEAR_DITHER_NONE
+    c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE
+             && c->desc.dither == SMEAR_DITHER_NONE
              && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
         const smear_draw *d = &c->submitted[i].draw;

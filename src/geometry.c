@@ -41,7 +41,8 @@ static bool reaches(const struct smear_geometry *g, uint32_t triangle, int32_t y
     return false;
 }
 
-uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row, int32_t y)
+uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row,
+                              int32_t y)
 {
     uint32_t fresh = SMEAR_NO_TRIANGLE;
     if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* geometry.h - where the triangles of a frame lie until they are drawn.
  *
- * One block of memory. Vertices grow from the bottom, in records whose layout is set per segment; triangles grow
- * from the top. A triangle is linked into the tile row in which it starts; rows keep their lists as rings, in
- * submission order, so one word per row is enough:
+ * One block of memory. Vertices grow from the bottom, in records whose layout is set per segment; triangles
+ * grow from the top. A triangle is linked into the tile row in which it starts; rows keep their lists as
+ * rings, in submission order, so one word per row is enough:
  *
  *     | vertices ->                  free                  <- triangles |
  *
  * Vertices are shared between triangles through the vertex cache, so a closed mesh keeps about half a record
- * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for the
- * depth test: points, in entries of the same size. */
+ * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for
+ * the depth test: points, in entries of the same size. */
 #ifndef SMEAR_GEOMETRY_H
 #define SMEAR_GEOMETRY_H
 
@@ -38,8 +38,8 @@ struct smear_path_bounds {
     uint16_t bend;          /* path_bend of a vertex, at most, 1/16 px, saturated */
     uint16_t nearest;       /* depth code that is not exceeded */
     uint8_t flags;          /* PATH_TEXTURED ... */
-    uint8_t piece;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the k-th of
-                             * PATH_PIECES parts of the exposure, and it is there only then */
+    uint8_t piece;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the
+                             * k-th of PATH_PIECES parts of the exposure, and it is there only then */
 };
 
 enum {
@@ -67,25 +67,42 @@ struct smear_segment {
     uint8_t shade;          /* smear_shade_mode */
     uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
-    uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in place of motion words; moves is 0 */
+    uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
+                             * place of motion words; moves is 0 */
 };
 
 /* As they are, where the methods and surfaces that need them were compiled in. */
-static inline bool segment_flat_depth(const struct smear_segment *s) { return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth; }
-static inline bool segment_textured(const struct smear_segment *s) { return SMEAR_WITH_TEXTURE && s->uv != 0; }
+static inline bool segment_flat_depth(const struct smear_segment *s)
+{
+    return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth;
+}
+
+static inline bool segment_textured(const struct smear_segment *s)
+{
+    return SMEAR_WITH_TEXTURE && s->uv != 0;
+}
+
 static inline bool segment_gouraud(const struct smear_segment *s)
 {
     return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
 }
-static inline bool segment_colored(const struct smear_segment *s) { return SMEAR_WITH_GOURAUD && s->color != 0; }
-static inline int segment_moves(const struct smear_segment *s) { return SMEAR_WITH_RECONSTRUCT ? s->moves : 0; }
+
+static inline bool segment_colored(const struct smear_segment *s)
+{
+    return SMEAR_WITH_GOURAUD && s->color != 0;
+}
+
+static inline int segment_moves(const struct smear_segment *s)
+{
+    return SMEAR_WITH_RECONSTRUCT ? s->moves : 0;
+}
 
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
 
-/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths compare,
- * r = w'/w, and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie behind the eye; a
- * pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
+/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths
+ * compare, r = w'/w, and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie
+ * behind the eye; a pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
 enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
 
 struct smear_geometry {
@@ -97,7 +114,8 @@ struct smear_geometry {
     uint32_t segment_count, segment_limit;
     /* Per tile row: last triangle of each ring, or none. Movers: opaque and cut out, with a path. */
     uint32_t *opaque_last, *blend_last, *mover_last;
-    int mover_rows;                 /* rows of mover_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
+    int mover_rows;                 /* rows of mover_last beyond row_count: 0, or 2
+                                     * with blurred layers (layer.h) */
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
@@ -159,17 +177,19 @@ static inline struct smear_triangle *geometry_add_path(struct smear_geometry *g,
     return geometry_add(g, last_of_row);
 }
 
-static inline const struct smear_path_bounds *geometry_bounds(const struct smear_geometry *g, uint32_t triangle)
+static inline const struct smear_path_bounds *geometry_bounds(const struct smear_geometry *g,
+                                                              uint32_t triangle)
 {
     return (const struct smear_path_bounds *)(void *)geometry_triangle(g, triangle - 1);
 }
 
-/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission order.
- * `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the new head; lists
- * end with SMEAR_NO_TRIANGLE. */
+/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission
+ * order. `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the
+ * new head; lists end with SMEAR_NO_TRIANGLE. */
 uint32_t smear_geometry_advance(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row);
 
 /* The same for who looks further up: drops only what ends above pixel row y. */
-uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row, int32_t y);
+uint32_t smear_geometry_merge(const struct smear_geometry *g, const uint32_t *last, uint32_t head, int row,
+                              int32_t y);
 
 #endif

@@ -40,8 +40,8 @@ static void keep_velocity(const struct smear_window *w, int32_t at, int32_t x, i
     }
 }
 
-void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row, int32_t column,
-                       bool linear)
+void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row,
+                       int32_t column, bool linear)
 {
     int32_t x0 = column << half->tile_shift, x1 = min_i32(x0 + half->tile, half->width);
     int32_t y0 = row << half->tile_shift, y1 = min_i32(y0 + half->tile, half->height);
@@ -58,17 +58,18 @@ void smear_half_reduce(const struct smear_window *half, const struct smear_windo
                 if (full->depth[at[i]] > full->depth[nearest])
                     nearest = at[i];
             struct smear_pixel_velocity v = window_velocity(full, (uint32_t)nearest);
-            half->color[to + x] = mean_of(full->color[at[0]], full->color[at[1]], full->color[at[2]], full->color[at[3]],
-                                          linear);
+            half->color[to + x] = mean_of(full->color[at[0]], full->color[at[1]], full->color[at[2]],
+                                          full->color[at[3]], linear);
             half->depth[to + x] = full->depth[nearest];
             /* Rounding up may leave the reach by a part of a step. */
-            keep_velocity(half, to + x, clamp_i32(half_of(v.x), -limit, limit), clamp_i32(half_of(v.y), -limit, limit));
+            keep_velocity(half, to + x, clamp_i32(half_of(v.x), -limit, limit),
+                          clamp_i32(half_of(v.y), -limit, limit));
         }
     }
 }
 
-/* What motion of v along an axis (half the exposure's, 1/8 px) leaves of the detail along it, 0 .. 256: all up to 1/2 px,
- * none from 2 px on. */
+/* What motion of v along an axis (half the exposure's, 1/8 px) leaves of the detail along it,
+ * 0 .. 256: all up to 1/2 px, none from 2 px on. */
 static inline int32_t kept_share(int32_t v)
 {
     return 256 - clamp_i32((abs_i32(v) - 4) * 21, 0, 256);
@@ -87,8 +88,8 @@ static struct shares shares_of(const struct smear_window *full, int32_t at)
     return s;
 }
 
-/* One channel of the four pixels of a block (row by row): four times the blur, and of each difference within the block
- * what motion leaves. */
+/* One channel of the four pixels of a block (row by row): four times the blur, and of each
+ * difference within the block what motion leaves. */
 static void blend_channel(uint32_t out[4], const uint32_t own[4], uint32_t blur, uint32_t sharp,
                           const struct shares share[4], int shift)
 {
@@ -117,7 +118,8 @@ void smear_half_blend(uint32_t *out, const uint32_t *blurred, const struct smear
         int32_t lower = window_slot(full, min_i32(y + 1, full->height - 1)) * full->width;
         const uint32_t *before = half->color + window_slot(half, y >> 1) * half->width;
         for (int32_t x = x0; x < x1; x += 2) {
-            int32_t right = min_i32(x + 1, full->width - 1), count_x = min_i32(2, x1 - x), count_y = min_i32(2, y1 - y);
+            int32_t right = min_i32(x + 1, full->width - 1), count_x = min_i32(2, x1 - x),
+                    count_y = min_i32(2, y1 - y);
             const int32_t at[4] = { upper + x, upper + right, lower + x, lower + right };
             uint32_t sharp = before[x >> 1], blur = blurred[(x - x0) >> 1], own[4], mixed[4] = { 0, 0, 0, 0 };
             struct shares share[4];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* jobs.h - independent jobs on one or several cores.
  *
- * Core 0 announces a stage (a function and a number of jobs); every worker w does jobs w, w + n, w + 2n ... and reports.
- * Only loads and stores of single words are needed, so cores without atomic read-modify-write (Cortex-M0+) can play. */
+ * Core 0 announces a stage (a function and a number of jobs); every worker w does jobs w, w + n,
+ * w + 2n ... and reports. Only loads and stores of single words are needed, so cores without
+ * atomic read-modify-write (Cortex-M0+) can play. */
 #ifndef SMEAR_JOBS_H
 #define SMEAR_JOBS_H
 
@@ -11,7 +12,11 @@
 /* Words that cores and interrupts share, each written by one of them. */
 static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
 static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }
-static inline void word_write(unsigned *word, unsigned value) { __atomic_store_n(word, value, __ATOMIC_RELEASE); }
+
+static inline void word_write(unsigned *word, unsigned value)
+{
+    __atomic_store_n(word, value, __ATOMIC_RELEASE);
+}
 
 #define SMEAR_WORKERS_MAX (SMEAR_WITH_WORKERS ? 8 : 1)
 

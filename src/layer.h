@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* layer.h - blurred layers: what is blurred on its own and merged over the still scene.
  *
- * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the exposure into
- * rows of its own: those of the tile row and as many above and below as the blur reads, and columns beyond the frame's
- * sides, so that what enters the frame is there before it does. A tile row's last group keeps there what the next tile row
- * needs of it, too. */
+ * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the
+ * exposure into rows of its own: those of the tile row and as many above and below as the blur reads, and
+ * columns beyond the frame's sides, so that what enters the frame is there before it does. A tile row's last
+ * group keeps there what the next tile row needs of it, too. */
 #ifndef SMEAR_LAYER_H
 #define SMEAR_LAYER_H
 
@@ -25,7 +25,8 @@ struct smear_layer_setting {
 struct smear_group {
     int32_t vx, vy;             /* displacement during the exposure, q8 px */
     int32_t depth;              /* units q11 of its middle: farther groups are merged first */
-    uint32_t end;               /* triangles of the store below this number are its own or those of groups before it */
+    uint32_t end;               /* triangles of the store below this number are its
+                                 * own or those of groups before it */
     uint8_t layer;
     uint8_t rank;               /* 0: by depth. Else over all groups of lower ranks */
     bool textured;              /* texels leave their alpha in the pixels */
@@ -45,8 +46,8 @@ struct smear_held_rows {
     int32_t y0, y1, x0, x1;
 };
 
-/* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down there: the
- * store has triangles of layers at these places. */
+/* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down
+ * there: the store has triangles of layers at these places. */
 struct smear_layer_rows {
     int32_t margin, width, height;      /* of the frame with its margins */
     int32_t rows;                       /* there is memory for */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* layered.c - what a pixel sees of a moving layer: each tap is a place the layer's surface may have come from. It counts if
- * its own velocity carries it here, and for the share of the exposure it spends on the stretch it stands for; what is left
- * of the exposure shows the still scene. */
+/* layered.c - what a pixel sees of a moving layer: each tap is a place the layer's surface may have come
+ * from. It counts if its own velocity carries it here, and for the share of the exposure it spends on the
+ * stretch it stands for; what is left of the exposure shows the still scene. */
 #include "layered.h"
 
 #include "fixmath.h"
@@ -143,7 +143,9 @@ static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v, uint32_t w
     if (dot <= 0 || 2 * cross > dot)        /* more than 27 degrees off */
         return;
     t->carries = speed + 32;
-    t->weight = min_u32((uint32_t)((WHOLE + t->count - 1) / t->count * t->length) / (uint32_t)max_i32(speed, 32), WHOLE);
+    t->weight = min_u32((uint32_t)((WHOLE + t->count - 1) / t->count * t->length)
+                            / (uint32_t)max_i32(speed, 32),
+                        WHOLE);
 }
 
 enum { PROBES = 8 };
@@ -155,7 +157,8 @@ struct gathering {
     const uint16_t *depth;
     int32_t width;
     struct taps taps;
-    /* Where a surface may come from: places along the longest velocity around, in both senses, and how fast it must be. */
+    /* Where a surface may come from: places along the longest velocity
+     * around, in both senses, and how fast it must be. */
     struct vector top;
     struct {
         int32_t offset;
@@ -174,8 +177,8 @@ static SMEAR_NOINLINE void probes_start(struct gathering *g, struct vector top)
     }
 }
 
-/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of the nearest
- * place that comes this far. Returns that, or -1. */
+/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of
+ * the nearest place that comes this far. Returns that, or -1. */
 static inline int32_t find_direction(const struct gathering *g, int32_t here, uint32_t still_depth)
 {
     for (int32_t i = 0; i < PROBES; i++) {
@@ -199,7 +202,8 @@ SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
     return word;
 }
 
-/* What a pixel sees of the layer: all of it, or what lies behind a group that was merged before, and what before it. */
+/* What a pixel sees of the layer: all of it, or what lies behind a group
+ * that was merged before, and what before it. */
 struct seen {
     struct sum sum, behind;
     uint32_t passed_depth;      /* of that group; 0: there is none */
@@ -210,10 +214,10 @@ static inline struct sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
     return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
 }
 
-/* `own`: the pixel's surface moves itself. Where a tap meets one that does not come here, it is hidden by a nearer one, or
- * has left one that is farther free. */
-SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t still_depth, bool linear,
-                         bool mixed)
+/* `own`: the pixel's surface moves itself. Where a tap meets one that does not come here, it is hidden by a
+ * nearer one, or has left one that is farther free. */
+SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t still_depth,
+                         bool linear, bool mixed)
 {
     struct taps *t = &g->taps;
     const struct smear_layer_rows *l = g->a->layer;
@@ -235,8 +239,8 @@ SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, b
 }
 
 /* Sums at a pixel, `here` in the layer's rows; where its surface comes from: an index there, or -1. */
-SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t still_depth, uint32_t *taken,
-                          bool linear, bool mixed)
+SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t still_depth,
+                          uint32_t *taken, bool linear, bool mixed)
 {
     int32_t of = -1;
     const bool drawn = g->depth[here] > still_depth;
@@ -263,8 +267,8 @@ SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, 
     return drawn ? here : of;
 }
 
-SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out, uint32_t *taken,
-                              bool linear)
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out,
+                              uint32_t *taken, bool linear)
 {
     struct seen seen = { .passed_depth = 0 };
     look(g, &seen, here, still_depth, taken, linear, false);
@@ -279,7 +283,9 @@ static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, bool linear
 {
     const uint32_t rest = WHOLE - part;
     if (linear)
-        return smear_srgb_encode[((smear_srgb_decode[a] >> 4) * rest + (smear_srgb_decode[b] >> 4) * part + WHOLE / 2) >> 12];
+        return smear_srgb_encode[((smear_srgb_decode[a] >> 4) * rest + (smear_srgb_decode[b] >> 4) * part
+                                  + WHOLE / 2)
+                                 >> 12];
     return (a * rest + b * part + WHOLE / 2) >> 12;
 }
 
@@ -297,8 +303,10 @@ static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
     uint32_t out = mixed_pixel(0, pixel, rest, linear), sum[3];
     for (int i = 0; i < 3; i++) {
         uint32_t a = out >> 8 * i & 255u, b = passed >> 8 * i & 255u;
-        sum[i] = linear ? smear_srgb_encode[min_u32((uint32_t)(smear_srgb_decode[a] + smear_srgb_decode[b]) >> 4, 4095u)]
-                        : min_u32(a + b, 255u);
+        sum[i] = linear
+                   ? smear_srgb_encode[min_u32((uint32_t)(smear_srgb_decode[a] + smear_srgb_decode[b]) >> 4,
+                                               4095u)]
+                   : min_u32(a + b, 255u);
     }
     return pixel_make(0, sum[2], sum[1], sum[0]);
 }
@@ -310,8 +318,10 @@ static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool
     return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
 }
 
-/* Where other groups were merged before this one: what lies behind them goes between them and what they were merged over. */
-static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t still_depth, int32_t at, uint32_t *taken)
+/* Where other groups were merged before this one: what lies behind them goes
+ * between them and what they were merged over. */
+static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t still_depth, int32_t at,
+                                       uint32_t *taken)
 {
     const struct smear_gather_area *a = g->a;
     uint32_t passed = a->passed[at];
@@ -320,7 +330,9 @@ static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32
     const uint32_t front = min_u32(seen.sum.weight, WHOLE);
     if (seen.behind.weight != 0 && front < WHOLE) {
         /* Its share of the time in which nothing of the layer is in front. */
-        const uint32_t part = seen.behind.weight >= WHOLE - front ? WHOLE : (seen.behind.weight << 12) / (WHOLE - front);
+        const uint32_t part = seen.behind.weight >= WHOLE - front
+                                ? WHOLE
+                                : (seen.behind.weight << 12) / (WHOLE - front);
         const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
         a->still[at] = mixed_pixel(a->still[at], whole, part, a->linear);
         const uint32_t coverage = passed >> 24;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* layered.h - a blurred layer by the velocities of its pixels, over the still scene: the reconstruction filter where what
- * lies behind is known. */
+/* layered.h - a blurred layer by the velocities of its pixels, over the still scene: the
+ * reconstruction filter where what lies behind is known. */
 #ifndef SMEAR_LAYERED_H
 #define SMEAR_LAYERED_H
 
 #include "layer.h"
 
-/* Longest velocity of a column of cells as wide as a tile and of its neighbours, 1/8 px; any: something is drawn. */
+/* Longest velocity of a column of cells as wide as a tile and of its
+ * neighbours, 1/8 px; any: something is drawn. */
 struct smear_layer_cell {
     int16_t x, y;
     uint8_t any;

@@ -61,8 +61,11 @@ static void measure(struct motion *m, const struct smear_context *c, const smear
     for (uint32_t i = step >> 1; i < mesh->vertex_count && n < SAMPLES; i += step) {
         struct smear_homogeneous h;
         struct smear_screen open, close, now;
-        if (((placement_project(&open, &h, &key[0], i, viewport) | placement_project(&close, &h, &key[1], i, viewport)
-              | placement_project(&now, &h, middle, i, viewport)) & OUT_NEAR) != 0) {
+        if (((placement_project(&open, &h, &key[0], i, viewport)
+              | placement_project(&close, &h, &key[1], i, viewport)
+              | placement_project(&now, &h, middle, i, viewport))
+             & OUT_NEAR)
+            != 0) {
             m->cut = true;
             continue;
         }
@@ -101,13 +104,15 @@ static bool belongs(const struct smear_group *g, const struct smear_group *to, b
 {
     if (g->layer != to->layer || g->method != to->method)
         return false;
-    return plain || g->method != SMEAR_OBJECT || (abs_i32(g->vx - to->vx) <= 64 && abs_i32(g->vy - to->vy) <= 64);
+    return plain || g->method != SMEAR_OBJECT
+        || (abs_i32(g->vx - to->vx) <= 64 && abs_i32(g->vy - to->vy) <= 64);
 }
 
 void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear_placement key[2],
                       const struct smear_placement *middle, bool moves)
 {
-    enum { LOOKED_AT = 16 };    /* groups, from the newest: enough for parts of one thing, and no more than linear time */
+    enum { LOOKED_AT = 16 };    /* groups, from the newest: enough for parts of one
+                                 * thing, and no more than linear time */
     struct smear_layers *l = c->layers;
     const struct smear_layer_setting *setting = &l->setting[l->layer_of[draw]];
     bool over = setting->has_camera || setting->layer.over;
@@ -117,7 +122,8 @@ void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear
     if (!moves && !over)
         return;
     struct smear_group g = {
-        .layer = l->layer_of[draw], .rank = (uint8_t)(over || setting->layer.plain ? l->layer_of[draw] + 1 : 0),
+        .layer = l->layer_of[draw],
+        .rank = (uint8_t)(over || setting->layer.plain ? l->layer_of[draw] + 1 : 0),
         .method = (uint8_t)(moves ? setting->layer.method : (int)SMEAR_NONE)
     };
     if (g.method == SMEAR_OBJECT && !setting->layer.plain && !is_constant(&m))
@@ -312,9 +318,11 @@ static void clear_columns(const struct smear_raster_target *t, int32_t row, int3
 }
 
 /* The same from `down` rows further down, where the planes have columns [had0, had1) drawn. */
-static void copy_columns(const struct smear_raster_target *t, int32_t row, int32_t down, int32_t had0, int32_t had1)
+static void copy_columns(const struct smear_raster_target *t, int32_t row, int32_t down, int32_t had0,
+                         int32_t had1)
 {
-    const int32_t x0 = clamp_i32(had0, t->x0, t->x1), x1 = clamp_i32(had1, x0, t->x1), stride = t->window_rows.stride;
+    const int32_t x0 = clamp_i32(had0, t->x0, t->x1), x1 = clamp_i32(had1, x0, t->x1),
+                  stride = t->window_rows.stride;
     const size_t n = (size_t)(x1 - x0), to = (size_t)(row * stride + x0), from = to + (size_t)(down * stride);
     clear_columns(t, row, t->x0, x0);
     clear_columns(t, row, x1, t->x1);
@@ -345,7 +353,8 @@ static void draw_job(void *argument, int job, int worker)
     smear_raster_list(&r->frame, &t, r->group->head);
 }
 
-/* Pixels of rows [y0, y1) say whether they are covered by what is on top: texels have written something else there. */
+/* Pixels of rows [y0, y1) say whether they are covered by what is on
+ * top: texels have written something else there. */
 static void clear_tops(const struct smear_layer_rows *rows, int32_t y0, int32_t y1)
 {
     for (int32_t y = y0; y < y1; y++)
@@ -439,7 +448,8 @@ static void convert_job(void *argument, int job, int worker)
 static void mark_tiles(struct smear_context *c, const struct layers_row *r)
 {
     const struct smear_window *w = &c->window;
-    int32_t x0 = r->group->x0 - r->streak.reach_x - r->area.margin, x1 = r->group->x1 + r->streak.reach_x - r->area.margin;
+    int32_t x0 = r->group->x0 - r->streak.reach_x - r->area.margin,
+            x1 = r->group->x1 + r->streak.reach_x - r->area.margin;
     for (int32_t i = max_i32(x0, 0) >> w->tile_shift; i <= (min_i32(x1, w->width) - 1) >> w->tile_shift; i++)
         w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
 }
@@ -464,7 +474,8 @@ static bool find_mixed(const struct smear_context *c)
             struct smear_group *before = &l->group[l->order[k]];
             int32_t x0 = max_i32(g->x0 - reach_of(c, g), before->x0 - reach_of(c, before));
             int32_t x1 = min_i32(g->x1 + reach_of(c, g), before->x1 + reach_of(c, before));
-            if (before->head == SMEAR_NO_TRIANGLE || g->rank != before->rank || g->farthest >= before->nearest || x0 >= x1)
+            if (before->head == SMEAR_NO_TRIANGLE || g->rank != before->rank || g->farthest >= before->nearest
+                || x0 >= x1)
                 continue;
             g->mixed0 = min_i32(g->mixed0, x0);
             g->mixed1 = max_i32(g->mixed1, x1);
@@ -495,12 +506,13 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     }
     r->area = (struct smear_streak_area){
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
-        .rows = height + 2 * s->reach_y, .tile = c->window.tile, .row_first = rows->row_first, .row_end = rows->row_end,
-        .top = s->reach_y, .margin = rows->margin, .still = r->still.color, .still_depth = r->still.depth,
-        .still_stride = c->window.width, .over = rows->over, .over_depth = rows->over_depth,
-        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks, .marked_from = group->marked_from,
-        .height = height,
-        .nearest = group->rank != 0 ? 65536u : group->nearest, .farthest = group->rank != 0 ? 65536u : group->farthest,
+        .rows = height + 2 * s->reach_y, .tile = c->window.tile,
+        .row_first = rows->row_first, .row_end = rows->row_end, .top = s->reach_y, .margin = rows->margin,
+        .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width,
+        .over = rows->over, .over_depth = rows->over_depth, .mixed0 = group->mixed0, .mixed1 = group->mixed1,
+        .marks = group->marks, .marked_from = group->marked_from, .height = height,
+        .nearest = group->rank != 0 ? 65536u : group->nearest,
+        .farthest = group->rank != 0 ? 65536u : group->farthest,
         .edge = rows->edge, .work = rows->work, .linear = c->raster.linear
     };
     /* Lines that go down, and taps, look beyond the drawn columns. */
@@ -515,7 +527,8 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
         .color = rows->color, .depth = rows->depth,
         .tile_shift = (uint8_t)c->window.tile_shift
     };
-    r->target.color_rows = r->target.window_rows = (struct smear_plane_rows){ rows->width, r->kept, rows->rows, 0 };
+    r->target.color_rows = r->target.window_rows
+        = (struct smear_plane_rows){ rows->width, r->kept, rows->rows, 0 };
     r->frame = c->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
@@ -527,8 +540,9 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     }
     r->gather = (struct smear_gather_area){
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
-        .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width, .height = height,
-        .tile_shift = c->window.tile_shift, .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
+        .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width,
+        .height = height, .tile_shift = c->window.tile_shift,
+        .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
         .over = group->rank != 0, .passed = rows->over, .passed_depth = rows->over_depth,
         .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
     };
@@ -577,7 +591,8 @@ static int finish_row(struct smear_context *c, int row, bool first)
     struct layers_row r = { .row = { .c = c, .row = row } };
     uint32_t start = stage_start(c);
     smear_row_target(c, row, &r.still);
-    r.still.color_rows = r.still.window_rows = (struct smear_plane_rows){ c->window.width, 0, c->window.tile, 0 };
+    r.still.color_rows = r.still.window_rows
+        = (struct smear_plane_rows){ c->window.width, 0, c->window.tile, 0 };
     c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
     advance_movers(c, row, first);
     list_groups(c);

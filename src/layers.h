@@ -8,8 +8,8 @@
 /* Before the draws of a frame are looked at. */
 void smear_layers_begin(struct smear_context *c);
 
-/* A draw of a blurred layer: finds its displacement from its places at shutter open and close. One that does not move on
- * the screen stays with the still scene, but for those of layers that lie over it. */
+/* A draw of a blurred layer: finds its displacement from its places at shutter open and close. One that does
+ * not move on the screen stays with the still scene, but for those of layers that lie over it. */
 void smear_layers_add(struct smear_context *c, uint32_t draw, const struct smear_placement key[2],
                       const struct smear_placement *middle, bool moves);
 

@@ -107,7 +107,8 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
     int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
     for (int i = 0; i < 3; i++) {
         const int32_t *m = s->normal_matrix[i];
-        int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;      /* 31 bits to 24 */
+        /* 31 bits to 24 */
+        int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;
         int32_t h = world >> 12, l = world & 4095;
         along_high += h * light_direction[i];
         along_low += l * light_direction[i];
@@ -118,7 +119,8 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
     int32_t along = (along_high << 4) + (along_low >> 8);       /* q6 x length */
     if (along <= 0)
         return 0;
-    uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192) + (uint32_t)low);
+    uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
+                                    + (uint32_t)low);
     if (length == 0)
         return 0;
     /* along 2^10 / length, by reciprocal */

@@ -9,7 +9,8 @@
 
 /* The light seen from a draw's object space. */
 struct smear_shading {
-    int32_t normal_matrix[3][3];    /* cofactors of the basis, 15 bits: world normal = matrix x object normal */
+    int32_t normal_matrix[3][3];    /* cofactors of the basis, 15 bits: world
+                                     * normal = matrix x object normal */
     int32_t direction[3];           /* q23 / 127: I = sum n_j direction_j for int8 normals, where even */
     bool even;                      /* rotation and uniform scale only: normals keep their length */
     bool lit;

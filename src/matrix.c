@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* matrix.c - composes transforms in 64-bit blocks and scales the result to 32-bit rows.
  *
- * Everything is kept as mantissas with a common exponent, chosen so that no vertex can overflow: wild matrices
- * give wild pictures, never wild memory. */
+ * Everything is kept as mantissas with a common exponent, chosen so that no vertex can overflow: wild
+ * matrices give wild pictures, never wild memory. */
 #include "matrix.h"
 
 #include "fixmath.h"
@@ -211,7 +211,8 @@ static void weigh(struct smear_projection *p, int32_t weight, int scale, int dis
 void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
                             const smear_camera *camera)
 {
-    /* Weights of a 3600-degree shutter reach 11 and -10: four bits of room; more where deformation is scaled as well. */
+    /* Weights of a 3600-degree shutter reach 11 and -10: four bits of room;
+     * more where deformation is scaled as well. */
     int scale = projection[0].scale, distance_scale = projection[0].distance_scale, room = 4;
     uint32_t sum = 0;           /* q20: each is below 2^7 */
     for (int i = 0; i < count; i++)

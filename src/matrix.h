@@ -14,20 +14,24 @@
  *     row r = floor(sum v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
  *
  * The factors m[r][0..2] are multiples of 4, which lets cores without a wide multiply find the same floor.
- * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels right of and below the frame's centre.
- * `distance` is W for perspective; an orthographic camera has W constant and distance in row 3, in steps of
- * its own. */
+ * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels right of and
+ * below the frame's centre. `distance` is W for perspective; an orthographic camera has W
+ * constant and distance in row 3, in steps of its own. */
 struct smear_projection {
     int32_t m[4][4];
     int32_t near_distance, far_distance;    /* in the units of `distance`; far INT32_MAX: none */
-    int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance) 2^depth_shift, see transform.c */
+    int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance)
+                                 * 2^depth_shift, see transform.c */
     int16_t depth_shift;
     int16_t scale;              /* log2 of X, Y, W per pixel or unit; negative for huge scenes */
     int16_t distance_scale;     /* the same of `distance` */
     bool orthographic;
 };
 
-static inline bool is_orthographic(const struct smear_projection *p) { return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic; }
+static inline bool is_orthographic(const struct smear_projection *p)
+{
+    return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic;
+}
 
 /* The mesh's own scale and the place of the draw, seen from a camera: camera space in blocks. */
 struct smear_view {
@@ -44,8 +48,9 @@ void smear_projection_make(struct smear_projection *projection, const struct sme
                            const smear_camera *camera, int height_px);
 
 /* Poses between the known ones: `count` projections of one draw become terms of the sum
- * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All get one scale, with room for
- * the sum of vertices that differ from pose to pose; the distances of projection[0] then hold for the sum. */
+ * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All
+ * get one scale, with room for the sum of vertices that differ from pose to pose; the
+ * distances of projection[0] then hold for the sum. */
 void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
                             const smear_camera *camera);
 

@@ -96,8 +96,8 @@ static bool are_meshes(const struct blob *b)
     const struct smear_blob_mesh *m = blob_table(b, BLOB_MESH);
     for (uint32_t i = 0; i < blob_count(b, BLOB_MESH); i++, m++) {
         if (!blob_has(b, m->position, m->vertex_count, 6) || !blob_has(b, m->index, m->triangle_count, 6)
-            || !blob_may_have(b, m->normal, m->vertex_count, 3) || !blob_may_have(b, m->uv, m->vertex_count, 4)
-            || !blob_may_have(b, m->color, m->vertex_count, 4)
+            || !blob_may_have(b, m->normal, m->vertex_count, 3)
+            || !blob_may_have(b, m->uv, m->vertex_count, 4) || !blob_may_have(b, m->color, m->vertex_count, 4)
             || !blob_may_have(b, m->face_color, m->triangle_count, 4))
             return false;
         if (m->shift < -32 || m->shift > 62 || m->uv_shift > 15 || m->scale < 0)
@@ -304,8 +304,8 @@ static bool are_tables(const struct blob *b)
             || (!large && h->table[i].count >= SMEAR_MODEL_NONE))
             return false;
     }
-    return h->normals <= 1 && h->joint_count <= 256 && h->transform_count >= 1 && h->deformed_vertices <= 1u << 20
-        && h->unit_shift >= -31 && h->unit_shift <= 31;
+    return h->normals <= 1 && h->joint_count <= 256 && h->transform_count >= 1
+        && h->deformed_vertices <= 1u << 20 && h->unit_shift >= -31 && h->unit_shift <= 31;
 }
 
 static int check_blob(struct blob *b, const void *bytes, size_t size)
@@ -385,9 +385,9 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
     const struct smear_blob_mesh *mesh = blob_table(b, BLOB_MESH);
     for (uint32_t i = 0; i < blob_count(b, BLOB_TEXTURE); i++, texture++)
         t->texture[i] = (smear_texture){
-            .texels = blob_at(b, texture->texels), .palette = blob_at(b, texture->palette), .width = texture->width,
-            .height = texture->height, .format = texture->format, .wrap_u = texture->wrap_u,
-            .wrap_v = texture->wrap_v
+            .texels = blob_at(b, texture->texels), .palette = blob_at(b, texture->palette),
+            .width = texture->width, .height = texture->height, .format = texture->format,
+            .wrap_u = texture->wrap_u, .wrap_v = texture->wrap_v
         };
     for (uint32_t i = 0; i < blob_count(b, BLOB_MATERIAL); i++, material++) {
         smear_material *m = &t->material[i];
@@ -399,9 +399,10 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
     }
     for (uint32_t i = 0; i < blob_count(b, BLOB_MESH); i++, mesh++)
         t->mesh[i] = (smear_mesh){
-            .position = blob_at(b, mesh->position), .normal = blob_at(b, mesh->normal), .uv = blob_at(b, mesh->uv),
-            .color = blob_at(b, mesh->color), .face_color = blob_at(b, mesh->face_color),
-            .index = blob_at(b, mesh->index), .triangle_count = mesh->triangle_count,
+            .position = blob_at(b, mesh->position), .normal = blob_at(b, mesh->normal),
+            .uv = blob_at(b, mesh->uv), .color = blob_at(b, mesh->color),
+            .face_color = blob_at(b, mesh->face_color), .index = blob_at(b, mesh->index),
+            .triangle_count = mesh->triangle_count,
             .vertex_count = mesh->vertex_count, .shift = mesh->shift, .uv_shift = mesh->uv_shift,
             .scale = mesh->scale, .offset = { mesh->offset[0], mesh->offset[1], mesh->offset[2] }
         };
@@ -422,16 +423,19 @@ int smear_model_open(smear_model *model, const void *blob, size_t bytes, void *m
     fill_tables(&t, &b);
     *model = (smear_model){
         .mesh = t.mesh, .material = t.material,
-        .draw = blob_table(&b, BLOB_DRAW), .node = blob_table(&b, BLOB_NODE), .joint = blob_table(&b, BLOB_JOINT),
-        .skin = blob_table(&b, BLOB_SKIN), .influence = blob_table(&b, BLOB_INFLUENCE),
+        .draw = blob_table(&b, BLOB_DRAW), .node = blob_table(&b, BLOB_NODE),
+        .joint = blob_table(&b, BLOB_JOINT), .skin = blob_table(&b, BLOB_SKIN),
+        .influence = blob_table(&b, BLOB_INFLUENCE),
         .target = blob_table(&b, BLOB_TARGET), .delta = blob_table(&b, BLOB_DELTA),
         .delta_normal = blob_table(&b, BLOB_DELTA_NORMAL), .weight = blob_table(&b, BLOB_WEIGHT),
         .clip = blob_table(&b, BLOB_CLIP), .channel = blob_table(&b, BLOB_CHANNEL),
         .key_time = blob_table(&b, BLOB_KEY_TIME), .key_value = blob_table(&b, BLOB_KEY_VALUE),
         .text = blob_table(&b, BLOB_TEXT),
-        .mesh_count = (uint16_t)blob_count(&b, BLOB_MESH), .material_count = (uint16_t)blob_count(&b, BLOB_MATERIAL),
+        .mesh_count = (uint16_t)blob_count(&b, BLOB_MESH),
+        .material_count = (uint16_t)blob_count(&b, BLOB_MATERIAL),
         .draw_count = (uint16_t)blob_count(&b, BLOB_DRAW), .node_count = (uint16_t)blob_count(&b, BLOB_NODE),
-        .clip_count = (uint16_t)blob_count(&b, BLOB_CLIP), .weight_count = (uint16_t)blob_count(&b, BLOB_WEIGHT),
+        .clip_count = (uint16_t)blob_count(&b, BLOB_CLIP),
+        .weight_count = (uint16_t)blob_count(&b, BLOB_WEIGHT),
         .transform_count = b.head->transform_count, .deformed_count = b.head->deformed_count,
         .joint_count = b.head->joint_count, .normals = b.head->normals,
         .deformed_vertices = b.head->deformed_vertices, .unit_shift = b.head->unit_shift,

@@ -17,11 +17,13 @@ struct smear_mover {
 struct smear_moving_tile {
     const struct smear_raster_frame *frame;
     const struct smear_shutter *shutter;
-    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1 are the tiles'. Only read. */
+    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1
+                                         * are the tiles'. Only read. */
     const struct smear_mover *mover;    /* of the row: those whose columns meet these are seen here */
     uint32_t mover_count;
     int32_t column, last_column;
-    uint32_t blend;                     /* blended draws of the row, still and moving ones; or SMEAR_NO_TRIANGLE */
+    uint32_t blend;                     /* blended draws of the row, still and moving
+                                         * ones; or SMEAR_NO_TRIANGLE */
     uint32_t *out;                      /* finished working pixels, rows `pitch` apart */
     int32_t pitch;
     int32_t tile;                       /* edge, pixels */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* object.c - means along the velocity of a group, by sums along lines.
  *
- * Sums grow along a line, so the mean around each of its pixels is a difference of two, however long it is. A mean along a
- * long way changes little from step to step: it is taken at nodes, a few steps apart, and mixed between them. Lines lie a
- * pixel apart, and pixels between two of them: a node of the frame takes of both.
+ * Sums grow along a line, so the mean around each of its pixels is a difference of two, however long it is. A
+ * mean along a long way changes little from step to step: it is taken at nodes, a few steps apart, and mixed
+ * between them. Lines lie a pixel apart, and pixels between two of them: a node of the frame takes of both.
  *
  *     gather      what is drawn on a line, as sums
  *     means       of the line at its nodes, shared out to the rows it passes between
@@ -169,7 +169,8 @@ struct merge {
         lanes *codes;           /* of all before step line.base + i */
         struct light *light;
     } sums;
-    /* Of each row that lies along the lines: the steps that are reached. Between nodes means would go on beyond. */
+    /* Of each row that lies along the lines: the steps that are
+     * reached. Between nodes means would go on beyond. */
     int16_t first_of[64], end_of[64];
     int16_t near_x[NEAR], near_y[NEAR];         /* from a pixel */
 };
@@ -183,7 +184,8 @@ size_t smear_streak_work(int32_t tile)
 struct line {
     int32_t start;
     int32_t from, to;           /* steps */
-    int32_t place, by, runs;    /* where across it runs first, what to add for the next place, how many there are */
+    int32_t place, by, runs;    /* where across it runs first, what to add for the
+                                 * next place, how many there are */
     const int16_t *edge;        /* at which step it comes there; one more */
     int32_t base;               /* sums begin at this step */
 };
@@ -202,7 +204,8 @@ static void find_runs(const struct merge *m, struct line *l)
 }
 
 /* The steps of run k; whether something may be drawn there. */
-static inline bool run_of(const struct merge *m, const struct line *l, int32_t k, int32_t *first, int32_t *end)
+static inline bool run_of(const struct merge *m, const struct line *l, int32_t k, int32_t *first,
+                          int32_t *end)
 {
     *first = max_i32(l->edge[k], l->from);
     *end = min_i32(l->edge[k + 1], l->to);
@@ -265,8 +268,8 @@ static void gather_light(const struct merge *m, const struct line *l, int32_t co
 
 /* ------------------------------------------------------------------ means */
 
-/* A weighed sum over all weights, to nearest when half of them was added; equal codes keep theirs. Two lanes at a time:
- * their products have 31 bits. */
+/* A weighed sum over all weights, to nearest when half of them was added; equal codes keep theirs. Two
+ * lanes at a time: their products have 31 bits. */
 static inline lanes mean_codes(lanes weighed, uint32_t over)
 {
     const lanes every_other = 0x0000ffff0000ffff, code = 0x000000ff000000ff;
@@ -274,11 +277,13 @@ static inline lanes mean_codes(lanes weighed, uint32_t over)
          | (lanes_times(weighed >> 16 & every_other, over) >> 22 & code) << 16;
 }
 
-/* The mean around a node: *right is the sum up to the pixel after its last whole one, *left the sum up to the first. */
-static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest, lanes half,
-                                uint32_t over)
+/* The mean around a node: *right is the sum up to the pixel after its
+ * last whole one, *left the sum up to the first. */
+static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest,
+                                lanes half, uint32_t over)
 {
-    return mean_codes(lanes_times(right[0] - left[0], inner) + lanes_times(right[1] - left[-1], rest) + half, over);
+    return mean_codes(lanes_times(right[0] - left[0], inner) + lanes_times(right[1] - left[-1], rest) + half,
+                      over);
 }
 
 /* Nodes of the line at steps first, first + n ..., to the places across above and below it. */
@@ -310,7 +315,8 @@ static void means_codes(const struct merge *m, const struct line *l, int32_t fir
     }
 }
 
-static inline uint32_t mean_light(const struct smear_streak *s, uint32_t a, uint32_t b, uint32_t a1, uint32_t b1)
+static inline uint32_t mean_light(const struct smear_streak *s, uint32_t a, uint32_t b, uint32_t a1,
+                                  uint32_t b1)
 {
     return mulh_u32((b - a) * s->inner + (b1 - a1) * s->rest, s->over << 10);
 }
@@ -329,10 +335,13 @@ static void means_light(const struct merge *m, const struct line *l, int32_t fir
     const int32_t n = 1 << s->node;
     for (int32_t i = first; i < end; i += n) {
         const struct light *p = m->sums.light + (i - s->half - l->base), *q = p + 2 * s->half + 1;
-        struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r), mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
-                              mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b), mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
+        struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r),
+                              mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
+                              mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b),
+                              mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
         int32_t place = (l->start - m->low) * 65536 + passes(s, i);
-        struct light *out = m->node.light + (place >> 16) * m->across + ((i - m->first) >> s->node) * m->along;
+        struct light *out = m->node.light + (place >> 16) * m->across
+                          + ((i - m->first) >> s->node) * m->along;
         uint32_t part = (uint32_t)place >> 8 & 255u;
         if (place >= 0)
             light_add(out, &mean, 256u - part);
@@ -418,15 +427,17 @@ static inline bool mean_is_none(const struct mean *mean, bool linear)
     return linear ? mean->light.a == 0 : mean->codes >> 48 == 0;
 }
 
-/* Where a still surface lies within the group's depths: of the pixels of the group that are before it. x, y: in the
- * group's planes. */
-static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, int32_t x, int32_t y, uint32_t still_depth)
+/* Where a still surface lies within the group's depths: of the pixels of the group that
+ * are before it. x, y: in the group's planes. */
+static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, int32_t x, int32_t y,
+                                       uint32_t still_depth)
 {
     const struct smear_streak *s = m->s;
     struct light light = { 0, 0, 0, 0 };
     lanes sum = (s->length >> 1) * 0x0001000100010001u;
     for (int32_t t = -s->half - 1; t <= s->half + 1; t++) {
-        int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
+        int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t),
+                py = y + (s->upright ? t : side);
         if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
             continue;
         int32_t at = py * m->a->stride + px;
@@ -442,10 +453,12 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct merge *m, 
     }
     out->codes = mean_codes(sum, s->over);
     out->light = (struct light){ mulh_u32(light.r, s->over << 10), mulh_u32(light.g, s->over << 10),
-                                 mulh_u32(light.b, s->over << 10), min_u32(mulh_u32(light.a, s->over << 10), 65536) };
+                                 mulh_u32(light.b, s->over << 10),
+                                 min_u32(mulh_u32(light.a, s->over << 10), 65536) };
 }
 
-/* Depth code of what the mean at a pixel is made of, about: of the next to the middle that is drawn, of five. */
+/* Depth code of what the mean at a pixel is made of, about: of the
+ * next to the middle that is drawn, of five. */
 static SMEAR_NOINLINE uint32_t depth_near(const struct merge *m, int32_t x, int32_t y)
 {
     const struct smear_streak_area *a = m->a;
@@ -480,8 +493,8 @@ static inline lanes over_each_other(lanes front, lanes back)
     return front + ((lanes_times(back, rest + (rest >> 7)) + halves) >> 8 & all_codes);
 }
 
-/* (1 - b) still + (1 - a) back + b front: `back`, of coverage b, between the still surface and `front`, of coverage a,
- * which have been merged. Codes. */
+/* (1 - b) still + (1 - a) back + b front: `back`, of coverage b, between the still surface and `front`, of
+ * coverage a, which have been merged. Codes. */
 static inline uint32_t codes_between_two(lanes front, lanes back, uint32_t merged)
 {
     uint32_t a = (uint32_t)(front >> 48), b = (uint32_t)(back >> 48);
@@ -496,7 +509,8 @@ static uint32_t light_between_two(lanes front, const struct light *back, uint32_
     uint32_t a = (uint32_t)(front >> 48) * 257u >> 1, b = back->a >> 1;       /* q15 */
     for (int i = 0; i < 3; i++) {
         int shift = 16 - 8 * i;
-        uint32_t sum = (smear_srgb_decode[merged >> shift & 255u] * (32768u - b) >> 15) + (value[i] * (32768u - a) >> 15)
+        uint32_t sum = (smear_srgb_decode[merged >> shift & 255u] * (32768u - b) >> 15)
+                     + (value[i] * (32768u - a) >> 15)
                      + (smear_srgb_decode[front_pixel >> shift & 255u] * b >> 15);
         out[i] = smear_srgb_encode[min_u32(sum >> 4, 4095u)];
     }
@@ -504,7 +518,8 @@ static uint32_t light_between_two(lanes front, const struct light *back, uint32_
 }
 
 /* Over or behind what was merged before. */
-static SMEAR_NOINLINE void merge_between(const struct merge *m, const struct mean *mean, lanes codes, uint32_t depth, int32_t at)
+static SMEAR_NOINLINE void merge_between(const struct merge *m, const struct mean *mean, lanes codes,
+                                         uint32_t depth, int32_t at)
 {
     const struct smear_streak_area *a = m->a;
     lanes before = lanes_of(a->over[at]);
@@ -526,8 +541,10 @@ static inline void merge_mixed(const struct merge *m, const struct mean *mean, u
     const struct smear_streak_area *a = m->a;
     lanes codes = mean->codes;
     if (a->linear)
-        codes = lanes_of(pixel_make(min_u32(mean->light.a >> 8, 255u), smear_srgb_encode[min_u32(mean->light.r >> 4, 4095u)],
-                                    smear_srgb_encode[min_u32(mean->light.g >> 4, 4095u)], smear_srgb_encode[min_u32(mean->light.b >> 4, 4095u)]));
+        codes = lanes_of(pixel_make(min_u32(mean->light.a >> 8, 255u),
+                                    smear_srgb_encode[min_u32(mean->light.r >> 4, 4095u)],
+                                    smear_srgb_encode[min_u32(mean->light.g >> 4, 4095u)],
+                                    smear_srgb_encode[min_u32(mean->light.b >> 4, 4095u)]));
     if (a->over[at] != 0) {
         merge_between(m, mean, codes, depth, at);
         return;
@@ -574,7 +591,8 @@ static void finish_pixel(struct merge *m, struct mean *mean, int32_t x, int32_t 
     if (x >= a->mixed0 && x < a->mixed1)
         merge_mixed(m, mean, depth_near(m, x, y), at);
     else
-        a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(mean->codes, a->still[at]);
+        a->still[at] = a->linear ? light_over(&mean->light, a->still[at])
+                                 : codes_over(mean->codes, a->still[at]);
 }
 
 static inline void finish_codes(struct merge *m, lanes codes, int32_t x, int32_t y, int32_t at)
@@ -587,7 +605,8 @@ static inline void finish_codes(struct merge *m, lanes codes, int32_t x, int32_t
 static inline lanes codes_between(lanes a, lanes b, uint32_t part, int32_t node)
 {
     const uint32_t n = 1u << node;
-    return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node & all_codes;
+    return (lanes_times(a, n - part) + lanes_times(b, part) + (n >> 1) * 0x0001000100010001u) >> node
+         & all_codes;
 }
 
 static inline lanes node_codes(lanes node)
@@ -595,13 +614,13 @@ static inline lanes node_codes(lanes node)
     return (node + halves) >> 8 & all_codes;
 }
 
-static void finish_light(struct merge *m, const struct light *p, const struct light *q, int32_t part, int32_t x, int32_t y,
-                         int32_t at)
+static void finish_light(struct merge *m, const struct light *p, const struct light *q, int32_t part,
+                         int32_t x, int32_t y, int32_t at)
 {
     const uint32_t n = 1u << m->s->node, b = (uint32_t)part, a = n - b;
     const int down = 8 + m->s->node;
-    struct mean mean = { 0, { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down, (p->b * a + q->b * b) >> down,
-                              (p->a * a + q->a * b) >> down } };
+    struct mean mean = { 0, { (p->r * a + q->r * b) >> down, (p->g * a + q->g * b) >> down,
+                              (p->b * a + q->b * b) >> down, (p->a * a + q->a * b) >> down } };
     mean.light.a = min_u32(mean.light.a, 65536);        /* weights are rounded up */
     if (mean.light.a != 0)
         finish_pixel(m, &mean, x, y, at);
@@ -616,13 +635,15 @@ static void along_light(struct merge *m)
         const struct light *l = m->node.light + (y - m->low) * m->nodes;
         for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
             int32_t k = (x - m->first) >> node;
-            finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y, row + x);
+            finish_light(m, &l[k], &l[min_i32(k + 1, m->nodes - 1)], (x - m->first) & ((1 << node) - 1), x, y,
+                         row + x);
         }
     }
 }
 
 /* The pixels from one node to the next, straight over the still ones. */
-SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
+SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row,
+                                int32_t node)
 {
     const uint32_t farthest = m->farthest;
     uint32_t *still = m->a->still + row;
@@ -643,7 +664,8 @@ SMEAR_INLINE void between_codes(struct merge *m, lanes here, lanes next, int32_t
 }
 
 /* The same where groups pass through each other. */
-SMEAR_INLINE void between_mixed_by(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row, int32_t node)
+SMEAR_INLINE void between_mixed_by(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row,
+                                   int32_t node)
 {
     const struct smear_streak_area *a = m->a;
     const bool marks = a->marks;
@@ -686,7 +708,8 @@ SMEAR_INLINE void between_mixed_by(struct merge *m, lanes here, lanes next, int3
 }
 
 /* Out of line: what it needs would not leave registers to the loops around it. */
-static SMEAR_NOINLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row)
+static SMEAR_NOINLINE void between_mixed(struct merge *m, lanes here, lanes next, int32_t x, int32_t y,
+                                         int32_t row)
 {
     if (EACH_NODE && m->s->node == 3)
         between_mixed_by(m, here, next, x, y, row, 3);
@@ -710,7 +733,8 @@ SMEAR_INLINE void along_codes_by(struct merge *m, int32_t node)
             next = node == 0 && x + n >= last ? 0 : node_codes(*++c);
             if (((here | next) >> 48) == 0)
                 continue;
-            if (x < left || x + n > end)    /* the nodes before the frame's first pixel and after its last, too */
+            if (x < left || x + n > end)    /* the nodes before the frame's first
+                                             * pixel and after its last, too */
                 for (int32_t i = max_i32(x, left); i < min_i32(x + n, end); i++)
                     finish_codes(m, codes_between(here, next, (uint32_t)(i - x), node), i, y, row + i);
             else if (x >= mixed1 || x + n <= mixed0)
@@ -745,13 +769,16 @@ static void finish_across(struct merge *m)
     const int32_t node = m->s->node;
     for (int32_t y = a->top; y < a->top + a->height; y++) {
         int32_t row = (y - a->top) * a->still_stride - a->margin, k = (y - m->first) >> node;
-        int32_t part = (y - m->first) & ((1 << node) - 1), here = k * m->along, next = min_i32(k + 1, m->nodes - 1) * m->along;
+        int32_t part = (y - m->first) & ((1 << node) - 1), here = k * m->along,
+                next = min_i32(k + 1, m->nodes - 1) * m->along;
         for (int32_t x = m->low; x < m->high; x++, here++, next++) {
             if (a->linear)
                 finish_light(m, &m->node.light[here], &m->node.light[next], part, x, y, row + x);
             else if (((m->node.codes[here] | m->node.codes[next]) >> 48) != 0)
-                finish_codes(m, codes_between(node_codes(m->node.codes[here]), node_codes(m->node.codes[next]),
-                                              (uint32_t)part, node), x, y, row + x);
+                finish_codes(m,
+                             codes_between(node_codes(m->node.codes[here]), node_codes(m->node.codes[next]),
+                                           (uint32_t)part, node),
+                             x, y, row + x);
         }
     }
 }
@@ -770,7 +797,8 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     for (int32_t i = 0; i < high - low && !s->upright; i++) {
         const int32_t more = s->half + (s->rest != 0);
         int32_t from = m->a->stride, to = 0;
-        for (int32_t row = max_i32(low + i - s->reach_y, 0); row <= min_i32(low + i + s->reach_y, m->a->rows - 1); row++) {
+        for (int32_t row = max_i32(low + i - s->reach_y, 0);
+             row <= min_i32(low + i + s->reach_y, m->a->rows - 1); row++) {
             from = min_i32(from, m->a->row_first[row]);
             to = max_i32(to, m->a->row_first[row] < m->a->row_end[row] ? m->a->row_end[row] : 0);
         }
@@ -782,7 +810,8 @@ static void merge_part(struct merge *m, int32_t first, int32_t end, int32_t low,
     fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);
     int32_t last = m->first + ((m->nodes - 1) << s->node);
     int32_t place0 = passes(s, m->first) >> 16, place1 = passes(s, last) >> 16;
-    for (int32_t start = low - (s->slope != 0) - max_i32(place0, place1); start < high - min_i32(place0, place1); start++)
+    for (int32_t start = low - (s->slope != 0) - max_i32(place0, place1);
+         start < high - min_i32(place0, place1); start++)
         add_line(m, start);
     if (s->upright)
         finish_across(m);
@@ -794,7 +823,8 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_str
 {
     struct smear_streak_area area = *all, *a = &area;
     int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
-    int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top, bottom = a->top + a->height;
+    int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top,
+            bottom = a->top + a->height;
     struct merge m = { .s = s, .a = a, .nearest = a->nearest, .farthest = a->farthest,
                        .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride };
     const int32_t nodes_max = NODES * a->tile, room = a->linear ? nodes_max / 2 : nodes_max;

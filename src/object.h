@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* object.h - a group of draws blurred along one velocity, over the still scene: the two-camera approach with known
- * coverage and depth. */
+/* object.h - a group of draws blurred along one velocity, over the still scene: the
+ * two-camera approach with known coverage and depth. */
 #ifndef SMEAR_OBJECT_H
 #define SMEAR_OBJECT_H
 
 #include "layer.h"
 
-/* A velocity as lines of pixels along it, one pixel per step of its longer axis. A difference of two sums along a line is
- * the mean around each of its pixels, whatever the length. */
+/* A velocity as lines of pixels along it, one pixel per step of its longer axis. A difference of two sums
+ * along a line is the mean around each of its pixels, whatever the length. */
 struct smear_streak {
     bool upright;               /* steps go down, not right */
     int32_t slope;              /* of the other axis, q16, within -1 .. 1 */
     int32_t half;               /* whole pixels on both sides of the middle one */
-    uint32_t inner, rest;       /* weights: of a whole pixel, 2^n, less that of the ones beyond; and of those */
+    uint32_t inner, rest;       /* weights: of a whole pixel, 2^n, less that of
+                                 * the ones beyond; and of those */
     uint32_t length;            /* sum of the weights, 128 .. 256 */
     uint32_t over;              /* 2^22 / length, rounded up */
-    int32_t node;               /* log2 of steps from one mean that is taken to the next; between them they are mixed */
+    int32_t node;               /* log2 of steps from one mean that is taken to the
+                                 * next; between them they are mixed */
     int32_t reach_x, reach_y;   /* px from a pixel to the farthest that its mean takes */
 };
 
@@ -25,8 +27,8 @@ static inline int32_t streak_half_max(int32_t width)
     return clamp_i32(width >> 2, 16, 120);
 }
 
-/* Of a displacement in q8 px; what is longer than `half_max` on both sides, or reaches more than `reach` rows up and down, is
- * shortened. */
+/* Of a displacement in q8 px; what is longer than `half_max` on both sides, or reaches more
+ * than `reach` rows up and down, is shortened. */
 void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t half_max, int32_t reach);
 
 /* Where a streak is merged. */
@@ -40,8 +42,9 @@ struct smear_streak_area {
     uint32_t *still;            /* first pixel of the frame's row to be finished */
     uint16_t *still_depth;
     int32_t still_stride;
-    /* Where groups pass through each other, in columns [mixed0, mixed1) of the group's planes: what was merged before,
-     * its colours times coverage, which is on top, and about its depth codes. Rows as the still ones. */
+    /* Where groups pass through each other, in columns [mixed0, mixed1) of the group's
+     * planes: what was merged before, its colours times coverage, which is on top, and
+     * about its depth codes. Rows as the still ones. */
     uint32_t *over;
     uint16_t *over_depth;
     int32_t mixed0, mixed1;
@@ -57,7 +60,8 @@ struct smear_streak_area {
 /* Bytes of work memory per worker for tiles of this edge. */
 size_t smear_streak_work(int32_t tile);
 
-/* The first steps at which a line from 0 runs along another place across, one after the other; up to `steps` and one more. */
+/* The first steps at which a line from 0 runs along another place across, one
+ * after the other; up to `steps` and one more. */
 void smear_streak_edges(const struct smear_streak *s, int16_t *edge, int32_t steps);
 
 /* Merges. Returns the pixels it went over. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* path.h - where a moving vertex is during the exposure.
  *
- * Methods that look at several instants keep three places of every moving vertex: at shutter open, in the middle and at
- * close. Between them it moves along the parabola through the three. */
+ * Methods that look at several instants keep three places of every moving vertex: at shutter open, in the
+ * middle and at close. Between them it moves along the parabola through the three. */
 #ifndef SMEAR_PATH_H
 #define SMEAR_PATH_H
 
@@ -14,14 +14,15 @@
 /* Slots of equal weight in which time is counted. */
 #define SHUTTER_SLOTS 32
 
-/* When each slot begins, time[SHUTTER_SLOTS] when the last one ends. A box shutter has even steps; where a shutter lets
- * through less light, slots are longer. */
+/* When each slot begins, time[SHUTTER_SLOTS] when the last one ends. A box shutter has even steps; where a
+ * shutter lets through less light, slots are longer. */
 struct smear_shutter {
     int32_t time[(SMEAR_WITH_SUBFRAMES ? SHUTTER_SLOTS : 0) + 1];
 };
 
-/* Record of a vertex with a path (struct smear_segment.path): the place in the middle at VERTEX_X .. VERTEX_DEPTH, then at
- * segment->motion those at open and at close, in the same units: q8 px, q8 px, q11 depth units. */
+/* Record of a vertex with a path (struct smear_segment.path): the place in the middle at
+ * VERTEX_X .. VERTEX_DEPTH, then at segment->motion those at open and at close, in the
+ * same units: q8 px, q8 px, q11 depth units. */
 enum { PATH_X, PATH_Y, PATH_DEPTH, PATH_POSE_WORDS, PATH_WORDS = 2 * PATH_POSE_WORDS };
 
 /* A time as the parabola wants it: -1 at open, 1 at close, q30. */
@@ -30,8 +31,9 @@ static inline int32_t path_phase(int32_t time)
     return (time - SHUTTER_CLOSE / 2) * 32768;
 }
 
-/* A coordinate on its way: middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a floor would move
- * all edges up and left by half a step. Places lie within the guard band, so differences have 21 bits; sums in q6. */
+/* A coordinate on its way: middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to
+ * nearest: a floor would move all edges up and left by half a step. Places lie within the guard
+ * band, so differences have 21 bits; sums in q6. */
 static inline int32_t path_coordinate(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t slope = close - open, bend = open + close - 2 * middle;
@@ -54,8 +56,8 @@ static inline void path_at(int32_t out[3], const int32_t *record, const struct s
     out[PATH_DEPTH] = path_depth(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], u);
 }
 
-/* Time within the part of the exposure for which a triangle's places hold (struct smear_path_bounds.piece); false at other
- * times. */
+/* Time within the part of the exposure for which a triangle's places hold (struct
+ * smear_path_bounds.piece); false at other times. */
 static inline bool path_piece_time(int32_t *time, int piece)
 {
     if (piece == 0)
@@ -64,7 +66,8 @@ static inline bool path_piece_time(int32_t *time, int piece)
     return (uint32_t)*time < SHUTTER_CLOSE;
 }
 
-/* How far the middle lies off the chord, twice, in q8 px: |open + close - 2 middle|, the larger of x and y. */
+/* How far the middle lies off the chord, twice, in q8 px:
+ * |open + close - 2 middle|, the larger of x and y. */
 static inline int32_t path_bend(const int32_t *record, const struct smear_segment *s)
 {
     const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;

@@ -24,9 +24,9 @@ bool smear_pingpong_resolve(smear_pingpong *p)
 
 int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear_pingpong *p, int32_t reach)
 {
-    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th pass from
-     * the last: `whole` brings the outermost tap of all passes together, and half a spacing of the last beyond it, to
-     * the end of the streak. */
+    /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th
+     * pass from the last: `whole` brings the outermost tap of all passes together, and half a spacing of the
+     * last beyond it, to the end of the streak. */
     int32_t power = 1, sum = 0;
     for (int k = 0; k < p->passes; k++, power *= p->base)
         sum += power;
@@ -53,11 +53,12 @@ int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear
 
 /* 2^24 / n, rounded up: equal values keep their mean (blur_uniform.c). */
 static const uint32_t share[65] = {
-    0, 16777216, 8388608, 5592406, 4194304, 3355444, 2796203, 2396746, 2097152, 1864136, 1677722, 1525202, 1398102,
-    1290556, 1198373, 1118482, 1048576, 986896, 932068, 883012, 838861, 798916, 762601, 729445, 699051, 671089, 645278,
-    621379, 599187, 578525, 559241, 541201, 524288, 508401, 493448, 479350, 466034, 453439, 441506, 430186, 419431,
-    409201, 399458, 390168, 381301, 372828, 364723, 356963, 349526, 342393, 335545, 328966, 322639, 316552, 310690,
-    305041, 299594, 294338, 289263, 284360, 279621, 275037, 270601, 266306, 262144
+    0, 16777216, 8388608, 5592406, 4194304, 3355444, 2796203, 2396746, 2097152, 1864136, 1677722, 1525202,
+    1398102, 1290556, 1198373, 1118482, 1048576, 986896, 932068, 883012, 838861, 798916, 762601, 729445,
+    699051, 671089, 645278, 621379, 599187, 578525, 559241, 541201, 524288, 508401, 493448, 479350, 466034,
+    453439, 441506, 430186, 419431, 409201, 399458, 390168, 381301, 372828, 364723, 356963, 349526, 342393,
+    335545, 328966, 322639, 316552, 310690, 305041, 299594, 294338, 289263, 284360, 279621, 275037, 270601,
+    266306, 262144
 };
 
 /* Columns before the frame where positions are not negative: more than any reach. */
@@ -106,8 +107,8 @@ SMEAR_INLINE uint32_t sums_mean_shift(const struct sums *s, int shift, bool line
 
 /* ------------------------------------------------------------------ taps */
 
-/* Where the taps of a pixel lie, from its middle: q16 px, x below and y above in one word each: positions are not
- * negative, a sum carries as it should. */
+/* Where the taps of a pixel lie, from its middle: q16 px, x below and y above in one word each: positions
+ * are not negative, a sum carries as it should. */
 struct taps {
     uint64_t first, step;
     uint32_t all;               /* what sums begin with: halves, if there is a shift */
@@ -166,7 +167,8 @@ static uint16_t nearest_allowed(const struct passing *p, uint16_t code)
     if (p->pass->bias == 255)
         return 65535;
     uint32_t units = smear_depth_units(code);
-    uint32_t part = p->settings->orthographic ? (p->far_units - units) >> 4 : units >> 4;     /* 16 bits and a few */
+    /* 16 bits and a few */
+    uint32_t part = p->settings->orthographic ? (p->far_units - units) >> 4 : units >> 4;
     units += (part * (uint32_t)p->pass->bias >> 4) + 1u;
     return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4), 65535u));
 }
@@ -185,9 +187,10 @@ static SMEAR_NOINLINE uint32_t mean_of_some(struct sums *s, const struct taps *t
     return s->count != 0 ? sums_mean(s, linear) : own;
 }
 
-/* The mean of a pixel's taps, those in front of it left out. place: the first, in the frame and in the table. */
-SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint32_t at, uint64_t place, uint32_t limit,
-                             bool linear, bool edge)
+/* The mean of a pixel's taps, those in front of it left out.
+ * place: the first, in the frame and in the table. */
+SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint32_t at, uint64_t place,
+                             uint32_t limit, bool linear, bool edge)
 {
     const uint32_t *in = p->in, *row = p->row;
     const uint16_t *depth = p->depth;
@@ -210,15 +213,16 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
     return mean_of_some(&some, t, in[at], linear);
 }
 
-/* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something as near as the
- * pixel moves far enough to be here at that time; or the pixel's own motion brings what lies there; or the pixel
- * shows itself. */
+/* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something
+ * as near as the pixel moves far enough to be here at that time; or the pixel's own motion brings
+ * what lies there; or the pixel shows itself. */
 static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t at, int32_t x, int32_t y,
                                              struct smear_pixel_velocity own, struct smear_pixel_velocity top)
 {
     const struct smear_window *w = p->w;
     const int32_t right = w->width - 1, half = p->pass->taps - 1;
-    const int32_t step_x = top.x * p->pass->spacing >> 7, step_y = top.y * p->pass->spacing >> 7;      /* half of it */
+    /* half of it */
+    const int32_t step_x = top.x * p->pass->spacing >> 7, step_y = top.y * p->pass->spacing >> 7;
     bool linear = p->settings->linear;
     int32_t code = w->depth[at], limit = (int32_t)p->limit, behind = max_i32(2 * code - limit, 0);
     int32_t own_square = own.x * own.x + own.y * own.y;
@@ -228,7 +232,8 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
         uint32_t tap = p->row[ty >> 16] + (uint32_t)clamp_i32(tx >> 16, 0, right);
         struct smear_pixel_velocity v = window_velocity(w, tap);
         /* How far away it is, 1/8 px along each axis. */
-        int32_t dx = i * (top.x * p->pass->spacing >> 10) >> 10, dy = i * (top.y * p->pass->spacing >> 10) >> 10;
+        int32_t dx = i * (top.x * p->pass->spacing >> 10) >> 10,
+                dy = i * (top.y * p->pass->spacing >> 10) >> 10;
         int32_t square = dx * dx + dy * dy;
         bool comes = w->depth[tap] >= behind && v.x * v.x + v.y * v.y >= square;
         bool goes = w->depth[tap] <= limit && own_square >= square;
@@ -256,12 +261,13 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
 #define PLAIN_ROWS 1
 #endif
 
-typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y);
+typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                             int32_t table_y);
 
-/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y: its row in the table. Returns the
- * taps taken. */
-SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y,
-                               bool linear, bool wide)
+/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y:
+ * its row in the table. Returns the taps taken. */
+SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                               int32_t table_y, bool linear, bool wide)
 {
     const struct smear_window *w = p->w;
     const uint32_t *in = p->in;
@@ -320,10 +326,10 @@ static pass_row_fn *row_of(const struct passing *p)
     return p->settings->linear ? row_light : row_codes;
 }
 
-/* The same at the frame's sides, or with jitter, or where moving things spread: top is the longest motion around, in
- * frame row y. */
-static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, int32_t table_y,
-                             int32_t y, struct smear_pixel_velocity top)
+/* The same at the frame's sides, or with jitter, or where moving things spread: top is
+ * the longest motion around, in frame row y. */
+static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
+                             int32_t table_y, int32_t y, struct smear_pixel_velocity top)
 {
     const int32_t top_square = top.x * top.x + top.y * top.y, jitter = p->pass->jitter;
     const bool spreads = p->pass->spread && top_square >= 64, linear = p->settings->linear;        /* 1 px */
@@ -350,16 +356,19 @@ static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32
         uint64_t place = both_of(((x + EDGE) << 16) + 0x8000, (table_y << 16) + 0x8000) + t->first;
         if (jitter != 0)
             place += shake(t, jitter, x, y);
-        *to = linear ? gather(p, t, at, place, p->limit, true, true) : gather(p, t, at, place, p->limit, false, true);
+        *to = linear ? gather(p, t, at, place, p->limit, true, true)
+                     : gather(p, t, at, place, p->limit, false, true);
     }
     return taken;
 }
 
 uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, const struct smear_window *w,
                              const struct smear_row_table *rows, const struct smear_pass *pass, int32_t row,
-                             int32_t column, int32_t y0, int32_t y1, const struct smear_blur_settings *settings)
+                             int32_t column, int32_t y0, int32_t y1,
+                             const struct smear_blur_settings *settings)
 {
-    struct passing p = { .w = w, .pass = pass, .settings = settings, .in = in, .depth = w->depth, .row = rows->offset };
+    struct passing p = { .w = w, .pass = pass, .settings = settings, .in = in, .depth = w->depth,
+                         .row = rows->offset };
     const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
     const struct smear_pixel_velocity top = { around->x >> 5, around->y >> 5 };
     const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* pixel.h - the working pixel: 0xAARRGGBB, r g b as sRGB codes in both light modes.
  *
- * A working pixel is what the display would show, in 8 bits. Linear light is a matter of how values are multiplied,
- * interpolated and averaged (through smear_srgb_decode and back), not of how they are kept: so a window costs
- * the same in both modes, and a still pixel passes every filter unchanged. */
+ * A working pixel is what the display would show, in 8 bits. Linear light is a matter of how values are
+ * multiplied, interpolated and averaged (through smear_srgb_decode and back), not of how they are kept: so a
+ * window costs the same in both modes, and a still pixel passes every filter unchanged. */
 #ifndef SMEAR_PIXEL_H
 #define SMEAR_PIXEL_H
 
@@ -33,8 +33,8 @@ static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
     return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
 }
 
-/* smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean of two codes'
- * light; at three values that is off by one. */
+/* smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
+ * of two codes' light; at three values that is off by one. */
 static inline uint32_t srgb_encode_searched(uint32_t light)
 {
     uint32_t code = 0;

@@ -2,9 +2,9 @@
 /* raster.c - which pixels a triangle covers, exactly, and what is drawn there.
  *
  * A pixel belongs to a triangle if its centre is inside, by the top-left rule. In row y an edge lies at
- * x(y) = x0 + (yc - y0) dx / dy, an exact fraction that is stepped with its remainder; pixels from ceil(left) to
- * ceil(right) - 1 are covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice or
- * missed. Small triangles use edge functions instead, which say the same without a division. */
+ * x(y) = x0 + (yc - y0) dx / dy, an exact fraction that is stepped with its remainder; pixels from ceil(left)
+ * to ceil(right) - 1 are covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice
+ * or missed. Small triangles use edge functions instead, which say the same without a division. */
 #include "raster.h"
 
 #include "pixel.h"
@@ -135,7 +135,8 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
 
 /* First pixel at or right of an edge, row by row: ceil((x - 1/2 px) / 1 px) of the exact fraction. */
 struct edge_walk {
-    int32_t x;              /* q8: the edge's place at this row's centres, rounded up; 127 more for edge_pixel */
+    int32_t x;              /* q8: the edge's place at this row's centres,
+                             * rounded up; 127 more for edge_pixel */
     int32_t rest;           /* what was added by rounding, in 1/dy: -dy < rest <= 0 */
     int32_t step, step_rest;
     int32_t dy;
@@ -190,8 +191,8 @@ static bool sides_start(struct sides *d, const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
     const int32_t *top = s->v[0], *middle = s->v[1], *bottom = s->v[2], *swap;
-    /* Clockwise from the top, the next vertex lies right of the long edge, so that is the left one; each swap turns
-     * the triangle over. */
+    /* Clockwise from the top, the next vertex lies right of the long edge, so that is the
+     * left one; each swap turns the triangle over. */
     bool whole_is_left = true;
     if (middle[VERTEX_Y] < top[VERTEX_Y]) {
         swap = top;
@@ -329,7 +330,8 @@ SMEAR_INLINE void put_flat(void *pixel, uint16_t *depth, int32_t i, uint32_t z, 
 {
     uint16_t code = (uint16_t)(z >> 16);
     if (code > depth[i]) {
-        __asm__ volatile ("");      /* one branch: cores that predicate pay for both stores even when hidden */
+        /* One branch: cores that predicate pay for both stores even when hidden. */
+        __asm__ volatile ("");
         if (narrow)
             ((uint16_t *)pixel)[i] = (uint16_t)color;
         else
@@ -347,7 +349,8 @@ SMEAR_INLINE void put_four(void *pixel, uint16_t *depth, uint32_t z, uint32_t dz
 }
 
 /* n pixels of one colour, depth codes from z on in 16.16: the odd ones, then eights. */
-SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
+SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color,
+                           bool narrow)
 {
     if (n & 1) {
         put_flat(pixel, depth, 0, z, color, narrow);
@@ -375,8 +378,8 @@ SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, 
 }
 
 /* The same from index `at` on; of the colour as the target has it. */
-SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z, uint32_t dz,
-                              uint32_t color)
+SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
+                              uint32_t dz, uint32_t color)
 {
     if (target_is_direct(t))
         run_flat(t->direct + at, t->depth + at, n, z, dz, color, true);
@@ -384,8 +387,8 @@ SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, i
         run_flat(t->color + at, t->depth + at, n, z, dz, color, false);
 }
 
-/* Pixels [a, b) of row y, of which some may lie in the other slope of the depth code. Column 0 of the row is at index
- * `at`. */
+/* Pixels [a, b) of row y, of which some may lie in the other slope of the depth
+ * code. Column 0 of the row is at index `at`. */
 static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
 {
     const struct smear_raster_target *t = s->target;
@@ -403,8 +406,8 @@ static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32
     }
 }
 
-/* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth of opaque
- * draws lie in the window's rows alike. `cut`: the target's columns cut rows off. */
+/* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth
+ * of opaque draws lie in the window's rows alike. `cut`: the target's columns cut rows off. */
 SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
 {
     const struct smear_raster_target *t = s->target;
@@ -465,7 +468,8 @@ static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 /* Boxes of at most this many pixels are walked with edge functions (tiny.h), which fit 32 bits there. */
 enum { SMALL_PX = 8 };
 
-static inline void edges_start(struct tiny_edges *e, const struct setup *s, int32_t area, int32_t x, int32_t y)
+static inline void edges_start(struct tiny_edges *e, const struct setup *s, int32_t area, int32_t x,
+                               int32_t y)
 {
     tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, area, x, y);
 }
@@ -505,13 +509,14 @@ static void cover_small(const struct setup *s, int32_t area, int32_t left, int32
 
 /* ------------------------------------------------------------------ tiny triangles */
 
-/* Boxes of a few pixels: attributes are weighed at each pixel by the edge functions themselves, which costs less than
- * their gradients. Untextured, opaque, no motion. */
+/* Boxes of a few pixels: attributes are weighed at each pixel by the edge functions themselves, which costs
+ * less than their gradients. Untextured, opaque, no motion. */
 enum { TINY_PIXELS = 32 };
 
 static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
-    return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0 && draw_is_opaque(s->draw)
+    return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0
+        && draw_is_opaque(s->draw)
         && (!segment_gouraud(s->segment) || segment_flat_depth(s->segment)
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -572,7 +577,8 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
             if (code > t->depth[at]) {
                 t->depth[at] = (uint16_t)code;
-                target_put(t, at, gouraud ? channels_mix(&channels, w1, w2, frame_is_linear(s->frame)) : s->color);
+                target_put(t, at,
+                           gouraud ? channels_mix(&channels, w1, w2, frame_is_linear(s->frame)) : s->color);
                 if (setup_writes_velocity(s))
                     smear_velocity_still(t, at, s->velocity_unknown);
             }
@@ -585,7 +591,8 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
 
 /* ------------------------------------------------------------------ a triangle */
 
-/* Without a texture and opaque: one colour throughout, which is then s->color. Faces of boxes have such vertices. */
+/* Without a texture and opaque: one colour throughout, which is then
+ * s->color. Faces of boxes have such vertices. */
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
@@ -605,7 +612,8 @@ static bool is_flat(struct setup *s)
     return true;
 }
 
-/* A triangle that goes on in the next rows. Memory of its own, between the pool's vertices and triangles (frame.c). */
+/* A triangle that goes on in the next rows. Memory of its own, between
+ * the pool's vertices and triangles (frame.c). */
 struct slot {
     struct setup s;
     uint32_t triangle;
@@ -624,7 +632,8 @@ struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, in
 
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
 {
-    return (struct smear_raster_cache){ (struct slot *)first->slot + (uint32_t)i * first->slots, first->slots };
+    return (struct smear_raster_cache){ (struct slot *)first->slot + (uint32_t)i * first->slots,
+                                        first->slots };
 }
 
 /* Gradients and planes. */
@@ -660,7 +669,8 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
     if (!small) {
         smear_rows_fn *rows = smear_rows_choose(s);
         if (rows != NULL) {
-            cover_rows(s, rows, max_i32(left, 0) < target->x0 || min_i32(right, s->frame->width) > target->x1);
+            cover_rows(s, rows,
+                       max_i32(left, 0) < target->x0 || min_i32(right, s->frame->width) > target->x1);
             return;
         }
     }
@@ -675,8 +685,8 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
 /* Triangle number `triangle` of the list's geometry, or none. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
-                                         const struct smear_segment *segment, uint32_t color, uint32_t triangle,
-                                         const int32_t *const v[3], bool *moved)
+                                         const struct smear_segment *segment, uint32_t color,
+                                         uint32_t triangle, const int32_t *const v[3], bool *moved)
 {
     const struct bounds box = {
         min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
@@ -717,7 +727,8 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
     s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
-                      && !draw_is_blended(s->draw) && (segment_moves(segment) != 0 || draw_is_fixed(s->draw) || *moved);
+                      && !draw_is_blended(s->draw)
+                      && (segment_moves(segment) != 0 || draw_is_fixed(s->draw) || *moved);
     s->velocity_unknown = frame_has_depth_velocity(frame) && !draw_is_fixed(s->draw);
     if (segment_moves(segment) != 0 || draw_is_fixed(s->draw))
         *moved = true;
@@ -737,8 +748,9 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 }
 
 /* A finished pixel. */
-static inline void draw_point(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                              const struct smear_triangle *t, bool moved)
+static inline void draw_point(const struct smear_raster_frame *frame,
+                              const struct smear_raster_target *target, const struct smear_triangle *t,
+                              bool moved)
 {
     int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
     if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))

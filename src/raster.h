@@ -5,8 +5,8 @@
 
 #include "target.h"
 
-/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other; they are empty. Returns the
- * first; and which is that of target i. */
+/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other; they are empty.
+ * Returns the first; and which is that of target i. */
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count);
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i);
 
@@ -14,8 +14,8 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);
 
-/* Draws one triangle whose vertices are given: records laid out as in the segment, clockwise on the screen, of positive
- * area and within the guard band. No velocities. */
+/* Draws one triangle whose vertices are given: records laid out as in the segment, clockwise on the screen,
+ * of positive area and within the guard band. No velocities. */
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3]);
 

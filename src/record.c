@@ -37,8 +37,9 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         s->motion = (uint8_t)at;
         at += PATH_WORDS;
     }
-    s->shade = per_vertex ? SHADE_GOURAUD
-             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE : SHADE_FLAT;
+    s->shade = per_vertex                                                                  ? SHADE_GOURAUD
+             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE
+                                                                                           : SHADE_FLAT;
     s->flat_depth = is_orthographic(&d->at.now);
     s->stride = (uint8_t)at;
     return s;
@@ -78,10 +79,12 @@ static uint32_t channel_code(const struct smear_segment *s, const int32_t *recor
 {
     uint32_t word = (uint32_t)record[s->color + (c >> 1)];
     int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return linear ? smear_srgb_encode[clamp_i32(a, 0x400, 0xffe000) >> 12] : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
+    return linear ? smear_srgb_encode[clamp_i32(a, 0x400, 0xffe000) >> 12]
+                  : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
 }
 
-bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], bool linear)
+bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+                        bool linear)
 {
     if (s->shade != SHADE_GOURAUD || s->uv != 0)
         return false;

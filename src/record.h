@@ -24,7 +24,8 @@ struct smear_assembler {
     struct smear_geometry *geometry;
     struct smear_cached_vertex *cache;
     uint32_t cache_mask;
-    uint32_t serial;                /* of the draw within the context's life; tags of older draws never match */
+    uint32_t serial;                /* of the draw within the context's life;
+                                     * tags of older draws never match */
     bool cache_has_paths;           /* it holds vertices of assemble_path.c */
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
@@ -32,8 +33,8 @@ struct smear_assembler {
     uint32_t triangles_drawn, triangles_dropped;
 };
 
-/* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh) where poses of a
- * mesh that deforms are mixed. */
+/* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)
+ * where poses of a mesh that deforms are mixed. */
 struct smear_placement {
     struct smear_projection now;
     const int16_t *position;
@@ -52,15 +53,18 @@ struct smear_assembly {
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
-    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];   /* velocity is measured between these (one: and the drawn instant) */
+    /* velocity is measured between these (one: and the drawn instant) */
+    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
     const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
-    bool has_rest;                      /* what the mesh's own vertices add to them, where deformation is scaled: */
+    bool has_rest;                      /* what the mesh's own vertices add to them,
+                                         * where deformation is scaled: */
     struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_SCALES ? 2 : 1];
     struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
 
-static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
+static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
+                                       uint32_t index)
 {
     smear_transform_vertex(h, &p->now, p->position + 3 * index);
     for (int i = 0; SMEAR_WITH_DEFORM && i < p->extra_count; i++) {
@@ -74,7 +78,8 @@ static inline void placement_transform(struct smear_homogeneous *h, const struct
 }
 
 /* A vertex in a pose of the assembly. */
-static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose, uint32_t index)
+static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
+                                  uint32_t index)
 {
     smear_transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
     if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
@@ -129,7 +134,8 @@ void smear_record_shade(struct smear_color *color, const struct smear_assembly *
                         const uint8_t *face_color, uint32_t face_cosine, bool flip);
 
 /* Whether three stored vertices have one colour, or nearly, and there is no texture. */
-bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], bool linear);
+bool smear_record_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+                        bool linear);
 
 /* ------------------------------------------------------------------ faces */
 
@@ -146,8 +152,8 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
                           const struct smear_face *face);
 
-/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when clockwise on the
- * screen (y down). */
+/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2),
+ * positive when clockwise on the screen (y down). */
 static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {
 #if !SMEAR_HAS_MUL64

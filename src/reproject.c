@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* reproject.c - see reproject.h.
  *
- * Camera space is taken with x right, y down and z into the screen, so that a perspective place is f x / z. A point P that
- * the camera of now sees is at A P + a for that of a pose: a rotation (times the zoom) and a way. The drawn instant is a
- * sum of such maps, B P + b, linear in clip space as everywhere else. What it shows at s w, s = (x / f, y / f, 1), is
- * P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B' b) / w): linear in x, y and 1 / w, which is what depth
- * codes tell. */
+ * Camera space is taken with x right, y down and z into the screen, so that a perspective place is f x / z. A
+ * point P that the camera of now sees is at A P + a for that of a pose: a rotation (times the zoom) and a
+ * way. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
+ * shows at s w, s = (x / f, y / f, 1), is P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B'
+ * b) / w): linear in x, y and 1 / w, which is what depth codes tell. */
 #include "reproject.h"
 
 #include "fixmath.h"
@@ -76,7 +76,8 @@ struct map {
     int64_t way[3];             /* q40 world units */
 };
 
-static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } }, { 0, 0, 0 } };
+static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
+                                       { 0, 0, 0 } };
 
 static bool is_same_pose(const smear_transform *a, const smear_transform *b)
 {
@@ -118,7 +119,9 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
         for (int j = 0; j < 3; j++)
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
         struct number way = times(number_of(m->way[i], 0), zoom);
-        m->way[i] = way.e > 30 ? 0 : way.e < 0 ? (way.e < -31 ? 0 : way.m >> -way.e) : (int64_t)way.m * ((int64_t)1 << way.e);
+        m->way[i] = way.e > 30 ? 0
+                  : way.e < 0  ? (way.e < -31 ? 0 : way.m >> -way.e)
+                               : (int64_t)way.m * ((int64_t)1 << way.e);
     }
 }
 
@@ -204,7 +207,8 @@ static void pose_orthographic(struct smear_reprojection_pose *p, const struct ma
     /* Distance is far less range times units over NEAR. */
     struct number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
     struct number far_plane = number_of(now->far_plane, -16);
-    struct number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0));
+    struct number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
+                              number_of(SMEAR_DEPTH_NEAR, 0));
     struct number u[2];
     int u_shift = 0;
     for (int i = 0; i < 2; i++) {
@@ -259,12 +263,14 @@ static inline int32_t within(int32_t a, int32_t limit)
 }
 
 /* Places are q21 px: x, y as mulh factors. */
-static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x, int32_t y, int32_t u, int32_t out[2])
+static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x, int32_t y, int32_t u,
+                              int32_t out[2])
 {
     const int32_t quarter = 1 << 29, wide = 1 << 21;
     int32_t turn = within(mulh_i32(x, p->w_x), wide) * 256 + within(mulh_i32(y, p->w_y), wide) * 256;
     int32_t toward = within(scale_sat(mulh_i32(u, p->w_u), p->w_shift), quarter);
-    /* A point that was at or behind the eye has no place: the least w sends it far out, to the side it comes from. */
+    /* A point that was at or behind the eye has no place: the least w
+     * sends it far out, to the side it comes from. */
     int32_t w = max_i32(narrow_sat((int64_t)p->w_1 + turn + toward), 1 << 12);
     w = min_i32(w, (1 << 30) - 1);
     int zeros = count_leading_zeros((uint32_t)w);
@@ -279,7 +285,8 @@ static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x
     }
 }
 
-void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units, int32_t out[2])
+void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units,
+                     int32_t out[2])
 {
     int32_t px = (x2 - r->width) * (1 << 20), py = (y2 - r->height) * (1 << 20);
     int32_t u = (int32_t)(units << 11);
@@ -298,8 +305,8 @@ void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2,
 
 /* ------------------------------------------------------------------ attached objects */
 
-bool smear_is_attached(const smear_transform *object, const smear_camera *camera, const smear_transform *other_object,
-                       const smear_camera *other_camera)
+bool smear_is_attached(const smear_transform *object, const smear_camera *camera,
+                       const smear_transform *other_object, const smear_camera *other_camera)
 {
     /* Both in camera space, to within the rounding of their entries. */
     const smear_transform *o[2] = { object, other_object };

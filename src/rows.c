@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* rows.c - plain texels: nearest, opaque, unlit, sizes powers of two, repeated, in the target's own pixels. Rows of a triangle
- * are drawn together, a block of pixels after the other. */
+/* rows.c - plain texels: nearest, opaque, unlit, sizes powers of two, repeated, in the target's own pixels.
+ * Rows of a triangle are drawn together, a block of pixels after the other. */
 #include "rows.h"
 
 #include "course.h"
@@ -33,8 +33,8 @@ SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const vo
     }
 }
 
-/* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words have 64 bits,
- * else each alone. Bends are negative: what steps gain. */
+/* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words
+ * have 64 bits, else each alone. Bends are negative: what steps gain. */
 #if UINTPTR_MAX > 0xffffffffu
 struct texel_run {
     uint64_t uv, step, bend;
@@ -117,7 +117,8 @@ SMEAR_INLINE void run_step(struct texel_run *r)
 #if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
 #define TEXELS_BY_HAND 1
 
-/* One pixel, where the depth lies AT and the colour PLACE further on; LABEL is behind it. z in r2, u in r3, v in r4. */
+/* One pixel, where the depth lies AT and the colour PLACE further on;
+ * LABEL is behind it. z in r2, u in r3, v in r4. */
 #define PIXEL_BY_HAND(LOAD, STORE, SIZE, AT, PLACE, LABEL) \
         "lsrs r6, r2, #16\n\t" \
         "ldrh r7, [r1, #" AT "]\n\t" \
@@ -134,7 +135,8 @@ SMEAR_INLINE void run_step(struct texel_run *r)
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as a power of two, where the next one is, two. */
+/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as
+ * a power of two, where the next one is, two. */
 #define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
     __asm__ volatile( \
         ".syntax unified\n\t" \
@@ -174,12 +176,13 @@ SMEAR_INLINE void run_step(struct texel_run *r)
         "str r1, [r7, #28]\n\t" \
         "str r2, [r7, #32]" \
         : "+r"(r0) \
-        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), [from_u] "i"(32 - log2_width) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (narrow ? 1 : 2)), \
+          [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
 /* run_texels on cores with eight registers that do everything and six that only add:
- * compilers keep half of the values on the stack, which doubles the instructions. 18 a pixel. u and v are stepped each
- * alone. */
+ * compilers keep half of the values on the stack, which doubles the instructions.
+ * 18 a pixel. u and v are stepped each alone. */
 SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, bool narrow)
 {
     register struct texel_run *r0 __asm__("r0") = p;
@@ -265,7 +268,8 @@ SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, i
         if (z >> 16 > depth[I]) { \
             __asm__ volatile ("");      /* nothing of this in advance */ \
             depth[I] = (uint16_t)(z >> 16); \
-            put_texel(color, I, texels, v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), narrow); \
+            put_texel(color, I, texels, \
+                      v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), narrow); \
         } \
         z += dz; \
         u += du; \
@@ -373,7 +377,8 @@ SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane
     *step = (uint32_t)change << g->up & mask;
 }
 
-static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t, int32_t n)
+static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t,
+                                      int32_t n)
 {
     struct going g = { .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
@@ -419,10 +424,10 @@ struct piece {
     uint32_t z, dz;
 };
 
-/* The next piece of a row [left, right) after pixel a: within the target's columns and one slope of the depth code. False
- * when there is none. Writes its velocities. */
-static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, const struct span_rows *r, int32_t row,
-                                      int32_t a)
+/* The next piece of a row [left, right) after pixel a: within the target's columns and one slope of the depth
+ * code. False when there is none. Writes its velocities. */
+static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, const struct span_rows *r,
+                                      int32_t row, int32_t a)
 {
     int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
     enum depth_slope slope = s->slope;
@@ -441,7 +446,8 @@ static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, co
     if (s->writes_velocity) {
         const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
         const struct span span = {
-            .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y, .depth = s->target->depth + at, .at = at,
+            .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y,
+            .depth = s->target->depth + at, .at = at,
             .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
         };
         smear_span_velocity(s, &span);
@@ -456,15 +462,18 @@ static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i
     const struct smear_sampler *m = &s->draw->sampler;
     for (; i < end; i++, r->z += r->dz) {
         if (i >= first)
-            texel_pixel(r->color, r->depth, r->z, m->texels, run_uv(r), m->log2_width, m->log2_height, narrow);
+            texel_pixel(r->color, r->depth, r->z, m->texels, run_uv(r), m->log2_width, m->log2_height,
+                        narrow);
         run_advance(r, 1, narrow);
         run_step(r);
     }
 }
 
-/* Pixels [from, end) of a row, which are a block; some may lie outside the piece. False when no more are to be drawn. */
+/* Pixels [from, end) of a row, which are a block; some may lie outside the
+ * piece. False when no more are to be drawn. */
 static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
-                                                struct texel_run *run, struct piece *p, int32_t from, int32_t end)
+                                             struct texel_run *run, struct piece *p, int32_t from,
+                                             int32_t end)
 {
     for (int32_t x = from;; x = p->a) {
         run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
@@ -491,7 +500,8 @@ struct row_list {
 };
 
 /* Rows whose blocks would be single pixels: a place for each. */
-static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_rows *r, const struct row_list *list)
+static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_rows *r,
+                                       const struct row_list *list)
 {
     const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
     const struct smear_raster_target *target = s->target;
@@ -510,7 +520,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
         if (!plain && !piece_next(&p, s, r, row, p.a))
             continue;
         do {
-            int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y), v = plane_at(&t->uv[1], p.a, y);
+            int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y),
+                    v = plane_at(&t->uv[1], p.a, y);
             uint32_t z = p.z + p.dz * (uint32_t)p.a;
             uint16_t *depth = target->depth + (at + p.a), *const end = target->depth + (at + p.b);
             void *color = narrow ? (void *)(target->direct + (at + p.a)) : target->color + (at + p.a);
@@ -531,8 +542,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
 }
 
 /* Lists the others in `quotients`. */
-SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients, int log2_width,
-                              int log2_height, bool narrow)
+SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients,
+                              int log2_width, int log2_height, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
@@ -608,7 +619,11 @@ typedef struct { uint32_t u, v; } uv_pair;
 
 SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return (uv_pair){ (uint32_t)u, (uint32_t)v }; }
 SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return (uv_pair){ a.u + b.u, a.v + b.v }; }
-SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return (uv_pair){ a.u * (uint32_t)n, a.v * (uint32_t)n }; }
+
+SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n)
+{
+    return (uv_pair){ a.u * (uint32_t)n, a.v * (uint32_t)n };
+}
 
 SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
 {
@@ -622,15 +637,18 @@ SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pai
 #endif
 
 /* course_curved, whose values go on from row to row. */
-SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, bool narrow)
+SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, int log2_width,
+                              int log2_height, bool narrow)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const struct curve *cu = &t->curve[0], *cv = &t->curve[1];
     const int32_t x0 = t->x0, y = r->y - t->y0;
-    const uv_pair dxx = uv_make(cu->dxx, cv->dxx), dyy = uv_make(cu->dyy, cv->dyy), dxy = uv_make(cu->dxy, cv->dxy);
+    const uv_pair dxx = uv_make(cu->dxx, cv->dxx), dyy = uv_make(cu->dyy, cv->dyy),
+                  dxy = uv_make(cu->dxy, cv->dxy);
     const uv_pair bend = uv_add(dxx, dxx), dyy2 = uv_add(dyy, dyy);
-    uv_pair dx = uv_add(uv_make(cu->dx, cv->dx), uv_times(dxy, y)), dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
+    uv_pair dx = uv_add(uv_make(cu->dx, cv->dx), uv_times(dxy, y)),
+            dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
     uv_pair place = uv_add(uv_make(cu->at, cv->at), uv_times(dy, y));
     dy = uv_add(dy, uv_times(dyy, y + 1));
     const bool plain = is_plain(s, r);
@@ -645,12 +663,13 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     run_index_start(&run, log2_width, log2_height);
     const ptrdiff_t stride = target->window_rows.stride;
     for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
-        const int32_t left = side->left, n = side->right - left, x = left - x0, row = (int32_t)(side - r->side);
+        const int32_t left = side->left, n = side->right - left, x = left - x0,
+                      row = (int32_t)(side - r->side);
         struct piece p;
         if (n > 0 && (plain || piece_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
-            run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)), uv_add(dx, uv_add(along, uv_add(along, dxx))),
-                     bend);
+            run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
+                     uv_add(dx, uv_add(along, uv_add(along, dxx))), bend);
             run.depth = depth + left;
             run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
             run.z = z + run.dz * (uint32_t)left;
@@ -662,7 +681,8 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                 struct texel_run piece = run;       /* that one stays in registers */
                 run_texels_pieces(s, r, row, &piece, &p, left, left + n);
             } else if (n == 1 && TEXELS_BY_HAND) {
-                texel_pixel(run.color, run.depth, run.z, run.texels, run_uv(&run), log2_width, log2_height, narrow);
+                texel_pixel(run.color, run.depth, run.z, run.texels, run_uv(&run), log2_width, log2_height,
+                            narrow);
             } else {
                 run_texels(&run, n, log2_width, log2_height, narrow);
             }
@@ -707,7 +727,8 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const struct smear_sampler *t = &s->draw->sampler;
     const bool narrow = target_is_direct(s->target);
     if (s->segment->uv == 0 || s->segment->shade != SHADE_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns
-        || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888) || t->log2_width == 0 || t->log2_height == 0)
+        || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888) || t->log2_width == 0
+        || t->log2_height == 0)
         return NULL;
 #if SMEAR_DIRECT
     if (narrow)

@@ -5,7 +5,8 @@
 
 #include "span.h"
 
-/* Flat colours and plain texels in rows of their own: twice to four times as fast, of the same bits, and 3.4 kB larger. */
+/* Flat colours and plain texels in rows of their own: twice to four times as
+ * fast, of the same bits, and 3.4 kB larger. */
 #ifndef SMEAR_SPAN_ROWS
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_SPAN_ROWS 0
@@ -24,8 +25,10 @@ struct span_side {
 
 struct span_rows {
     int32_t y, count;
-    bool cut;                   /* the triangle may reach beyond the target's columns, where there is more of the frame */
-    int32_t at;                 /* index of column 0 of the first row in the planes: colour and depth lie alike */
+    bool cut;                   /* the triangle may reach beyond the target's columns,
+                                 * where there is more of the frame */
+    int32_t at;                 /* index of column 0 of the first row in the
+                                 * planes: colour and depth lie alike */
     struct span_side side[SPAN_ROWS];
 };
 

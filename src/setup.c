@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* setup.c - gradients and planes of a triangle.
  *
- * Perspective: u/w, v/w and 1/w are planes. Their quotients are polynomials of second degree where that is near enough; else
- * span.c takes them at the ends of blocks of pixels, and interpolates between. Which, and how long blocks are, is decided
- * here, by bounds of their errors. */
+ * Perspective: u/w, v/w and 1/w are planes. Their quotients are polynomials of second degree where that is
+ * near enough; else span.c takes them at the ends of blocks of pixels, and interpolates between. Which, and
+ * how long blocks are, is decided here, by bounds of their errors. */
 #include "setup.h"
 
 /* ------------------------------------------------------------------ gradients */
@@ -40,8 +40,9 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 #endif
 }
 
-/* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1
- * and a2 along the two edges; to nearest, clamped. recip: 1 / area, or that times a mantissa. */
+/* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of
+ * an attribute that changes by a1 and a2 along the two edges; to nearest, clamped.
+ * recip: 1 / area, or that times a mantissa. */
 static int32_t gradient(int64_t n, uint32_t recip, int shift)
 {
     if (n == 0)
@@ -68,8 +69,8 @@ static int32_t gradient(int64_t n, uint32_t recip, int shift)
     return n < 0 ? -g : g;
 }
 
-/* Slopes from the differences along the two edges, times 2^shift; none beyond `steep`: a plane so steep has no exact
- * pixels, its triangle is a sliver. */
+/* Slopes from the differences along the two edges, times 2^shift; none beyond `steep`: a plane so steep has
+ * no exact pixels, its triangle is a sliver. */
 static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int32_t d2, uint32_t recip,
                          int shift, int32_t steep)
 {
@@ -157,13 +158,15 @@ void smear_setup_color(struct setup *s)
             range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
     }
     s->even_color = range == 0;
-    /* Interpolated on the screen, a value is off by at most range x change of 1/w / 4: half a code is TEXTURE_OFF. */
+    /* Interpolated on the screen, a value is off by at most
+     * range x change of 1/w / 4: half a code is TEXTURE_OFF. */
     if (!segment_flat_depth(s->segment) && range != 0)
         s->perspective_color = smear_times_over((uint32_t)(high_q - low_q), range >> 8, (uint32_t)low_q)
                              > 4u * 128u;
     if (s->perspective_color) {     /* and one within a block, where 1/w changes by no more than this */
         uint32_t over_16 = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
-        uint32_t off = smear_times_over(min_u32(over_16, (uint32_t)(high_q - low_q)), range >> 8, (uint32_t)low_q);
+        uint32_t off = smear_times_over(min_u32(over_16, (uint32_t)(high_q - low_q)), range >> 8,
+                                        (uint32_t)low_q);
         s->color_block = off <= 4u * 256u ? 16 : off <= 16u * 256u ? 8 : 4;
     }
     for (int c = 0; c < channels; c++) {
@@ -176,8 +179,10 @@ void smear_setup_color(struct setup *s)
 /* ------------------------------------------------------------------ texture */
 
 enum {
-    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between the ends of a block, or affine */
-    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by 0.46 texel in the farthest corner */
+    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
+                                 * the ends of a block, or affine */
+    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
+                                 * 0.46 texel in the farthest corner */
 };
 
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
@@ -190,7 +195,8 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
     return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
 }
 
-/* What the frame shows of the triangle's box: pixels across, and depth units, which the covered pixels keep to. */
+/* What the frame shows of the triangle's box: pixels across, and
+ * depth units, which the covered pixels keep to. */
 struct seen {
     int32_t width;
     int32_t low_q, high_q;
@@ -219,9 +225,9 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
     }
 }
 
-/* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row there can be;
- * `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of their length, those of parabolas
- * with its cube. */
+/* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row
+ * there can be; `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of
+ * their length, those of parabolas with its cube. */
 static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
 {
     uint32_t n = (uint32_t)min_i32(width, 16);
@@ -265,12 +271,14 @@ static void setup_affine(struct setup *s, const struct corners *k)
             if (!t->turns)
                 a[j] = smear_sampler_texel(&s->draw->sampler, i, a[j]);
         }
-        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0, INT32_MAX - 1);
+        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0,
+                     INT32_MAX - 1);
         plane_place(s, &t->uv[i], a[0]);
     }
 }
 
-/* How the weights of v[1] and v[2] change per pixel, and how far sums of products with them are to be shifted. */
+/* How the weights of v[1] and v[2] change per pixel, and how far
+ * sums of products with them are to be shifted. */
 struct weights {
     int32_t dx[2], dy[2];
     int shift;
@@ -278,7 +286,8 @@ struct weights {
 
 static void weights_make(struct weights *w, const struct setup *s)
 {
-    const uint32_t longest = magnitude_i32(s->x1) | magnitude_i32(s->y1) | magnitude_i32(s->x2) | magnitude_i32(s->y2);
+    const uint32_t longest = magnitude_i32(s->x1) | magnitude_i32(s->y1) | magnitude_i32(s->x2)
+                           | magnitude_i32(s->y2);
     const int up = count_leading_zeros(longest) - 1;
     const int32_t recip = (int32_t)s->area_recip;
     w->dx[0] = mulh_i32(shl_wrap(s->y2, up), recip);
@@ -294,8 +303,8 @@ static inline int32_t weighed(const struct weights *w, const int32_t weight[2], 
     return scale_sat(mulh_i32(weight[0], d1) + mulh_i32(weight[1], d2), w->shift);
 }
 
-/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the vertices, q14; where in its pixel
- * v[0] is. */
+/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the
+ * vertices, q14; where in its pixel v[0] is. */
 struct depth_change {
     int32_t at, dx, dy;
     int32_t vertex[3];
@@ -303,8 +312,8 @@ struct depth_change {
 };
 
 /* One coordinate's polynomial. False where it is steep. */
-static bool curve_make(struct setup *s, const struct weights *w, const struct depth_change *e, const struct corners *k, int axis,
-                       int32_t step)
+static bool curve_make(struct setup *s, const struct weights *w, const struct depth_change *e,
+                       const struct corners *k, int axis, int32_t step)
 {
     const struct smear_sampler *m = &s->draw->sampler;
     const int32_t *u = k->uv[axis], middle = k->middle[axis];
@@ -326,10 +335,10 @@ static bool curve_make(struct setup *s, const struct weights *w, const struct de
     return true;
 }
 
-/* Around the middle of its range, q = m (1 + e) with |e| <= E. With planes e and W = (u - u_middle) (1 + e), u is
- * u_middle + W / (1 + e), nearly u_middle + W (1 + 3/16 E^2 - e): off by at most 13/16 E^2 W, in corners; 3/16 makes it least
- * on the average. Without perspective (`flat`) e is 0. False where the triangle is too large for 32 bits or the error
- * is. */
+/* Around the middle of its range, q = m (1 + e) with |e| <= E. With planes e and W = (u - u_middle)
+ * (1 + e), u is u_middle + W / (1 + e), nearly u_middle + W (1 + 3/16 E^2 - e): off by at most 13/16 E^2 W,
+ * in corners; 3/16 makes it least on the average. Without perspective (`flat`) e is 0. False where the
+ * triangle is too large for 32 bits or the error is. */
 static bool setup_curved(struct setup *s, const struct corners *k, uint32_t travel, bool flat)
 {
     struct texture_setup *t = &s->texture;
@@ -345,7 +354,8 @@ static bool setup_curved(struct setup *s, const struct corners *k, uint32_t trav
     if (!flat) {
         const uint32_t middle = ((uint32_t)k->low_q + (uint32_t)k->high_q) >> 1;
         const int up = count_leading_zeros(middle) - 1;
-        const int32_t recip = (int32_t)recip_norm_precise(middle << 1 << up);       /* 1/m = recip 2^(up - 60) */
+        /* 1/m = recip 2^(up - 60) */
+        const int32_t recip = (int32_t)recip_norm_precise(middle << 1 << up);
         const uint32_t half = ((uint32_t)k->high_q - (uint32_t)k->low_q + 1) >> 1;
         const uint32_t steep = max_u32(magnitude_i32(s->depth.dx), magnitude_i32(s->depth.dy));
         /* Depths are rounded by 1/2. */
@@ -359,7 +369,8 @@ static bool setup_curved(struct setup *s, const struct corners *k, uint32_t trav
             e.vertex[i] += (mulh_i32(shl_wrap(k->q[i] - (int32_t)middle, up), recip) + 0x2000) >> 14;
         e.dx = mulh_i32(shl_wrap(s->depth.dx, up), recip) * 16;
         e.dy = mulh_i32(shl_wrap(s->depth.dy, up), recip) * 16;
-        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + part_of(e.dx, e.fx) + part_of(e.dy, e.fy);
+        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + part_of(e.dx, e.fx)
+             + part_of(e.dy, e.fy);
         e.at -= (int32_t)(square * 3u);
     }
     struct weights w;
@@ -388,8 +399,8 @@ static void setup_divided(struct setup *s, const struct corners *k)
     t->shift = (int8_t)(20 - s->draw->sampler.uv_shift);
     t->slope = clamp_i32(t->q.dx, -(1 << 24) + 1, (1 << 24) - 1) * 128;
 
-    /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q, linear in u, so a
-     * vertex bounds its upper part. */
+    /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q,
+     * linear in u, so a vertex bounds its upper part. */
     uint32_t seen_q = (uint32_t)seen.low_q << up;
     uint32_t worst = 0;             /* texels per pixel, q6 */
     for (int i = 0; i < 2; i++) {
@@ -421,8 +432,8 @@ void smear_setup_texture(struct setup *s)
     }
     t->turns = s->draw->sampler.turns;
 
-    /* Texels travelled over the triangle, and the relative change of 1/w: linear interpolation of a quotient over a
-     * stretch is off by at most travel x change / 4 in its middle. */
+    /* Texels travelled over the triangle, and the relative change of 1/w: linear interpolation of a quotient
+     * over a stretch is off by at most travel x change / 4 in its middle. */
     uint32_t travel = 0;
     for (int i = 0; i < 2; i++) {
         const int32_t *u = k.uv[i];
@@ -432,7 +443,8 @@ void smear_setup_texture(struct setup *s)
         k.width[i] = high - low;
     }
     const bool flat = segment_flat_depth(s->segment)
-                   || product_u32((uint32_t)(k.high_q - k.low_q), travel) <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
+                   || product_u32((uint32_t)(k.high_q - k.low_q), travel)
+                          <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
     if (!setup_curved(s, &k, travel, flat)) {
         if (flat)
             setup_affine(s, &k);

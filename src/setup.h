@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* setup.h - a triangle made ready for its rows: planes of depth, colour, texture and velocity.
  *
- * Attributes are planes over the screen, a + x dx + y dy in 32-bit wrapping arithmetic: exact modulo 2^32 wherever
- * one starts, so the picture does not depend on how the frame is cut into columns and bands. */
+ * Attributes are planes over the screen, a + x dx + y dy in 32-bit wrapping arithmetic: exact modulo 2^32
+ * wherever one starts, so the picture does not depend on how the frame is cut into columns and bands. */
 #ifndef SMEAR_SETUP_H
 #define SMEAR_SETUP_H
 
@@ -42,9 +42,9 @@ enum texture_mode {
 
 enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel in a bent block, q16 of q itself */
 
-/* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what repeats) or,
- * where textures do not repeat by their bits, in texels q16. Where they are no polynomials they are exact at the ends of
- * blocks of pixels, and run along a chord or a parabola between. */
+/* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what
+ * repeats) or, where textures do not repeat by their bits, in texels q16. Where they are no polynomials they
+ * are exact at the ends of blocks of pixels, and run along a chord or a parabola between. */
 struct texture_setup {
     enum texture_mode mode;
     bool turns;
@@ -83,7 +83,8 @@ struct setup {
     struct plane depth;             /* units q11 */
 
     uint32_t color;                 /* 0xAARRGGBB: flat */
-    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or linear >> 8) in q16, see channel_value */
+    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
+                                     * linear >> 8) in q16, see channel_value */
     uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
     bool even_color;                /* channels are the same everywhere */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
@@ -113,8 +114,9 @@ static inline int32_t step_from_units(int32_t units, enum depth_slope slope)
     return shl_wrap(units, slope == SLOPE_FAR ? 5 : 1);
 }
 
-/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. Codes are rounded by 1/2; linear light
- * is looked up by its floor. Both keep a margin from 0 and 256 that rounding errors of a plane do not cross. */
+/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. Codes are
+ * rounded by 1/2; linear light is looked up by its floor. Both keep a margin from 0 and 256
+ * that rounding errors of a plane do not cross. */
 static inline int32_t channel_value(const struct setup *s, int vertex, int c)
 {
     uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];

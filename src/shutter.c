@@ -15,8 +15,8 @@ static uint32_t light_to(const uint8_t *openness, int i)
     return sum;
 }
 
-/* Where in a piece that opens from a to b a share of its light, `light` of a + b, has come through: q16 of the piece.
- * Halves an interval: the light up to u is 2 a u + (b - a) u^2. */
+/* Where in a piece that opens from a to b a share of its light, `light` of a + b, has come through: q16 of
+ * the piece. Halves an interval: the light up to u is 2 a u + (b - a) u^2. */
 static int32_t time_in_piece(int32_t a, int32_t b, uint32_t light_q8)
 {
     int32_t low = 0, high = 65536;

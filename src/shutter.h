@@ -5,8 +5,8 @@
 
 #include "path.h"
 
-/* `openness`: SMEAR_SHUTTER_POINTS even steps over the exposure, straight lines between; null: box. False when it is
- * closed throughout. */
+/* `openness`: SMEAR_SHUTTER_POINTS even steps over the exposure, straight lines between;
+ * null: box. False when it is closed throughout. */
 bool smear_shutter_make(struct smear_shutter *shutter, const uint8_t *openness);
 
 /* The middle of instant i of n of equal weight, q16 of the exposure. */

@@ -36,7 +36,8 @@ void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_in
     for (; in != end; in += 3, out += 3, at += 2 * n - 1) {
         int32_t x = in[0], y = in[1], z = in[2];
         const struct smear_joint_matrix *j = joint + at[0];
-        int32_t px = by_row(j->row[0], x, y, z), py = by_row(j->row[1], x, y, z), pz = by_row(j->row[2], x, y, z);
+        int32_t px = by_row(j->row[0], x, y, z), py = by_row(j->row[1], x, y, z),
+                pz = by_row(j->row[2], x, y, z);
         if (n == 1 || at[n] == 0) {
             out[0] = clamp_step((px + 8) >> 4);
             out[1] = clamp_step((py + 8) >> 4);
@@ -59,7 +60,8 @@ void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_in
     }
 }
 
-/* Scales to length 127. sqrt_q3 wants less than 2^20, so components get 9 bits; the result is right within 1. */
+/* Scales to length 127. sqrt_q3 wants less than 2^20, so
+ * components get 9 bits; the result is right within 1. */
 static void unit_normal(int8_t out[3], int32_t x, int32_t y, int32_t z)
 {
     uint32_t size = (uint32_t)max_i32(abs_i32(x), max_i32(abs_i32(y), abs_i32(z)));
@@ -95,8 +97,8 @@ void smear_skin_normals(int8_t *out, const int8_t *in, const struct smear_influe
     }
 }
 
-void smear_morph_positions(int16_t *position, const smear_model_target *target, const smear_model_delta *delta,
-                           int16_t weight)
+void smear_morph_positions(int16_t *position, const smear_model_target *target,
+                           const smear_model_delta *delta, int16_t weight)
 {
     int shift = 14 - (int)target->shift;
     int32_t half = 1 << (shift - 1);

@@ -19,10 +19,13 @@ static bool is_power_of_two(uint32_t x)
 /* What was compiled in (smear_config.h). */
 static bool has_method(int method)
 {
-    return method == SMEAR_ACCUMULATE ? SMEAR_WITH_ACCUMULATE : method == SMEAR_RECONSTRUCT ? SMEAR_WITH_RECONSTRUCT
-         : method == SMEAR_TIMEMASK ? SMEAR_WITH_TIMEMASK : smear_method_is_timed(method) ? SMEAR_WITH_SUBFRAMES
+    return method == SMEAR_ACCUMULATE         ? SMEAR_WITH_ACCUMULATE
+         : method == SMEAR_RECONSTRUCT        ? SMEAR_WITH_RECONSTRUCT
+         : method == SMEAR_TIMEMASK           ? SMEAR_WITH_TIMEMASK
+         : smear_method_is_timed(method)      ? SMEAR_WITH_SUBFRAMES
          : method_has_layers((uint8_t)method) ? SMEAR_WITH_LAYERS
-         : smear_method_is_filter(method) ? SMEAR_WITH_FILTERS : true;
+         : smear_method_is_filter(method)     ? SMEAR_WITH_FILTERS
+                                              : true;
 }
 
 static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
@@ -39,8 +42,8 @@ static inline int32_t row_px(const smear_desc *d) { return has_tiles(d) ? d->til
 static bool resolve(smear_desc *d)
 {
     if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2
-        || (d->inspect != NULL && !SMEAR_WITH_INSPECT)
-        || (d->layers && !SMEAR_WITH_LAYERS) || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
+        || (d->inspect != NULL && !SMEAR_WITH_INSPECT) || (d->layers && !SMEAR_WITH_LAYERS)
+        || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
         return false;
     if (!SMEAR_WITH_RECONSTRUCT)
         d->sharp = 1;
@@ -53,8 +56,10 @@ static bool resolve(smear_desc *d)
     if (d->reach < 1 || d->reach > 64)
         return false;
     if (d->tile == 0)
-        d->tile = (int16_t)(is_timed(d) && d->sharp ? 32 : d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64 || (d->tile < d->reach && !d->scatter))
+        d->tile = (int16_t)(is_timed(d) && d->sharp ? 32
+                          : d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
+    if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64
+        || (d->tile < d->reach && !d->scatter))
         return false;
     if (d->tile == 4 && (d->scatter || d->half || is_timed(d) || is_layered(d)))
         return false;
@@ -94,7 +99,8 @@ static bool resolve(smear_desc *d)
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
-    return max_u32(d->max_triangles * ((is_timed(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4), least);
+    return max_u32(d->max_triangles * ((is_timed(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4),
+                   least);
 }
 
 SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
@@ -112,9 +118,10 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangl
 /* A window of half the size of `full`. */
 static void layout_half(struct smear_window *w, struct smear_arena *a, const struct smear_window *full)
 {
-    *w = (struct smear_window){ .width = (full->width + 1) / 2, .height = (full->height + 1) / 2, .tile = full->tile / 2,
-                                .tile_shift = full->tile_shift - 1, .reach = (full->reach + 1) / 2,
-                                .columns = full->columns, .rows = full->rows, .lag = 1 };
+    *w = (struct smear_window){ .width = (full->width + 1) / 2, .height = (full->height + 1) / 2,
+                                .tile = full->tile / 2, .tile_shift = full->tile_shift - 1,
+                                .reach = (full->reach + 1) / 2, .columns = full->columns,
+                                .rows = full->rows, .lag = 1 };
     w->ring = 2 * w->tile + w->reach;
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     w->color = arena_take(a, plane, 4);
@@ -165,7 +172,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     if (has_half(d)) {
         c->half = arena_take(a, 1, sizeof *c->half);
         layout_half(c->half != NULL ? c->half : &spare, a, w);
-        c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2), 4);
+        c->half_scratch = arena_take(a, (size_t)d->workers * (size_t)(d->tile / 2) * (size_t)(d->tile / 2),
+                                     4);
     }
     c->strip = d->strip;
     if (has_window(d) || is_timed(d))
@@ -188,7 +196,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             c->layers = l;
         *l = (struct smear_layers){ 0 };
         struct smear_layer_rows *r = &l->rows;
-        int32_t margin = (d->reach + 3) & ~3;       /* nodes of streaks lie 4 px apart, from the frame's side on */
+        int32_t margin = (d->reach + 3) & ~3;       /* nodes of streaks lie 4 px apart,
+                                                     * from the frame's side on */
         *r = (struct smear_layer_rows){ .margin = margin, .width = d->width + 2 * margin,
                                         .height = d->height + 2 * d->tile, .rows = d->tile + 2 * d->reach };
         size_t layer = (size_t)r->width * (size_t)r->rows;
@@ -218,7 +227,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->inspect = SMEAR_WITH_INSPECT && d->inspect != NULL && has_window(d) ? arena_take(a, plane, 8) : NULL;
     c->sums = NULL;
     if (SMEAR_WITH_ACCUMULATE && d->accumulate)
-        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : row_px(d)), 3 * sizeof *c->sums);
+        c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : row_px(d)),
+                             3 * sizeof *c->sums);
 
     c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
@@ -299,7 +309,8 @@ static bool is_camera(const smear_camera *c)
             return false;
     if (c->near_plane <= 0 || (c->far_plane != 0 && c->far_plane <= c->near_plane))
         return false;
-    return SMEAR_WITH_ORTHOGRAPHIC && c->half_height > 0 ? c->far_plane != 0 : c->half_height == 0 && c->focal > 0;
+    return SMEAR_WITH_ORTHOGRAPHIC && c->half_height > 0 ? c->far_plane != 0
+                                                         : c->half_height == 0 && c->focal > 0;
 }
 
 /* a / b in q24, at most 100 of them. */
@@ -328,7 +339,8 @@ static int32_t half_exposure(smear_frame *f)
             frames = min_i32(frames, whole);
         if (!SMEAR_WITH_SHUTTER_MODES || frames == whole)
             return (int32_t)(((uint32_t)f->shutter_degrees << 20) / 45u);
-        uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;             /* 2^32 / 360 = 11930465 */
+        /* 2^32 / 360 = 11930465 */
+        uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;
         degrees = (degrees >> 8) * 11930465u >> 24;
         exposure = (int32_t)(degrees < (uint64_t)longest ? degrees : (uint64_t)longest);
     }
@@ -356,13 +368,15 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
         for (int i = 0; i < 9; i++)
             other->pose.basis[i] = f->turn_scale == 0 ? now->pose.basis[i] : turned.basis[i];
         int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->turn_scale >> 8);
-        int64_t half = now->half_height + (((int64_t)other->half_height - now->half_height) * f->turn_scale >> 8);
+        int64_t half = now->half_height
+                     + (((int64_t)other->half_height - now->half_height) * f->turn_scale >> 8);
         other->focal = now->focal > 0 ? max_i32(narrow_sat(focal), 1) : 0;
         other->half_height = now->half_height > 0 ? max_i32(narrow_sat(half), 1) : 0;
     }
     for (int i = 0; i < 3 && f->way_scale != 256; i++)
         other->pose.origin[i] = narrow_sat(now->pose.origin[i]
-                                           + (((int64_t)other->pose.origin[i] - now->pose.origin[i]) * f->way_scale >> 8));
+                                           + (((int64_t)other->pose.origin[i] - now->pose.origin[i])
+                                              * f->way_scale >> 8));
 }
 
 static bool is_one_bit(uint8_t format)
@@ -374,7 +388,9 @@ static bool is_one_bit(uint8_t format)
 static bool resolve_frame(const struct smear_context *c, smear_frame *f)
 {
     if (f->method == SMEAR_DEFAULT_METHOD)
-        f->method = c->desc.timed ? SMEAR_AUTO : c->desc.sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE : SMEAR_RECONSTRUCT;
+        f->method = c->desc.timed                            ? SMEAR_AUTO
+                  : c->desc.sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE
+                                                             : SMEAR_RECONSTRUCT;
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
     /* Steps of so few greys hide an error of several codes. */
@@ -384,16 +400,19 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->shutter_degrees = 180;
     if (SMEAR_WITH_FILTERS && f->method == SMEAR_CAMERA && f->camera_step == 0)
         f->camera_step = 1;
-    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
+    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS
+        || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
         f->filter = SMEAR_FILTER_RECONSTRUCT;
     else if (f->method == SMEAR_PINGPONG)
         f->filter = SMEAR_FILTER_PINGPONG;
     else if (f->filter == SMEAR_FILTER_DEFAULT)
         f->filter = SMEAR_FILTER_MEAN;
-    if (SMEAR_WITH_FILTERS && (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4))
+    if (SMEAR_WITH_FILTERS
+        && (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ
+            || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4))
         return false;
-    if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING || f->light > SMEAR_LIGHT_ENCODED
-        || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
+    if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING
+        || f->light > SMEAR_LIGHT_ENCODED || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
         || f->samples > 1024 || f->shutter_degrees > 3600
         || (!SMEAR_WITH_LINEAR && f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_PACKED_INSTANTS))
         return false;
@@ -405,14 +424,16 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         f->reference_hz = 30;
     if (!SMEAR_WITH_SHUTTER_MODES && (f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0))
         return false;
-    if (SMEAR_WITH_SHUTTER_MODES && (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
-        || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0)))
+    if (SMEAR_WITH_SHUTTER_MODES
+        && (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
+            || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0)))
         return false;
     if (!resolve_scale(&f->turn_scale) || !resolve_scale(&f->way_scale) || !resolve_scale(&f->object_scale))
         return false;
     if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(f->method) && c->desc.sharp)
         return false;
-    if (SMEAR_WITH_FILTERS && smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG && f->pingpong.passes > c->desc.passes)
+    if (SMEAR_WITH_FILTERS && smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG
+        && f->pingpong.passes > c->desc.passes)
         return false;
     if (SMEAR_WITH_FILTERS && f->method == SMEAR_HALF && !c->desc.half)
         return false;
@@ -428,7 +449,8 @@ static bool is_layer(const smear_layer *l)
     return l->mask != 0 && (l->method == 0 || l->method == SMEAR_NONE || method_has_layers(l->method))
         && l->shutter_degrees <= 3600
         && (l->camera == NULL ? l->open == NULL && l->close == NULL
-            : is_camera(l->camera) && (l->open == NULL || is_camera(l->open)) && (l->close == NULL || is_camera(l->close)));
+                              : is_camera(l->camera) && (l->open == NULL || is_camera(l->open))
+                                    && (l->close == NULL || is_camera(l->close)));
 }
 
 static bool are_layers(const smear_frame *f)
@@ -477,7 +499,8 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         || (frame->close != NULL && !is_camera(frame->close)))
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !are_layers(&f) || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->shutter, f.shutter)))
+    if (!resolve_frame(c, &f) || !are_layers(&f)
+        || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->shutter, f.shutter)))
         return SMEAR_ERR_ARG;
     if (SMEAR_WITH_LAYERS && method_has_layers(f.method))
         keep_layers(c, &f);
@@ -516,9 +539,10 @@ int smear_begin(smear_context *c, const smear_frame *frame)
 
 static bool is_texture(const smear_texture *t)
 {
-    return SMEAR_WITH_TEXTURE && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1 && t->height <= 4096
-        && t->format <= SMEAR_TEXEL_PALETTE8 && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL)
-        && t->wrap_u <= SMEAR_MIRROR && t->wrap_v <= SMEAR_MIRROR;
+    return SMEAR_WITH_TEXTURE && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1
+        && t->height <= 4096 && t->format <= SMEAR_TEXEL_PALETTE8
+        && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL) && t->wrap_u <= SMEAR_MIRROR
+        && t->wrap_v <= SMEAR_MIRROR;
 }
 
 static bool is_mesh(const smear_mesh *m)
@@ -574,11 +598,13 @@ int smear_submit(smear_context *c, const smear_draw *draw)
         || draw->billboard > (SMEAR_WITH_BILLBOARDS ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_NONE))
         return SMEAR_ERR_ARG;
     const smear_material *m = draw->material;
-    if ((!SMEAR_WITH_IDS && draw->id != 0) || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+    if ((!SMEAR_WITH_IDS && draw->id != 0)
+        || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
         || (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL)))
         return SMEAR_ERR_ARG;
-    if (m != NULL && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) || (m->texture != NULL && !is_texture(m->texture))
-                      || (m->bilinear && !SMEAR_WITH_BILINEAR)))
+    if (m != NULL
+        && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE)
+            || (m->texture != NULL && !is_texture(m->texture)) || (m->bilinear && !SMEAR_WITH_BILINEAR)))
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
@@ -622,10 +648,12 @@ void smear_get_stats(const smear_context *c, smear_stats *stats)
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || frame == NULL || frame->camera == NULL || frame->camera->near_plane <= 0)
+    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || frame == NULL || frame->camera == NULL
+        || frame->camera->near_plane <= 0)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA || c->desc.workers > 1)
+    if (!resolve_frame(c, &f) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA
+        || c->desc.workers > 1)
         return SMEAR_ERR_ARG;
     f.camera = f.open = f.close = NULL;
     f.shutter_poses = 0;

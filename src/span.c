@@ -42,8 +42,8 @@ void smear_span_flat(const struct setup *s, const struct span *p)
 
 /* ------------------------------------------------------------------ blocks */
 
-/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the pixel at
- * its end as well, unless blocks are single pixels. */
+/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the
+ * pixel at its end as well, unless blocks are single pixels. */
 struct walk {
     int32_t x, last, y;     /* where the next block begins; the span's last pixel; its row */
     int32_t start;          /* where the one before began */
@@ -103,8 +103,8 @@ static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
     return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
 }
 
-/* A block of a span: where it begins and ends in the triangle's row, and where drawing begins. Values are exact at its
- * ends, which no cut of the frame moves. */
+/* A block of a span: where it begins and ends in the triangle's row, and where drawing begins. Values are
+ * exact at its ends, which no cut of the frame moves. */
 struct block {
     int32_t start, end, x;
 };
@@ -144,8 +144,8 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     }
 }
 
-/* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no colour: then red and blue are one
- * product. */
+/* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no
+ * colour: then red and blue are one product. */
 static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
 {
     const uint32_t r = c[0] >> 16 & 255u, g = c[1] >> 16 & 255u, b = c[2] >> 16 & 255u, pair = 0xff00ffu;

@@ -25,19 +25,20 @@ typedef void smear_span_fn(const struct setup *s, const struct span *p);
 /* One colour, opaque; and everything. */
 smear_span_fn smear_span_flat, smear_span_general;
 
-/* How many of n pixels come before the first one beyond the break of the depth code, which lies among them. */
+/* How many of n pixels come before the first one beyond the
+ * break of the depth code, which lies among them. */
 static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
 {
     int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
     return clamp_i32(before, 1, n - 1);
 }
 
-/* Writes velocities where the span will pass the depth test; comes before the colours, which write depth. With a mask it
- * comes after them and goes by the mask. */
+/* Writes velocities where the span will pass the depth test; comes before the colours, which write depth.
+ * With a mask it comes after them and goes by the mask. */
 void smear_span_velocity(const struct setup *s, const struct span *p);
 
-/* One pixel without a motion of its own: its velocity is zero or, where the camera's is still to be told from depth,
- * unknown. */
+/* One pixel without a motion of its own: its velocity is zero or, where the
+ * camera's is still to be told from depth, unknown. */
 void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown);
 
 #endif

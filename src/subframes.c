@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* subframes.c - the moving triangles of some tiles drawn again at several instants.
  *
- * Where no mover is at an instant, a tile looks as it does without movers: that picture (still surfaces, still blended
- * draws over them) is made once, and weighs for all instants that say nothing else. At each instant only the box
- * around the movers is drawn, summed and made still again.
+ * Where no mover is at an instant, a tile looks as it does without movers: that picture (still surfaces,
+ * still blended draws over them) is made once, and weighs for all instants that say nothing else. At each
+ * instant only the box around the movers is drawn, summed and made still again.
  *
- * A sum of N instants is the comb of N teeth where the truth is a box. Where all movers go alike, a tooth is as far from
- * the next at all pixels, and the sum's own mean over that distance closes the comb: shifted in space is shifted in
- * time. Only what moves is meant: what is still lies beneath, with the weight of the instants that are left. */
+ * A sum of N instants is the comb of N teeth where the truth is a box. Where all movers go alike, a
+ * tooth is as far from the next at all pixels, and the sum's own mean over that distance closes the
+ * comb: shifted in space is shifted in time. Only what moves is meant: what is still lies beneath,
+ * with the weight of the instants that are left. */
 #include "subframes.h"
 
 #include "fixmath.h"
@@ -18,8 +19,10 @@
 #include "vector.h"
 
 enum {
-    LISTED = 128,           /* triangles of the tile that are remembered; others are looked for at each instant */
-    PACKED_MAX = SMEAR_PACKED_INSTANTS,     /* weights of codes that add up in 16 bits, with half of themselves */
+    LISTED = 128,           /* triangles of the tile that are remembered;
+                             * others are looked for at each instant */
+    PACKED_MAX = SMEAR_PACKED_INSTANTS,     /* weights of codes that add up in 16
+                                             * bits, with half of themselves */
     SUM_PLANES = SMEAR_WITH_LINEAR ? 4 : 2,     /* of codes alone all sums are packed */
     RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
@@ -50,8 +53,8 @@ struct mean {
     int shift;
 };
 
-/* The same in 16 bits, for sums of n codes, 2 <= n <= PACKED_MAX: times 2^(16 + shift) / n, rounded up: a mean that is
- * whole stays so, and others go up from 1/2 - 1/128 on. */
+/* The same in 16 bits, for sums of n codes, 2 <= n <= PACKED_MAX: times 2^(16 + shift) / n, rounded up: a
+ * mean that is whole stays so, and others go up from 1/2 - 1/128 on. */
 struct narrow_mean {
     uint32_t n, half, factor;
     int shift;
@@ -60,7 +63,8 @@ struct narrow_mean {
 struct subframes {
     const struct smear_moving_tile *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
-    /* Planes of sums of what is not still. Packed: red and blue, then green and how many. Else: red, green, blue. */
+    /* Planes of sums of what is not still. Packed: red and blue, then
+     * green and how many. Else: red, green, blue. */
     uint32_t *sum[3];
     uint32_t *times;            /* how many */
     bool packed;
@@ -78,7 +82,8 @@ struct subframes {
 
 size_t smear_subframes_work(int32_t width, int32_t height)
 {
-    return (size_t)(width * height) * (SUM_PLANES * sizeof(uint32_t) + sizeof(uint16_t)) + LISTED * sizeof(uint32_t);
+    return (size_t)(width * height) * (SUM_PLANES * sizeof(uint32_t) + sizeof(uint16_t))
+         + LISTED * sizeof(uint32_t);
 }
 
 static struct mean mean_make(uint32_t n)
@@ -107,7 +112,8 @@ static inline uint32_t narrow_mean_of(const struct narrow_mean *m, uint32_t sum)
 
 /* ------------------------------------------------------------------ what is still */
 
-static inline int32_t still_row(const struct smear_raster_target *s, const struct smear_plane_rows *rows, int32_t y)
+static inline int32_t still_row(const struct smear_raster_target *s, const struct smear_plane_rows *rows,
+                                int32_t y)
 {
     int32_t slot = rows->slot0 + (y - s->y0);
     return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
@@ -123,7 +129,8 @@ static void restore_depth(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
     for (int32_t y = b->y0; y < b->y1; y++)
-        __builtin_memcpy(f->work.depth + work_row(f, b, y), s->depth + still_row(s, &s->window_rows, y) + b->x0,
+        __builtin_memcpy(f->work.depth + work_row(f, b, y),
+                         s->depth + still_row(s, &s->window_rows, y) + b->x0,
                          (size_t)(b->x1 - b->x0) * sizeof *s->depth);
 }
 
@@ -131,12 +138,14 @@ static void copy_color(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
     for (int32_t y = b->y0; y < b->y1; y++)
-        __builtin_memcpy(f->work.color + work_row(f, b, y), s->color + still_row(s, &s->color_rows, y) + b->x0,
+        __builtin_memcpy(f->work.color + work_row(f, b, y),
+                         s->color + still_row(s, &s->color_rows, y) + b->x0,
                          (size_t)(b->x1 - b->x0) * sizeof *s->color);
 }
 
 /* Least and greatest of a plane of depth codes. */
-static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height, uint32_t *low, uint32_t *high)
+static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height, uint32_t *low,
+                        uint32_t *high)
 {
     uint32_t least = UINT16_MAX, most = 0;
 #if SMEAR_VECTORS
@@ -146,7 +155,8 @@ static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int
         int32_t x = 0;
 #if SMEAR_VECTORS
         for (; x + 8 <= width; x += 8) {
-            const smear_v8i d = v8i_load(depth + x) ^ v8i_all(INT16_MIN);      /* in the order of signed numbers */
+            /* in the order of signed numbers */
+            const smear_v8i d = v8i_load(depth + x) ^ v8i_all(INT16_MIN);
             low8 = v8i_min(low8, d);
             high8 = v8i_max(high8, d);
         }
@@ -192,13 +202,15 @@ static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
     return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
-/* Coordinate VERTEX_X or VERTEX_Y of all three. Between places within the guard band a parabola may leave it. */
+/* Coordinate VERTEX_X or VERTEX_Y of all three. Between places
+ * within the guard band a parabola may leave it. */
 static inline struct range place(struct posed *p, int axis, int32_t u, int32_t middle)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
     const int open = p->segment->motion + axis;
     for (int i = 0; i < 3; i++)
-        p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS], u);
+        p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS],
+                                             u);
     struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
     if (r.low < middle - guard || r.high > middle + guard)
         for (int i = 0; i < 3; i++)
@@ -248,7 +260,8 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
     return true;
 }
 
-static inline void draw(const struct posed *p, const struct subframes *f, const struct smear_raster_target *target)
+static inline void draw(const struct posed *p, const struct subframes *f,
+                        const struct smear_raster_target *target)
 {
     smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v);
 }
@@ -287,7 +300,8 @@ static bool list(struct subframes *f)
     const struct smear_geometry *g = t->frame->geometry;
     uint32_t n = 0;
     bool moves = false;
-    find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest, &f->highest);
+    find_depths(f->work.depth, t->pitch, t->still.x1 - t->still.x0, t->still.y1 - t->still.y0, &f->lowest,
+                &f->highest);
     f->nearest = 0;
     f->area = no_box;
     for (f->mover_rest = 0; f->mover_rest < t->mover_count && n < LISTED; f->mover_rest++) {
@@ -365,7 +379,8 @@ static void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
 {
     for (uint32_t i = f->movers_listed; i < f->all_listed; i++)
         blend_one(f, f->listed[i], time, pass, target, all);
-    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(f->t->frame->geometry, i)->next)
+    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE;
+         i = geometry_triangle(f->t->frame->geometry, i)->next)
         blend_one(f, i, time, pass, target, all);
 }
 
@@ -403,15 +418,17 @@ static inline uint32_t value_of(uint32_t code, bool linear)
     return linear ? smear_srgb_decode[code] : code;
 }
 
-/* Adds n pixels and makes them still again. What looks still need not be counted: it is what the rest of the mean is
- * made of. `all`: everything counts. */
-static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uint32_t *gn, int32_t n, bool all)
+/* Adds n pixels and makes them still again. What looks still need not be counted: it is what the rest of the
+ * mean is made of. `all`: everything counts. */
+static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uint32_t *gn, int32_t n,
+                       bool all)
 {
     int32_t i = 0;
 #if SMEAR_VECTORS
     const smear_v4u every = { 0u - all, 0u - all, 0u - all, 0u - all };
     for (; i + 4 <= n; i += 4) {
-        smear_v4u c = v4u_load(color + i), behind = v4u_load(still + i), counts = (smear_v4u)(c != behind) | every;
+        smear_v4u c = v4u_load(color + i), behind = v4u_load(still + i),
+                  counts = (smear_v4u)(c != behind) | every;
         v4u_store(color + i, behind);
         c &= counts;
         v4u_store(rb + i, v4u_load(rb + i) + (c & 0xff00ffu));
@@ -461,15 +478,17 @@ static void add(const struct subframes *f, const struct box *b)
 
 /* ------------------------------------------------------------------ means */
 
-/* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
- * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is shifted. */
+/* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what
+ * is left. Taps are in pairs, which count only together: where one lies outside the tiles the
+ * gap is closed by less, but nothing is shifted. */
 enum { PAIRS_MAX = 8 };
 
 struct gap {
     int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
     int32_t offset[PAIRS_MAX];              /* the same in the planes */
-    uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of two), but the last pair's */
+    uint32_t unit, last;                    /* weights: of all taps (1 .. 16, a power of
+                                             * two), but the last pair's */
     int unit_log2;
     uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
     struct narrow_mean mean[PAIRS_MAX + 1];
@@ -483,10 +502,12 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
 static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
-    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));   /* 1/16 px */
+    /* 1/16 px */
+    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * PAIRS_MAX + 1));
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
-        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);     /* what is left is the same on both sides */
+        /* what is left is the same on both sides */
+        whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);
         if (gap->unit == 1)
             whole |= 1u;
         if (gap->unit == 1 || !f->packed || whole * f->instants <= PACKED_MAX)
@@ -506,7 +527,9 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
         gap->unit = f->instants == 1 ? 2 : 1;
     gap->unit_log2 = 31 - count_leading_zeros(gap->unit);
     for (int32_t pairs = 0; pairs <= gap->pairs; pairs++) {
-        gap->weight[pairs] = f->instants * (pairs == gap->pairs && pairs != 0 ? whole : gap->unit * (2 * (uint32_t)pairs + 1));
+        gap->weight[pairs] = f->instants
+                           * (pairs == gap->pairs && pairs != 0 ? whole
+                                                                : gap->unit * (2 * (uint32_t)pairs + 1));
         if (f->packed)
             gap->mean[pairs] = narrow_mean_make(gap->weight[pairs]);
     }
@@ -541,10 +564,12 @@ static inline bool stays_still(const struct subframes *f, int32_t at)
     return f->work.depth[at] > f->nearest && times_at(f, at) == 0;
 }
 
-/* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there they go on as at the
- * pixel. Where the pixel itself hides some, others do not spread over it. What is at a pixel at n instants is half a gap
- * away, or less, at n - 1 of them: where it is not and what is still is nearer, that hides it. */
-static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+/* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there
+ * they go on as at the pixel. Where the pixel itself hides some, others do not spread over it.
+ * What is at a pixel at n instants is half a gap away, or less, at n - 1 of them: where it is not
+ * and what is still is nearer, that hides it. */
+static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap,
+                      int32_t pairs)
 {
     const uint32_t depth = f->work.depth[at], times = times_at(f, at);
     bool hides = depth > f->nearest;
@@ -562,11 +587,13 @@ static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const
 }
 
 /* Sum of a plane over the gap at pixel `at`. `tap`: where its taps are; null: nothing hides movers there. */
-static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
+static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap *gap, int32_t pairs,
+                               const int32_t *tap)
 {
     uint32_t all = sum[at] * gap->unit;
     for (int32_t i = 0; i < pairs; i++)
-        all += (tap != NULL ? sum[tap[2 * i]] + sum[tap[2 * i + 1]] : sum[at - gap->offset[i]] + sum[at + gap->offset[i]])
+        all += (tap != NULL ? sum[tap[2 * i]] + sum[tap[2 * i + 1]]
+                            : sum[at - gap->offset[i]] + sum[at + gap->offset[i]])
              * pair_weight(gap, i);
     return all;
 }
@@ -575,13 +602,15 @@ static inline uint32_t mixed_packed(uint32_t rb, uint32_t gn, const struct narro
 {
     const uint32_t rest = m->n - (gn >> 16);
     rb += (still & 0xff00ffu) * rest;
-    return pixel_make(0, narrow_mean_of(m, rb >> 16), narrow_mean_of(m, (gn & 0xffffu) + pixel_green(still) * rest),
+    return pixel_make(0, narrow_mean_of(m, rb >> 16),
+                      narrow_mean_of(m, (gn & 0xffffu) + pixel_green(still) * rest),
                       narrow_mean_of(m, rb & 0xffffu));
 }
 
 #if SMEAR_VECTORS
 /* Of both packed planes. */
-static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t *gn, const struct gap *gap, int32_t pairs)
+static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t *gn, const struct gap *gap,
+                            int32_t pairs)
 {
     smear_v4u a = v4u_load(rb), b = v4u_load(gn);
     const int32_t *offset = gap->offset;
@@ -604,11 +633,13 @@ static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t
 
 static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_mean *m, smear_v4u still)
 {
-    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->half * 0x10001u, factor = zero + m->factor * 0x10001u;
+    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->half * 0x10001u,
+                    factor = zero + m->factor * 0x10001u;
     const smear_v4u rest = (zero + m->n) - (gn >> 16);
     rb += v4u_mul16(still & 0xff00ffu, rest | rest << 16);
     const smear_v4u g = (gn & 0xffffu) + v4u_mul16(still >> 8 & 0xffu, rest);
-    const smear_v4u rb_mean = v4u_mulh16(rb + half, factor), g_mean = v4u_mulh16(g + (half & 0xffffu), factor);
+    const smear_v4u rb_mean = v4u_mulh16(rb + half, factor),
+                    g_mean = v4u_mulh16(g + (half & 0xffffu), factor);
     return (rb_mean >> m->shift & 0xff00ffu) | g_mean >> m->shift << 8;
 }
 #endif
@@ -628,7 +659,8 @@ static inline bool is_hidden4(const struct subframes *f, int32_t at, const struc
     const smear_v8i sign = v8i_all(INT16_MIN), limit = v8i_all((int16_t)(f->nearest ^ 0x8000u));
     smear_v8i most = v4_of_8i_load(depth) ^ sign;      /* in the order of signed numbers */
     for (int32_t i = 0; i < pairs; i++)
-        most = v8i_max(most, v8i_max(v4_of_8i_load(depth - gap->offset[i]) ^ sign, v4_of_8i_load(depth + gap->offset[i]) ^ sign));
+        most = v8i_max(most, v8i_max(v4_of_8i_load(depth - gap->offset[i]) ^ sign,
+                                     v4_of_8i_load(depth + gap->offset[i]) ^ sign));
     const smear_v4u beyond = (smear_v4u)(v8i_max(most, limit) ^ limit);
     return (beyond[0] | beyond[1]) != 0;
 }
@@ -638,7 +670,8 @@ static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t
 {
     smear_v8i least = (smear_v8i)v4u_load(gn), most = least;
     for (int32_t i = 0; i < pairs; i++) {
-        const smear_v8i a = (smear_v8i)v4u_load(gn - gap->offset[i]), b = (smear_v8i)v4u_load(gn + gap->offset[i]);
+        const smear_v8i a = (smear_v8i)v4u_load(gn - gap->offset[i]),
+                        b = (smear_v8i)v4u_load(gn + gap->offset[i]);
         least = v8i_min(least, v8i_min(a, b));
         most = v8i_max(most, v8i_max(a, b));
     }
@@ -647,14 +680,16 @@ static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t
 }
 #endif
 
-static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs, const int32_t *tap)
+static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs,
+                               const int32_t *tap)
 {
     uint32_t *out = &f->work.color[at];
-    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap), &gap->mean[pairs],
-                        *out);
+    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap),
+                        &gap->mean[pairs], *out);
 }
 
-static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap, int32_t pairs)
+static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
+                            int32_t pairs)
 {
     int32_t tap[2 * PAIRS_MAX];
     for (int32_t i = at; i < at + n; i++) {
@@ -665,7 +700,8 @@ static void average_covered(const struct subframes *f, int32_t at, int32_t n, co
     }
 }
 
-static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
+static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap,
+                           enum cover cover)
 {
     int32_t i = s->at;
     const int32_t end = s->at + s->n;
@@ -691,7 +727,8 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
             average_one(f, i, gap, s->pairs, NULL);
 }
 
-static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap, enum cover cover)
+static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
+                         enum cover cover)
 {
     const struct mean m = mean_make(gap->weight[s->pairs]);
     const bool linear = frame_is_linear(f->t->frame);
@@ -722,7 +759,8 @@ static bool hides(const struct subframes *f, const struct box *b)
     struct box near = { max_i32(b->x0 - PAIRS_MAX, s->x0), max_i32(b->y0 - PAIRS_MAX, s->y0),
                         min_i32(b->x1 + PAIRS_MAX, s->x1), min_i32(b->y1 + PAIRS_MAX, s->y1) };
     uint32_t low, high;
-    find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0, &low, &high);
+    find_depths(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0,
+                near.y1 - near.y0, &low, &high);
     return high > f->nearest;
 }
 
@@ -758,14 +796,15 @@ static void average(const struct subframes *f, const struct box *all, const stru
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
         const int32_t wide = gap.pairs;
         const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
-                               min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide), min_i32(s->y1, all->y1 + wide) };
+                               min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide),
+                               min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
             average_tile(f, &b, &gap);
     }
 }
 
-/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond what was drawn, and reads as far
- * beyond that. */
+/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond
+ * what was drawn, and reads as far beyond that. */
 static void clear_sums(const struct subframes *f)
 {
     const struct smear_raster_target *s = &f->t->still;
@@ -782,13 +821,14 @@ static void clear_sums(const struct subframes *f)
     }
 }
 
-uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step)
+uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants,
+                               const struct smear_step *step)
 {
     const struct smear_raster_target *s = &t->still;
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
-    struct subframes f = { .t = t, .packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_MAX),
-                           .instants = (uint32_t)instants };
+    const bool packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_MAX);
+    struct subframes f = { .t = t, .packed = packed, .instants = (uint32_t)instants };
     f.listed = (uint32_t *)t->work;
     for (int i = 0; i < min_i32(SUM_PLANES, 3); i++)
         f.sum[i] = f.listed + LISTED + i * pixels;

@@ -16,9 +16,11 @@ struct smear_step {
 /* Bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
 size_t smear_subframes_work(int32_t width, int32_t height);
 
-/* The mean of `instants` (1 .. 1024) sharp instants at the middles of slots of equal weight. Still opaque surfaces are
- * taken from `still`; movers and all blended draws are drawn at every instant. `step`, one per tile, or null: what lies
- * between instants is filled in along the way, where nothing is blended. Returns the samples taken. */
-uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step);
+/* The mean of `instants` (1 .. 1024) sharp instants at the middles of slots of equal weight. Still
+ * opaque surfaces are taken from `still`; movers and all blended draws are drawn at every instant.
+ * `step`, one per tile, or null: what lies between instants is filled in along the way, where
+ * nothing is blended. Returns the samples taken. */
+uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants,
+                               const struct smear_step *step);
 
 #endif

@@ -7,26 +7,28 @@
 #include "pixel.h"
 #include "texture.h"
 
-/* One plane of pixels of which some rows exist: row `y0` is row `slot0` of the memory, and after row `ring - 1` comes
- * row 0. Column x is at x - x0. */
+/* One plane of pixels of which some rows exist: row `y0` is row `slot0` of the memory, and after row
+ * `ring - 1` comes row 0. Column x is at x - x0. */
 struct smear_plane_rows {
     int32_t stride;         /* pixels */
     int32_t slot0, ring, x0;
 };
 
-/* Memory for what was found out about triangles that reach beyond a target's rows, for the rows after them: raster.c. */
+/* Memory for what was found out about triangles that reach beyond a
+ * target's rows, for the rows after them: raster.c. */
 struct smear_raster_cache {
     void *slot;
     uint32_t slots;         /* 0: none */
 };
 
-/* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples of 16 (or
- * at the frame's sides): then it does not matter how many cuts there are. */
+/* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples
+ * of 16 (or at the frame's sides): then it does not matter how many cuts there are. */
 struct smear_raster_target {
     int32_t x0, y0, x1, y1;
     uint32_t *color;                /* working pixels */
-    uint16_t *direct;               /* in their place: finished pixels, RGB565 of this machine's byte order, in rows
-                                     * like window_rows. Opaque and cut out lists without velocities; or null */
+    uint16_t *direct;               /* in their place: finished pixels, RGB565 of this machine's byte
+                                     * order, in rows like window_rows. Opaque and cut out lists
+                                     * without velocities; or null */
     struct smear_plane_rows color_rows;     /* of another shape than window_rows for blended lists only */
     uint16_t *depth;                /* depth codes; shares window_rows with the velocity */
     struct smear_plane_rows window_rows;
@@ -57,8 +59,15 @@ struct smear_raster_target {
 #endif
 
 /* Tests and tools look at velocities. */
-static inline bool target_is_inspected(const struct smear_raster_target *t) { return SMEAR_WITH_INSPECT && t->inspect != NULL; }
-static inline bool target_is_direct(const struct smear_raster_target *t) { return SMEAR_DIRECT && t->direct != NULL; }
+static inline bool target_is_inspected(const struct smear_raster_target *t)
+{
+    return SMEAR_WITH_INSPECT && t->inspect != NULL;
+}
+
+static inline bool target_is_direct(const struct smear_raster_target *t)
+{
+    return SMEAR_DIRECT && t->direct != NULL;
+}
 
 /* A working pixel as the target has it. */
 static inline uint32_t target_pixel(const struct smear_raster_target *t, uint32_t color)
@@ -81,7 +90,8 @@ static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
 }
 
 /* Index of column 0 of the frame in row y of a plane. */
-static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t, int32_t y)
+static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t,
+                                 int32_t y)
 {
     int32_t slot = rows->slot0 + (y - t->y0);
     return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
@@ -108,13 +118,31 @@ struct smear_raster_frame {
 };
 
 /* Its velocity is told by the frame's depth and cameras, or known to be zero (smear_frame.camera_step). */
-static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f) { return SMEAR_WITH_FILTERS && f->velocity_from_depth; }
+static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f)
+{
+    return SMEAR_WITH_FILTERS && f->velocity_from_depth;
+}
+
 static inline bool draw_is_fixed(const struct smear_raster_draw *d) { return SMEAR_WITH_FILTERS && d->fixed; }
 
-static inline bool frame_is_linear(const struct smear_raster_frame *f) { return SMEAR_WITH_LINEAR && f->linear; }
+static inline bool frame_is_linear(const struct smear_raster_frame *f)
+{
+    return SMEAR_WITH_LINEAR && f->linear;
+}
 
-static inline bool draw_is_opaque(const struct smear_raster_draw *d) { return !SMEAR_WITH_ALPHA || d->alpha == SMEAR_OPAQUE; }
-static inline bool draw_is_cutout(const struct smear_raster_draw *d) { return SMEAR_WITH_ALPHA && d->alpha == SMEAR_CUTOUT; }
-static inline bool draw_is_blended(const struct smear_raster_draw *d) { return SMEAR_WITH_ALPHA && d->alpha == SMEAR_BLEND; }
+static inline bool draw_is_opaque(const struct smear_raster_draw *d)
+{
+    return !SMEAR_WITH_ALPHA || d->alpha == SMEAR_OPAQUE;
+}
+
+static inline bool draw_is_cutout(const struct smear_raster_draw *d)
+{
+    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_CUTOUT;
+}
+
+static inline bool draw_is_blended(const struct smear_raster_draw *d)
+{
+    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_BLEND;
+}
 
 #endif

@@ -121,8 +121,8 @@ SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool
 
 /* Along a chord or a parabola. No coordinate is asked for after a loop, which would
  * be a product of 64 bits: small cores call for that. */
-SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
-                             int n, bool turns, int format)
+SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
+                             const struct smear_texture_run *run, int first, int n, bool turns, int format)
 {
     uint64_t at = run->at, step = run->step;
     if (run->bend == 0) {
@@ -143,8 +143,8 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s, const
     }
 }
 
-void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
-                  int n)
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
+                  int first, int n)
 {
 #ifdef __OPTIMIZE_SIZE__
     sample_run(out, s, run, first, n, s->turns, s->format);

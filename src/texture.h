@@ -15,9 +15,11 @@ struct smear_sampler {
     uint8_t format, wrap_u, wrap_v;
     bool bilinear, linear;
     uint8_t uv_shift;           /* mesh units: 2^uv_shift are the texture */
-    bool turns;                 /* nearest texels of both sizes powers of two, repeated: a coordinate's upper bits say */
+    bool turns;                 /* nearest texels of both sizes powers of two, repeated:
+                                 * a coordinate's upper bits say */
     uint8_t log2_width, log2_height;    /* with turns */
-    int32_t scale[2];           /* u, v: ratio (q29, of 2^15 mesh units) to texels (i32q16): mulh, then shift */
+    int32_t scale[2];           /* u, v: ratio (q29, of 2^15 mesh units) to
+                                 * texels (i32q16): mulh, then shift */
     int8_t shift[2];
 };
 
@@ -26,11 +28,19 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
 
 /* u (axis 0) or v / 2^15 in q29 (mesh units over 2^15) to texels. Wraps: textures repeat. */
 int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio);
-static inline int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio) { return smear_sampler_texel(s, 0, ratio); }
-static inline int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio) { return smear_sampler_texel(s, 1, ratio); }
 
-/* Coordinates of a block of pixels: v above u, each in turns or in texels q16. One addition steps both (two where words
- * have 32 bits); what u carries into v is the last bit. Steps change by the bend. */
+static inline int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
+{
+    return smear_sampler_texel(s, 0, ratio);
+}
+
+static inline int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
+{
+    return smear_sampler_texel(s, 1, ratio);
+}
+
+/* Coordinates of a block of pixels: v above u, each in turns or in texels q16. One addition steps both (two
+ * where words have 32 bits); what u carries into v is the last bit. Steps change by the bend. */
 struct smear_texture_run {
     uint64_t at, step, bend;
 };
@@ -43,8 +53,8 @@ static inline uint64_t packed_step(uint32_t du, uint32_t dv)
     return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
 }
 
-/* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17 pixels it makes
- * no difference whether u and v are stepped together or each alone. */
+/* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17
+ * pixels it makes no difference whether u and v are stepped together or each alone. */
 static inline uint32_t turns_start(uint32_t v) { return (v & ~255u) | 128u; }
 static inline uint32_t turns_step(uint32_t dv) { return dv & ~255u; }
 
@@ -56,7 +66,7 @@ static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, 
 }
 
 /* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */
-void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first,
-                  int n);
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
+                  int first, int n);
 
 #endif

@@ -105,8 +105,8 @@ enum {
     small_carry = 32            /* 1/8 px: motion along an axis that hardly carries anything out of a tile */
 };
 
-/* Whether all motion that can carry anything into or out of the tile is alike or changes without a step. Along
- * an axis on which nothing moves far, neighbours do not matter. */
+/* Whether all motion that can carry anything into or out of the tile is alike or changes without a step.
+ * Along an axis on which nothing moves far, neighbours do not matter. */
 static bool is_uniform(const struct neighbors *n, const struct smear_tile_motion *here)
 {
     struct smear_tile_motion all = *here;
@@ -161,16 +161,18 @@ static void neighborhood(const struct smear_window *w, int32_t row, int32_t colu
     out->kind = still ? TILE_STILL : is_uniform(&n, here) ? TILE_UNIFORM : TILE_COMPLEX;
 }
 
-/* Whether a tile's motion comes to a tile dx, dy tiles from it: somewhere, by the box its pixels' ways fill; and its
- * longest, by a line as wide as two tiles, a tile longer than the motion. */
-static bool comes_near(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx, int32_t dy)
+/* Whether a tile's motion comes to a tile dx, dy tiles from it: somewhere, by the box its pixels' ways fill;
+ * and its longest, by a line as wide as two tiles, a tile longer than the motion. */
+static bool comes_near(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx,
+                       int32_t dy)
 {
     int32_t x = max_i32(m->max_x, -m->min_x), y = max_i32(m->max_y, -m->min_y);
-    return max_i32(abs_i32(dx) - 1, 0) * w->tile * 8 <= x + 8 && max_i32(abs_i32(dy) - 1, 0) * w->tile * 8 <= y + 8
-        && (x | y) != 0;
+    return max_i32(abs_i32(dx) - 1, 0) * w->tile * 8 <= x + 8
+        && max_i32(abs_i32(dy) - 1, 0) * w->tile * 8 <= y + 8 && (x | y) != 0;
 }
 
-static bool comes_along(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx, int32_t dy)
+static bool comes_along(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx,
+                        int32_t dy)
 {
     int32_t square = m->x * m->x + m->y * m->y, tile = w->tile * 8;                     /* 1/8 px */
     int32_t length = (int32_t)(sqrt_q3((uint32_t)square) + 7u) >> 3;
@@ -178,8 +180,9 @@ static bool comes_along(const struct smear_window *w, const struct smear_tile_mo
     return along <= square + tile * length && across <= tile * length;
 }
 
-/* The longest motion of all whose way leads over the tile, itself first: each tile's longest is told to the tiles along its
- * own direction, as far as the reach goes; here by looking for them, so that tiles may be done in any order. */
+/* The longest motion of all whose way leads over the tile, itself first: each tile's longest is
+ * told to the tiles along its own direction, as far as the reach goes; here by looking for
+ * them, so that tiles may be done in any order. */
 static void scattered(const struct smear_window *w, int32_t row, int32_t column, int32_t known)
 {
     struct smear_tile_neighborhood *out = &window_around(w, row)[column];

@@ -3,8 +3,8 @@
  *
  *     still       triangles that do not move, into the row's pixels
  *     list        movers of the row, and what they mean for its tiles
- *     finish      tiles by their method (choose.h): a copy, subframes of tiles beside each other, or a time mask; then
- *                 flush
+ *     finish      tiles by their method (choose.h): a copy, subframes of tiles beside each other, or a time
+ *                 mask; then flush
  */
 #include "timed.h"
 
@@ -17,8 +17,9 @@ struct range {
     int32_t low, high;              /* [low, high) */
 };
 
-/* How a mover goes from open to close, 1/16 px: least and most of its vertices. Of a large one whose vertices go unlike ways
- * also what tells the way from place to place: weights in the middle of the exposure give weights at its ends. */
+/* How a mover goes from open to close, 1/16 px: least and most of its vertices. Of a large one
+ * whose vertices go unlike ways also what tells the way from place to place: weights in the
+ * middle of the exposure give weights at its ends. */
 struct way {
     int32_t x0, x1, y0, y1, bend;
     bool large;
@@ -41,7 +42,9 @@ static int32_t depth_ratio(int32_t a, int32_t b)
     const uint32_t depth = (uint32_t)b | 1u;
     const int zeros = count_leading_zeros(depth);
     const uint32_t ratio = mulh_u32((uint32_t)a, recip_norm(depth << zeros));      /* 2^(29 - zeros) a / b */
-    return clamp_i32((int32_t)(zeros <= 21 ? min_u32(ratio >> (21 - zeros), 4096) : min_u32(ratio, 4096u) << (zeros - 21)), 16, 4096);
+    return clamp_i32((int32_t)(zeros <= 21 ? min_u32(ratio >> (21 - zeros), 4096)
+                                           : min_u32(ratio, 4096u) << (zeros - 21)),
+                     16, 4096);
 }
 
 static struct way way_of(const struct smear_geometry *g, uint32_t triangle)
@@ -60,7 +63,8 @@ static struct way way_of(const struct smear_geometry *g, uint32_t triangle)
         w.y0 = min_i32(w.y0, y);
         w.y1 = max_i32(w.y1, y);
     }
-    w.large = (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX) && (w.x1 - w.x0 > WAY_ALIKE || w.y1 - w.y0 > WAY_ALIKE);
+    w.large = (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX)
+           && (w.x1 - w.x0 > WAY_ALIKE || w.y1 - w.y0 > WAY_ALIKE);
     for (int i = 0; w.large && i < 3; i++) {
         w.x[i] = v[i][VERTEX_X] >> 8;
         w.y[i] = v[i][VERTEX_Y] >> 8;
@@ -79,8 +83,8 @@ static int shift_to(int32_t largest)
     return max_i32(32 - count_leading_zeros((uint32_t)largest | 1u) - WAY_BITS, 0);
 }
 
-/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the side it is beyond of most,
- * which is then `at`. */
+/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the
+ * side it is beyond of most, which is then `at`. */
 static void weigh(int32_t e[3], const struct way *w, int32_t at[2])
 {
     const int32_t x = at[0], y = at[1];
@@ -102,8 +106,8 @@ static void weigh(int32_t e[3], const struct way *w, int32_t at[2])
     at[1] = w->y[j] + dy * (e[k] >> 8) / max_i32(square >> 8, 1);
 }
 
-/* Where a way leads, and how far its middle lies off the chord, 1/16 px: eight times, as places beside the one looked at bend
- * more, but no more than a vertex. */
+/* Where a way leads, and how far its middle lies off the chord, 1/16 px: eight times, as places beside the
+ * one looked at bend more, but no more than a vertex. */
 struct local_way {
     int32_t x, y, bend;
 };
@@ -131,10 +135,12 @@ static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
     const int32_t bend = max_i32(abs_i32(at[0][0] + at[1][0] - 16 * middle[0]),
                                  abs_i32(at[0][1] + at[1][1] - 16 * middle[1]));
     return (struct local_way){ clamp_i32(2 * (at[1][0] - at[0][0]), w->x0, w->x1),
-                               clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1), min_i32(8 * bend, w->bend) };
+                               clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1),
+                               min_i32(8 * bend, w->bend) };
 }
 
-static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1, int32_t bend)
+static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                     int32_t bend)
 {
     load->bend = (uint16_t)max_i32(load->bend, bend);
     load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
@@ -143,12 +149,14 @@ static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32
     load->y1 = (int16_t)clamp_i32(y1, load->y1, INT16_MAX);
 }
 
-/* Ways at the left side of a column of tiles: x and y where the row begins, where it ends, the larger bend. */
+/* Ways at the left side of a column of tiles: x and y where the
+ * row begins, where it ends, the larger bend. */
 enum { SIDE_VALUES = 5 };
 
 static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t column, int32_t top, int shift)
 {
-    const struct local_way upper = way_at(w, column << shift, top), lower = way_at(w, column << shift, top + (1 << shift));
+    const struct local_way upper = way_at(w, column << shift, top),
+                           lower = way_at(w, column << shift, top + (1 << shift));
     out[0] = upper.x;
     out[1] = lower.x;
     out[2] = upper.y;
@@ -157,7 +165,8 @@ static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t c
 }
 
 /* Ways of a large triangle in columns of tiles: found at some of their sides, in a line between. */
-static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, const struct way *way, int32_t top, int shift)
+static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, const struct way *way,
+                      int32_t top, int shift)
 {
     enum { APART = 2 };
     int32_t left[SIDE_VALUES], right[SIDE_VALUES];
@@ -186,9 +195,11 @@ static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, c
     }
 }
 
-/* Columns of pixels in which a large triangle may be seen in the row at some time, about: those of its sides between rows
- * that lie as much farther up and down as it goes. Ways beyond them would be those of other rows. */
-static struct range columns_of(const struct way *w, const struct smear_path_bounds *b, int32_t top, int32_t tile)
+/* Columns of pixels in which a large triangle may be seen in the row at some time,
+ * about: those of its sides between rows that lie as much farther up and down as it
+ * goes. Ways beyond them would be those of other rows. */
+static struct range columns_of(const struct way *w, const struct smear_path_bounds *b, int32_t top,
+                               int32_t tile)
 {
     const int32_t reach_x = max_i32(w->x1, -w->x0) >> 5, reach_y = max_i32(w->y1, -w->y0) >> 5;
     const int32_t high = top - reach_y - 1, low = top + tile + reach_y + 1;
@@ -232,7 +243,8 @@ static void load_tiles(const struct smear_context *c, struct smear_row_movers *r
 }
 
 /* Columns of pixels that a still triangle may cover. */
-static void still_columns(const struct smear_geometry *g, const struct smear_triangle *t, int32_t *x0, int32_t *x1)
+static void still_columns(const struct smear_geometry *g, const struct smear_triangle *t, int32_t *x0,
+                          int32_t *x1)
 {
     *x0 = INT32_MAX;
     *x1 = INT32_MIN;
@@ -267,13 +279,14 @@ static void list_movers(struct smear_context *c, int row)
     struct smear_row_movers *r = &c->row_movers;
     int shift = c->window.tile_shift;
     for (int32_t i = 0; i < c->window.columns; i++)
-        r->load[i] = (struct smear_tile_load){ .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX, .y1 = INT16_MIN };
+        r->load[i] = (struct smear_tile_load){ .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX,
+                                               .y1 = INT16_MIN };
     r->count = 0;
     c->moving = smear_geometry_advance(g, g->mover_last, c->moving, row);
     for (uint32_t i = c->moving; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(g, i)->next) {
         const struct smear_path_bounds *b = geometry_bounds(g, i);
-        r->mover[r->count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift), (uint8_t)((b->x1 - 1) >> shift),
-                                                     b->nearest };
+        r->mover[r->count++] = (struct smear_mover){ i, (uint8_t)(b->x0 >> shift),
+                                                     (uint8_t)((b->x1 - 1) >> shift), b->nearest };
         const struct way way = way_of(g, i);
         load_tiles(c, r, b->x0, b->x1, b, &way, 0, row_top(c, row));
     }
@@ -351,10 +364,11 @@ static struct smear_moving_tile tiles_of(const struct finish *f, int first, int 
     const struct smear_window *w = &c->window;
     const struct smear_row_movers *m = &c->row_movers;
     struct smear_moving_tile t = {
-        .frame = &c->raster, .shutter = &c->shutter, .still = f->still, .mover = m->mover, .mover_count = m->count,
-        .column = first, .last_column = end - 1, .blend = c->blend, .out = c->scratch + worker * c->strip * w->tile,
-        .pitch = c->strip, .tile = w->tile, .work = c->work + (uint32_t)worker * c->work_bytes,
-        .work_bytes = c->work_bytes
+        .frame = &c->raster, .shutter = &c->shutter, .still = f->still,
+        .mover = m->mover, .mover_count = m->count,
+        .column = first, .last_column = end - 1, .blend = c->blend,
+        .out = c->scratch + worker * c->strip * w->tile, .pitch = c->strip, .tile = w->tile,
+        .work = c->work + (uint32_t)worker * c->work_bytes, .work_bytes = c->work_bytes
     };
     t.still.x0 = tile_left(c, first);
     t.still.x1 = tile_right(c, end - 1);
@@ -398,12 +412,14 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     for (int i = first; i < next; i++)
         smear_choose_step(&step[i - first], &c->chooser, &load[i], instants);
     struct smear_moving_tile t = tiles_of(f, first, next, worker);
-    c->worker_samples[worker] += smear_subframes_tiles(&t, instants, smear_shutter_is_box(&c->shutter) ? step : NULL);
+    c->worker_samples[worker] += smear_subframes_tiles(&t, instants,
+                                                       smear_shutter_is_box(&c->shutter) ? step : NULL);
     hand_on(f, &t);
     return next;
 }
 
-static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
+static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice,
+                        int worker)
 {
     struct smear_context *c = f->row.c;
     struct smear_tile_load *load = &c->row_movers.load[column];

@@ -5,8 +5,8 @@
 
 #include "band.h"
 
-/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
- * smear_band_flush. */
+/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has
+ * been assembled. Returns as smear_band_flush. */
 int smear_timed_rows(struct smear_context *c, int first, int end);
 
 #endif

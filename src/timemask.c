@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of the exposure,
- * into time slots over the still scene; then their mean. */
+/* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of
+ * the exposure, into time slots over the still scene; then their mean. */
 #include "timemask.h"
 
 #include "shutter.h"
@@ -27,13 +27,15 @@ struct job {
     const struct smear_moving_tile *tile;
     const struct smear_timemask_settings *settings;
     struct timemask_slots slots;
-    uint32_t *list;                             /* depth code, then place in the tile's list from `first` on */
+    uint32_t *list;                             /* depth code, then place in the
+                                                 * tile's list from `first` on */
     uint32_t listed, first, next;
     int32_t segments_log2;
     int32_t slots_log2;                         /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
     int32_t across_log2, down_log2;             /* px from a sample to the next */
-    bool swapped;                               /* the block's rows run down: they are long where samples lie apart across */
+    bool swapped;                               /* the block's rows run down: they are long where
+                                                 * samples lie apart across */
     int32_t front, back;                        /* depth codes: no mover is at or before, beyond this */
     int32_t x, y, last_x, last_y;               /* pixels of the block's first and last sample */
     int32_t width, height;                      /* its samples: in a row, rows */
@@ -80,8 +82,8 @@ static void sort_down(uint32_t *a, uint32_t n)
     }
 }
 
-/* Lists the tile's movers from `next` on, as many as there is room for, the nearest first. What is merged in a pixel is
- * hardly ever hidden by what comes later then. */
+/* Lists the tile's movers from `next` on, as many as there is room for, the nearest first. What is merged in
+ * a pixel is hardly ever hidden by what comes later then. */
 static void list_movers(struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
@@ -89,8 +91,10 @@ static void list_movers(struct job *j)
     j->listed = 0;
     for (; j->next < t->mover_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
         if (mover_is_in(&t->mover[j->next], t)
-            || (j->across_log2 != 0 && t->mover[j->next].first == t->column + 1))   /* the last samples lie there */
-            j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16 | (65535u - (j->next - j->first));
+            /* the last samples lie there */
+            || (j->across_log2 != 0 && t->mover[j->next].first == t->column + 1))
+            j->list[j->listed++] = (uint32_t)t->mover[j->next].nearest << 16
+                                 | (65535u - (j->next - j->first));
     sort_down(j->list, j->listed);
 }
 
@@ -165,12 +169,14 @@ static bool is_wide(const struct timemask_pose *p)
     int64_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
     int64_t area = x1 * y2 - x2 * y1, width = max_i32(p->x[0], max_i32(p->x[1], p->x[2]))
                                             - min_i32(p->x[0], min_i32(p->x[1], p->x[2]));
-    int64_t height = max_i32(p->y[0], max_i32(p->y[1], p->y[2])) - min_i32(p->y[0], min_i32(p->y[1], p->y[2]));
+    int64_t height = max_i32(p->y[0], max_i32(p->y[1], p->y[2]))
+                   - min_i32(p->y[0], min_i32(p->y[1], p->y[2]));
     return (area < 0 ? -area : area) * 2 >= width * height;
 }
 
-/* Displacements at the vertices, q8 px, during the whole exposure; of a triangle much larger than the tile at the tile's
- * corners in its plane: a floor may stand still at the horizon and rush by here. How many: 3 or 4. */
+/* Displacements at the vertices, q8 px, during the whole exposure; of a triangle much
+ * larger than the tile at the tile's corners in its plane: a floor may stand still at the
+ * horizon and rush by here. How many: 3 or 4. */
 static int displacements(int32_t out[4][2], const struct job *j, const struct mover *m)
 {
     const struct smear_path_bounds *b = m->bounds;
@@ -179,7 +185,8 @@ static int displacements(int32_t out[4][2], const struct job *j, const struct mo
     int32_t value[2][3];
     struct timemask_pose p;
     for (int i = 0; i < 3; i++) {
-        const int32_t *middle = m->record[i], *open = middle + m->segment->motion, *close = open + PATH_POSE_WORDS;
+        const int32_t *middle = m->record[i], *open = middle + m->segment->motion,
+                      *close = open + PATH_POSE_WORDS;
         for (int axis = 0; axis < 2; axis++) {
             value[axis][i] = (close[axis] - open[axis]) * scale;
             out[i][axis] = value[axis][i];
@@ -198,7 +205,8 @@ static int displacements(int32_t out[4][2], const struct job *j, const struct mo
         int32_t high = max_i32(value[axis][0], max_i32(value[axis][1], value[axis][2]));
         int64_t middle = value[axis][0] - (((int64_t)s.dx * p.x[0] + (int64_t)s.dy * p.y[0]) >> 8);
         for (int i = 0; i < 4; i++) {
-            int64_t at = middle + (int64_t)s.dx * (i & 1 ? half_x : -half_x) + (int64_t)s.dy * (i & 2 ? half_y : -half_y);
+            int64_t at = middle + (int64_t)s.dx * (i & 1 ? half_x : -half_x)
+                       + (int64_t)s.dy * (i & 2 ? half_y : -half_y);
             out[i][axis] = (int32_t)(at < low ? low : at > high ? high : at);
         }
     }
@@ -219,11 +227,13 @@ static void flow_add(struct flow *f, const struct job *j, const struct mover *m)
         f->most[axis] = max_i32(f->most[axis], max_i32(-from, to));
     }
     for (int i = 0; i < 3; i++) {
-        const int32_t *middle = m->record[i], *open = middle + m->segment->motion, *close = open + PATH_POSE_WORDS;
+        const int32_t *middle = m->record[i], *open = middle + m->segment->motion,
+                      *close = open + PATH_POSE_WORDS;
         low = min_i32(low, min_i32(middle[PATH_DEPTH], min_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
         high = max_i32(high, max_i32(middle[PATH_DEPTH], max_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
     }
-    /* Parabolas leave the range of their places by at most an eighth of it; planes of slivers are less exact. */
+    /* Parabolas leave the range of their places by at most an
+     * eighth of it; planes of slivers are less exact. */
     low = max_i32(low - ((high - low) >> 2), 0);
     f->farthest = min_i32(f->farthest, depth_code(low >> 7) - 2);
     f->nearest = max_i32(f->nearest, m->bounds->nearest + 2);
@@ -264,7 +274,8 @@ static void choose_samples(struct job *j)
 
 /* ------------------------------------------------------------------ triangles */
 
-/* The triangle at a time, 0 .. SHUTTER_CLOSE, in the distances between samples. Most often it is asked for one of the places that are kept. */
+/* The triangle at a time, 0 .. SHUTTER_CLOSE, in the distances between samples. Most often it is
+ * asked for one of the places that are kept. */
 static void pose_at(struct timemask_pose *p, const struct job *j, const struct mover *m, int32_t time)
 {
     int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
@@ -289,7 +300,8 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
 }
 
 /* Rows of the still scene. */
-static inline uint32_t still_at(const struct smear_plane_rows *r, const struct smear_raster_target *t, int32_t x, int32_t y)
+static inline uint32_t still_at(const struct smear_plane_rows *r, const struct smear_raster_target *t,
+                                int32_t x, int32_t y)
 {
     int32_t slot = r->slot0 + (y - t->y0);
     if (slot >= r->ring)
@@ -297,8 +309,8 @@ static inline uint32_t still_at(const struct smear_plane_rows *r, const struct s
     return (uint32_t)(slot * r->stride + x - r->x0);
 }
 
-/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much nearer it is
- * in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
+/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much
+ * nearer it is in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
 static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, int32_t from, int32_t count)
 {
     int32_t end = begin + 2 * slope * (count - 1);
@@ -307,14 +319,15 @@ static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, 
     if (begin <= 0 && end <= 0)
         return 0;
     int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
-    return begin > 0 ? UINT32_MAX >> (32 - before) << from : UINT32_MAX >> (32 - (count - before)) << (from + before);
+    return begin > 0 ? UINT32_MAX >> (32 - before) << from
+                     : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
 
 /* Slots [0, i). */
 static const uint32_t below[33] = {
-    0, 0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff, 0x1ff, 0x3ff, 0x7ff, 0xfff, 0x1fff, 0x3fff, 0x7fff, 0xffff, 0x1ffff,
-    0x3ffff, 0x7ffff, 0xfffff, 0x1fffff, 0x3fffff, 0x7fffff, 0xffffff, 0x1ffffff, 0x3ffffff, 0x7ffffff, 0xfffffff,
-    0x1fffffff, 0x3fffffff, 0x7fffffff, 0xffffffff
+    0, 0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff, 0x1ff, 0x3ff, 0x7ff, 0xfff, 0x1fff, 0x3fff, 0x7fff, 0xffff,
+    0x1ffff, 0x3ffff, 0x7ffff, 0xfffff, 0x1fffff, 0x3fffff, 0x7fffff, 0xffffff, 0x1ffffff, 0x3ffffff,
+    0x7ffffff, 0xfffffff, 0x1fffffff, 0x3fffffff, 0x7fffffff, 0xffffffff
 };
 
 /* How depth codes follow from units q4, below and from code 32768. */
@@ -337,7 +350,8 @@ struct painter {
 static const uint16_t nothing[TIMEMASK_WIDTH] = { 0 };
 
 /* The fragments of a block. */
-SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p, bool plain, bool turns)
+SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p,
+                            bool plain, bool turns)
 {
     /* Own copies: what is written might be anything. */
     const struct timemask_shade *s = p->shade;
@@ -358,15 +372,18 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
         if (!is_sparse(j))
             still = target->depth + still_at(&target->window_rows, target, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
-            int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
+            int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]),
+                    to = timemask_run_to(run[i]);
             int32_t time = ((from + to) << time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
             int32_t change = row.change;
             if (turns)
-                change = add_wrap(change, add_wrap(mul_wrap(depth.change_dx, x), timemask_part(depth.curve, time)));
+                change = add_wrap(change,
+                                  add_wrap(mul_wrap(depth.change_dx, x), timemask_part(depth.curve, time)));
             int32_t units = add_wrap(add_wrap(row.at, mul_wrap(depth.dx, x)), timemask_part(change, time));
             units = clamp_i32(units, low, high);
             const struct code_slope *k = &p->code[units >= 32768 << 4];
-            int32_t code = (units + k->add) >> k->shift, slope = k->slope, reach = k->size * (to - from - 1) >> 5;
+            int32_t code = (units + k->add) >> k->shift, slope = k->slope,
+                    reach = k->size * (to - from - 1) >> 5;
             int32_t behind = still[x];
             if (code + reach <= behind)
                 continue;
@@ -374,11 +391,13 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
             f.low = max_i32(code - reach, 0);
             f.mask = below[first + to] ^ below[first + from];
             if (code - reach <= behind) {
-                f.mask = slots_before_still((code - behind) * 32 - slope * (to - from - 1), slope, first + from, to - from);
+                f.mask = slots_before_still((code - behind) * 32 - slope * (to - from - 1), slope,
+                                            first + from, to - from);
                 if (f.mask == 0)
                     continue;
             }
-            /* From the run's middle to that of the exposure; a depth that would leave its range there stays level. */
+            /* From the run's middle to that of the exposure; a depth that
+             * would leave its range there stays level. */
             f.depth = code + (slope * (last_slot - (from + to)) >> 5);
             f.slope = slope;
             f.color = k->kept;
@@ -395,18 +414,20 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
     return fragments;
 }
 
-/* A triangle in a segment of 2^slots_log2 slots with poses at its start, middle and end; `first` is its first slot. */
-static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3], int32_t first,
-                         int32_t slots_log2)
+/* A triangle in a segment of 2^slots_log2 slots with poses at its start,
+ * middle and end; `first` is its first slot. */
+static void draw_segment(struct job *j, const struct mover *m, const struct timemask_pose *const pose[3],
+                         int32_t first, int32_t slots_log2)
 {
     struct timemask_cover c;
     struct timemask_shade s;
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color, (m->bounds->flags & PATH_LEVEL) != 0,
-                         m->record, pose, &c,
+    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
+                         (m->bounds->flags & PATH_LEVEL) != 0, m->record, pose, &c,
                          max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
-    if (m->bounds->piece != 0) {    /* its ends may lie before the near plane, where depths end: its middle tells */
+    if (m->bounds->piece != 0) {    /* its ends may lie before the near plane, where
+                                     * depths end: its middle tells */
         s.depth.change = s.depth.change_dx = s.depth.change_dy = s.depth.curve = 0;
         s.slope = 0;
     }
@@ -440,8 +461,8 @@ static void draw_whole(struct job *j, const struct mover *m)
     }
 }
 
-/* One that is there for a piece of the exposure: a segment of its slots, where slots are even and there is one at least;
- * else as it is in the middle of each slot. */
+/* One that is there for a piece of the exposure: a segment of its slots, where slots are even and there is
+ * one at least; else as it is in the middle of each slot. */
 static void draw_piece(struct job *j, const struct mover *m)
 {
     struct timemask_pose pose[3];
@@ -450,7 +471,8 @@ static void draw_piece(struct job *j, const struct mover *m)
     if (slots >= PATH_PIECES && j->even) {
         for (int i = 0; i < 3; i++)
             pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
-        draw_segment(j, m, poses, (m->bounds->piece - 1) * (slots / PATH_PIECES), j->slots.slots_log2 - PIECES_LOG2);
+        draw_segment(j, m, poses, (m->bounds->piece - 1) * (slots / PATH_PIECES),
+                     j->slots.slots_log2 - PIECES_LOG2);
         return;
     }
     poses[1] = poses[2] = &pose[0];
@@ -481,7 +503,8 @@ static void draw_listed(struct job *j)
 {
     for (uint32_t i = 0; i < j->listed; i++) {
         if (i != 0 && i % LOOK_EVERY == 0
-            && (int32_t)(j->list[i] >> 16) <= smear_timemask_slots_hidden(&j->slots, j->width, j->height, j->stride))
+            && (int32_t)(j->list[i] >> 16)
+                   <= smear_timemask_slots_hidden(&j->slots, j->width, j->height, j->stride))
             return;
         draw_mover(j, listed_mover(j, i));
     }
@@ -539,7 +562,8 @@ static void choose_block(struct job *j, struct block *b, int32_t pixels)
     while (samples_for(width, width_log2) > TIMEMASK_WIDTH)
         width >>= 1;
     j->stride = samples_for(width, width_log2);
-    while (samples_for(height, height_log2) > TIMEMASK_HEIGHT || samples_for(height, height_log2) * j->stride > pixels)
+    while (samples_for(height, height_log2) > TIMEMASK_HEIGHT
+           || samples_for(height, height_log2) * j->stride > pixels)
         height >>= 1;
     b->width = j->swapped ? height : width;
     b->height = j->swapped ? width : height;
@@ -549,7 +573,8 @@ static void choose_block(struct job *j, struct block *b, int32_t pixels)
 static int pixels_log2(uint32_t work_bytes)
 {
     int log2 = PIXELS_LOG2;
-    while (work_bytes != 0 && log2 > 4 && timemask_slots_bytes(1u << log2) + LISTED * sizeof(uint32_t) > work_bytes)
+    while (work_bytes != 0 && log2 > 4
+           && timemask_slots_bytes(1u << log2) + LISTED * sizeof(uint32_t) > work_bytes)
         log2--;
     return log2;
 }
@@ -560,13 +585,14 @@ size_t smear_timemask_work(int32_t tile)
     return timemask_slots_bytes(1u << PIXELS_LOG2) + LISTED * sizeof(uint32_t);
 }
 
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings,
-                             bool *is_smooth)
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t,
+                             const struct smear_timemask_settings *settings, bool *is_smooth)
 {
     const int log2 = pixels_log2(t->work_bytes);
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
     struct block most;
-    smear_timemask_slots_place(&j.slots, j.list + LISTED, log2, 31 - count_leading_zeros((uint32_t)settings->slots),
+    smear_timemask_slots_place(&j.slots, j.list + LISTED, log2,
+                               31 - count_leading_zeros((uint32_t)settings->slots),
                                frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
@@ -576,8 +602,10 @@ uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct sme
     list_movers(&j);
     for (j.y = t->still.y0; j.y < t->still.y1; j.y += most.height)
         for (j.x = t->still.x0; j.x < t->still.x1; j.x += most.width) {
-            const struct block b = { min_i32(t->still.x1 - j.x, most.width), min_i32(t->still.y1 - j.y, most.height) };
-            const int32_t across = samples_for(b.width, j.across_log2), down = samples_for(b.height, j.down_log2);
+            const struct block b = { min_i32(t->still.x1 - j.x, most.width),
+                                     min_i32(t->still.y1 - j.y, most.height) };
+            const int32_t across = samples_for(b.width, j.across_log2),
+                          down = samples_for(b.height, j.down_log2);
             j.last_x = j.x + ((across - 1) << j.across_log2);
             j.last_y = j.y + ((down - 1) << j.down_log2);
             j.width = j.swapped ? down : across;

@@ -9,7 +9,8 @@ enum {
 
 /* ------------------------------------------------------------------ bounds */
 
-/* Only where the plane is >= 0 can pixels be covered: a bound of rows' pixels, or of rows where it is nearly level. */
+/* Only where the plane is >= 0 can pixels be covered: a bound of rows'
+ * pixels, or of rows where it is nearly level. */
 static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
 {
     uint32_t ax = (uint32_t)abs_i32(p->dx), ay = (uint32_t)abs_i32(p->dy);
@@ -52,7 +53,8 @@ SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i,
     /* A centre on the edge counts (0, else -1) for edges that go up and those that go right. */
     int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
     int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
-    /* Steps are below 2^22: far beyond 2^26 the sign is the same all over the block. Differences of two still fit. */
+    /* Steps are below 2^22: far beyond 2^26 the sign is the same all
+     * over the block. Differences of two still fit. */
     const int32_t most = (1 << 30) - (1 << 28);
     int32_t at = here > most ? most : here < -most ? -most : (int32_t)here;
     return (struct timemask_plane){ at, -dy, dx };
@@ -70,8 +72,10 @@ static bool is_before(const struct timemask_pose *a, const struct timemask_pose 
     return b->x[i] < b->x[j];
 }
 
-/* Twice the value in the middle of the pixels that may be covered; more or less by `reach` at their corners. */
-SMEAR_INLINE int32_t plane_middle(const struct timemask_plane *p, const struct timemask_cover *c, int32_t *reach)
+/* Twice the value in the middle of the pixels that may be
+ * covered; more or less by `reach` at their corners. */
+SMEAR_INLINE int32_t plane_middle(const struct timemask_plane *p, const struct timemask_cover *c,
+                                  int32_t *reach)
 {
     *reach = abs_i32(p->dx) * (c->x1 - 1 - c->x0) + abs_i32(p->dy) * (c->y1 - 1 - c->y0);
     return 2 * p->at + p->dx * (c->x0 + c->x1 - 1) + p->dy * (c->y0 + c->y1 - 1);
@@ -107,7 +111,8 @@ static inline int32_t plane_size(const struct timemask_plane *p, const struct ti
          + abs_i32(p->dy) * c->middle_y;
 }
 
-/* How an edge's functions at start and end differ over the block: `d` in its middle, `h` more or less at its corners. */
+/* How an edge's functions at start and end differ over the block: `d` in
+ * its middle, `h` more or less at its corners. */
 struct sweep {
     struct timemask_plane start, end, bow;
     int32_t d, h, bows;         /* bows: twice the largest bow */
@@ -115,15 +120,17 @@ struct sweep {
     bool reversed;
 };
 
-/* What an edge that crosses may be off: where it moves by p px and is off by e px, a part e / p of its contrast is wrong over
- * p pixels. The squares of that add up to e^2 / p, which is held below 2^-edge px. `off` is e x length in q8. */
+/* What an edge that crosses may be off: where it moves by p px and is off by e px, a part e / p
+ * of its contrast is wrong over p pixels. The squares of that add up to e^2 / p, which is held
+ * below 2^-edge px. `off` is e x length in q8. */
 static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
 {
     return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> edge;
 }
 
-/* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the block's middle it is off by up to
- * h / 2 and the bow; multiplied with 1 - (what the difference is more) / difference, by h^2 / (2 d). */
+/* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the
+ * block's middle it is off by up to h / 2 and the bow; multiplied with 1 - (what the
+ * difference is more) / difference, by h^2 / (2 d). */
 static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_t edge)
 {
     int32_t size = abs_i32(w->d);
@@ -144,10 +151,9 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     struct timemask_crossing *x = leaves ? &c->leave[c->leaves++] : &c->enter[c->enters++];
     int shift = 61 - zeros - (SLOT_Q - 1) - c->slots_log2;
     int32_t sign = w->d < 0 ? -1 : 1;
-    x->mean = (struct timemask_plane){
-        slots_over(sign * (w->start.at + w->end.at + 1), r, shift), slots_over(sign * (w->start.dx + w->end.dx), r, shift),
-        slots_over(sign * (w->start.dy + w->end.dy), r, shift)
-    };
+    x->mean = (struct timemask_plane){ slots_over(sign * (w->start.at + w->end.at + 1), r, shift),
+                                       slots_over(sign * (w->start.dx + w->end.dx), r, shift),
+                                       slots_over(sign * (w->start.dy + w->end.dy), r, shift) };
     x->bend = (struct timemask_plane){ 1 << 30, 0, 0 };
     x->bow = 0;
     c->form = form > c->form ? form : c->form;
@@ -163,14 +169,16 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     }
     x->slack = (part << c->slots_log2 >> 1) + (abs_i32(x->bow) << c->slots_log2 >> 2);
     /* Covered only where it is left after the start, entered before the end. */
-    struct timemask_plane seen = leaves ? x->mean : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
+    struct timemask_plane seen = leaves ? x->mean
+        : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
     seen.at += (1 << (SLOT_Q - 1 + c->slots_log2)) + x->slack;
     bound_add(c, &seen);
     return true;
 }
 
 /* Adds edge i -> j to its kind. False: it is outside everywhere. */
-static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j, int32_t edge)
+static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j,
+                     int32_t edge)
 {
     const struct timemask_pose *a = pose[0], *m = pose[1], *b = pose[2];
     struct sweep w;
@@ -219,14 +227,16 @@ static void bound_pairs(struct timemask_cover *c)
     for (int i = 0; i < c->leaves; i++)
         for (int k = 0; k < c->enters; k++) {
             const struct timemask_plane *l = &c->leave[i].mean, *e = &c->enter[k].mean;
-            struct timemask_plane p = { l->at - e->at + c->leave[i].slack + c->enter[k].slack, l->dx - e->dx, l->dy - e->dy };
+            struct timemask_plane p = { l->at - e->at + c->leave[i].slack + c->enter[k].slack, l->dx - e->dx,
+                                        l->dy - e->dy };
             bound_add(c, &p);
         }
 }
 
 static int64_t area_of(const struct timemask_pose *p)
 {
-    return (int64_t)(p->x[1] - p->x[0]) * (p->y[2] - p->y[0]) - (int64_t)(p->x[2] - p->x[0]) * (p->y[1] - p->y[0]);
+    return (int64_t)(p->x[1] - p->x[0]) * (p->y[2] - p->y[0])
+         - (int64_t)(p->x[2] - p->x[0]) * (p->y[1] - p->y[0]);
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
@@ -362,7 +372,8 @@ static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out,
         if (mask == UINT32_MAX || (mask != 0 && all == 0))
             out[count++] = run[k];
         else
-            count += put_runs(out + count, x, mask & below(timemask_run_to(run[k])) & ~below(timemask_run_from(run[k])));
+            count += put_runs(out + count, x,
+                              mask & below(timemask_run_to(run[k])) & ~below(timemask_run_from(run[k])));
     }
     return count;
 }
@@ -376,11 +387,13 @@ struct walk {
 
 SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x, int32_t y)
 {
-    return (struct walk){ timemask_plane_at(&p->mean, x, y), p->mean.dx, timemask_plane_at(&p->bend, x, y), p->bend.dx };
+    return (struct walk){ timemask_plane_at(&p->mean, x, y), p->mean.dx, timemask_plane_at(&p->bend, x, y),
+                          p->bend.dx };
 }
 
 /* The slot in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
-SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t slots_log2, enum timemask_form form)
+SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t slots_log2,
+                             enum timemask_form form)
 {
     int32_t slot;
     if (form == COVER_EVEN) {
@@ -398,8 +411,8 @@ SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, 
     return slot;
 }
 
-SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y, uint32_t *out, int enters,
-                              int leaves, enum timemask_form form)
+SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
+                              uint32_t *out, int enters, int leaves, enum timemask_form form)
 {
     const int q = form == COVER_EVEN ? SLOT_Q : BENT_Q;
     const int32_t slots = 1 << c->slots_log2;
@@ -425,8 +438,8 @@ SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_
     return count;
 }
 
-SMEAR_INLINE int32_t row_kind(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y, uint32_t *out,
-                              enum timemask_form form)
+SMEAR_INLINE int32_t row_kind(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
+                              uint32_t *out, enum timemask_form form)
 {
     switch (c->enters << 2 | c->leaves) {
     case 0x1: return row_form(c, x0, x1, y, out, 0, 1, form);

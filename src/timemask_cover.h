@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_cover.h - when a moving triangle covers the centres of pixels.
  *
- * During a segment of the exposure an edge function goes from its value at the segment's start to that at its end, along
- * the parabola through its value in the middle: exact where vertices move along chords. Where it changes its sign the
- * pixel is entered or left; what three edges leave are runs of time slots, most often one. A slot is covered when its
- * middle is.
+ * During a segment of the exposure an edge function goes from its value at the segment's start to that at
+ * its end, along the parabola through its value in the middle: exact where vertices move along chords. Where
+ * it changes its sign the pixel is entered or left; what three edges leave are runs of time slots, most
+ * often one. A slot is covered when its middle is.
  *
- * An edge's numbers come from its two vertices in one order, whichever triangle asks: runs of the triangles on both
- * its sides add up to the whole segment, slot for slot. */
+ * An edge's numbers come from its two vertices in one order, whichever triangle asks: runs of the triangles
+ * on both its sides add up to the whole segment, slot for slot. */
 #ifndef SMEAR_TIMEMASK_COVER_H
 #define SMEAR_TIMEMASK_COVER_H
 
 #include "fixmath.h"
 
-/* Pixels are looked at in blocks of at most so many columns and rows, or, where few of them say all there is (timemask.c),
- * so many samples: then px are the distances between these. */
+/* Pixels are looked at in blocks of at most so many columns and rows, or, where few of them say all there is
+ * (timemask.c), so many samples: then px are the distances between these. */
 enum { TIMEMASK_WIDTH = 16, TIMEMASK_HEIGHT = 17 };
 
 /* A triangle at one time: q8 px from the centre of the block's first pixel; depth units q11. */
@@ -34,8 +34,10 @@ static inline int32_t timemask_plane_at(const struct timemask_plane *p, int32_t 
 
 /* An edge that crosses pixels one way: in which slot. */
 struct timemask_crossing {
-    struct timemask_plane mean;     /* slots q14 after the segment's middle, for the difference in the block's middle */
-    struct timemask_plane bend;     /* q30: what that is to be multiplied with where the difference is another one */
+    struct timemask_plane mean;     /* slots q14 after the segment's middle, for the
+                                     * difference in the block's middle */
+    struct timemask_plane bend;     /* q30: what that is to be multiplied with where
+                                     * the difference is another one */
     int32_t bow;                    /* q14: how far the parabola leaves the chord */
     int32_t slack;                  /* q14 slots: what bend and bow may make of it */
 };
@@ -74,8 +76,8 @@ static inline int32_t timemask_run_x(uint32_t run) { return (int32_t)(run & 255u
 static inline int32_t timemask_run_from(uint32_t run) { return (int32_t)(run >> 8 & 255u); }
 static inline int32_t timemask_run_to(uint32_t run) { return (int32_t)(run >> 16); }
 
-/* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that begins, is halfway
- * and ends at the poses. `edge` as in struct smear_timemask_settings. */
+/* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that
+ * begins, is halfway and ends at the poses. `edge` as in struct smear_timemask_settings. */
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
                           int32_t height, int32_t slots_log2, int32_t edge);
 

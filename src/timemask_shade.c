@@ -8,7 +8,8 @@ enum {
     MOST_SLOPE = 1 << 20,
     STEEP = 1 << 28,            /* a plane so steep has no exact pixels, its triangle is a sliver */
     LEVEL_LOG2 = 8,             /* triangles whose depths differ by less than 2^-8 have one depth at a time */
-    TURN_LOG2 = 8,              /* slopes are taken to stay where depths along edges change by less than 2^-7 */
+    TURN_LOG2 = 8,              /* slopes are taken to stay where depths along
+                                 * edges change by less than 2^-7 */
     COLOR_OFF = 64, TEXEL_OFF = 16,     /* 1/64 code, texel: what perspective may matter and be left out */
     TAPS_MAX = 8
 };
@@ -23,10 +24,12 @@ bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *
         return false;
     uint64_t size = (uint64_t)(area < 0 ? -area : area);
     int zeros = count_leading_zeros_64(size);
-    int32_t r = (int32_t)recip_norm_precise((uint32_t)(size << zeros >> 32));       /* 1 / size = r 2^(zeros - 93) */
+    /* 1 / size = r 2^(zeros - 93) */
+    int32_t r = (int32_t)recip_norm_precise((uint32_t)(size << zeros >> 32));
     if (area < 0)
         r = -r;
-    uint32_t longest = (uint32_t)abs_i32(x1) | (uint32_t)abs_i32(y1) | (uint32_t)abs_i32(x2) | (uint32_t)abs_i32(y2);
+    uint32_t longest = (uint32_t)abs_i32(x1) | (uint32_t)abs_i32(y1) | (uint32_t)abs_i32(x2)
+                     | (uint32_t)abs_i32(y2);
     int down = 31 - count_leading_zeros(longest);
     s->x1 = (int32_t)((int64_t)x1 * r >> down);
     s->y1 = (int32_t)((int64_t)y1 * r >> down);
@@ -59,12 +62,13 @@ struct course {
     bool started;
     bool turns;                 /* its shape is another one at the end */
     struct timemask_shape shape, start, end;         /* in the middle; where it turns also at both ends */
-    int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from the block's first centre */
+    int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from
+                                             * the block's first centre */
 };
 
-/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or, where texels
- * or colours go with the surface, by more than 1/4 px: elsewhere in a large triangle so much is all there is of its motion),
- * or depths along them by more than a part of depth. */
+/* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or,
+ * where texels or colours go with the surface, by more than 1/4 px: elsewhere in a large triangle so much is
+ * all there is of its motion), or depths along them by more than a part of depth. */
 static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b, bool is_plain)
 {
     int32_t change = 0, deeper = 0, size = 0;
@@ -84,7 +88,8 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
     bool seen = smear_timemask_shape(&c->shape, pose[1]);
     c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
-        bool at_start = smear_timemask_shape(&c->start, pose[0]), at_end = smear_timemask_shape(&c->end, pose[2]);
+        bool at_start = smear_timemask_shape(&c->start, pose[0]),
+             at_end = smear_timemask_shape(&c->end, pose[2]);
         if (!seen)
             c->shape = at_start ? c->start : c->end;
         if (!at_start)
@@ -105,8 +110,8 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
     return (change < 0 ? -change : change) + corner + (curve < 0 ? -curve : curve);
 }
 
-/* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with the value v of
- * a point at c and slopes g around it; all three change with time:
+/* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with
+ * the value v of a point at c and slopes g around it; all three change with time:
  *
  *     v + v' t + (g + g' t) (x - c - c' t) = v + g (x - c) + t (v' - g c' + g' (x - c)) - t^2 g' c'
  *
@@ -120,7 +125,8 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
     int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
-        struct timemask_slopes start = smear_timemask_slopes(&c->start, value[0]), end = smear_timemask_slopes(&c->end, value[2]);
+        struct timemask_slopes start = smear_timemask_slopes(&c->start, value[0]),
+                               end = smear_timemask_slopes(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
@@ -169,7 +175,8 @@ struct over_w {
 static void over_w_make(struct timemask_shade *s, struct over_w *w, const struct course *c,
                         const struct timemask_pose *const pose[3])
 {
-    int32_t high = max_i32(most_of(pose[0]->depth), max_i32(most_of(pose[1]->depth), most_of(pose[2]->depth)));
+    int32_t high = max_i32(most_of(pose[0]->depth),
+                           max_i32(most_of(pose[1]->depth), most_of(pose[2]->depth)));
     int up = count_leading_zeros((uint32_t)high) - 6;       /* room for changes */
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
@@ -179,7 +186,8 @@ static void over_w_make(struct timemask_shade *s, struct over_w *w, const struct
 }
 
 /* An attribute that stays with the vertices; over w when that is given. */
-static void attribute_make(struct timemask_timed *t, const struct course *c, const struct over_w *w, const int32_t a[3])
+static void attribute_make(struct timemask_timed *t, const struct course *c, const struct over_w *w,
+                           const int32_t a[3])
 {
     int32_t over[3][3];
     const int32_t *value[3] = { a, a, a };
@@ -206,20 +214,23 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
         s->depth_high = max_i32(s->depth_high, most_of(depth[k]));
     }
     if (s->depth_high - s->depth_low <= s->depth_high >> LEVEL_LOG2) {
-        s->depth = (struct timemask_timed){ .at = point_of(depth[1]), .change = point_of(depth[2]) - point_of(depth[0]) };
+        s->depth = (struct timemask_timed){ .at = point_of(depth[1]),
+                                            .change = point_of(depth[2]) - point_of(depth[0]) };
     } else {
         const int32_t *value[3] = { depth[0], depth[1], depth[2] };
         course_start(c, pose, is_plain);
         timed_make(&s->depth, c, value);
     }
-    int32_t change = s->depth.change + s->depth.change_dx * cover->middle_x + s->depth.change_dy * cover->middle_y;
+    int32_t change = s->depth.change + s->depth.change_dx * cover->middle_x
+                   + s->depth.change_dy * cover->middle_y;
     s->slope = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
 static uint32_t channels_pixel(int32_t red, int32_t green, int32_t blue, bool linear)
 {
     if (linear)
-        return pixel_make(0, smear_srgb_encode[red >> 12], smear_srgb_encode[green >> 12], smear_srgb_encode[blue >> 12]);
+        return pixel_make(0, smear_srgb_encode[red >> 12], smear_srgb_encode[green >> 12],
+                          smear_srgb_encode[blue >> 12]);
     return pixel_make(0, (uint32_t)red >> 16, (uint32_t)green >> 16, (uint32_t)blue >> 16);
 }
 
@@ -228,7 +239,8 @@ struct channels {
     int32_t value[3][3];
 };
 
-static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3], bool linear)
+static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3],
+                          bool linear)
 {
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++) {
@@ -238,7 +250,8 @@ static void channels_read(struct channels *out, const struct smear_segment *g, c
         }
 }
 
-static void shade_channels(struct timemask_shade *s, const struct course *c, const struct over_w *w, struct channels *k)
+static void shade_channels(struct timemask_shade *s, const struct course *c, const struct over_w *w,
+                           struct channels *k)
 {
     for (int i = 0; i < 3; i++) {
         int32_t *value = k->value[i];
@@ -250,8 +263,8 @@ static void shade_channels(struct timemask_shade *s, const struct course *c, con
     }
 }
 
-static void shade_gouraud(struct timemask_shade *s, const struct course *c, const struct timemask_pose *const pose[3],
-                          const int32_t *const record[3])
+static void shade_gouraud(struct timemask_shade *s, const struct course *c,
+                          const struct timemask_pose *const pose[3], const int32_t *const record[3])
 {
     struct channels k;
     struct over_w w;
@@ -263,8 +276,8 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c, cons
     shade_channels(s, c, s->over_w ? &w : NULL, &k);
 }
 
-static void shade_texture(struct timemask_shade *s, const struct course *c, const struct timemask_pose *const pose[3],
-                          const int32_t *const record[3])
+static void shade_texture(struct timemask_shade *s, const struct course *c,
+                          const struct timemask_pose *const pose[3], const int32_t *const record[3])
 {
     const struct smear_sampler *m = s->sampler;
     struct channels k;
@@ -364,7 +377,8 @@ static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, in
 }
 
 /* Coordinates in turns or texels q16, as samplers take them. */
-static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u, int32_t *v)
+static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t *u,
+                     int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
     *u = value_at(&s->u, x, y, time);
@@ -434,7 +448,8 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     } else if (s->segment->shade == SHADE_FLAT) {
         for (int c = 0; c < 3; c++) {
             uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            light[c] = (int32_t)(frame_is_linear(s->frame) ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16);
+            light[c] = (int32_t)(frame_is_linear(s->frame) ? (uint32_t)smear_srgb_decode[code] << 8
+                                                           : code << 16);
         }
     } else {
         return texture_mean(s, x, y, run, NULL);

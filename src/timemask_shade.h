@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_shade.h - depth and colour of a moving triangle in the middle of a run, or along it.
  *
- * An attribute is a plane over the screen that goes with a point of the triangle: it has the value of that point, and slopes
- * around it. Where the triangle keeps its shape, slopes stay, and a pixel's value goes evenly with time. */
+ * An attribute is a plane over the screen that goes with a point of the triangle: it has the
+ * value of that point, and slopes around it. Where the triangle keeps its shape, slopes stay,
+ * and a pixel's value goes evenly with time. */
 #ifndef SMEAR_TIMEMASK_SHADE_H
 #define SMEAR_TIMEMASK_SHADE_H
 
@@ -26,7 +27,8 @@ struct timemask_shade {
     bool gouraud;
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
-    uint32_t color;                         /* 0xRRGGBB, without texture and gouraud; or light over a texture */
+    uint32_t color;                         /* 0xRRGGBB, without texture and
+                                             * gouraud; or light over a texture */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
     int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
@@ -38,8 +40,8 @@ struct timemask_shade {
     int32_t slots_log2;
 };
 
-/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `is_level`: the triangle is of
- * one colour, whatever its vertices have. `tap`: travel per texel, in q8 of the block's px. */
+/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `is_level`: the
+ * triangle is of one colour, whatever its vertices have. `tap`: travel per texel, in q8 of the block's px. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, uint32_t color, bool is_level,
                           const int32_t *const record[3], const struct timemask_pose *const pose[3],
@@ -48,7 +50,8 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 /* Colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
 
-/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
+/* What turns differences along the edges from vertex 0 into slopes: the
+ * edges' parts over the area, times 2^shift. */
 struct timemask_shape {
     int32_t x1, y1, x2, y2;
     int shift;
@@ -57,7 +60,8 @@ struct timemask_shape {
 /* False when it has no area. */
 bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p);
 
-/* Of a plane through values at the vertices, per pixel; level where that would be too steep to have exact pixels. */
+/* Of a plane through values at the vertices, per pixel; level where
+ * that would be too steep to have exact pixels. */
 struct timemask_slopes {
     int32_t dx, dy;
 };
@@ -72,7 +76,8 @@ struct timemask_here {
 static inline struct timemask_here timemask_here(const struct timemask_timed *p, int32_t x, int32_t y)
 {
     return (struct timemask_here){ add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y))),
-                                   add_wrap(p->change, add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y))) };
+                                   add_wrap(p->change,
+                                            add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y))) };
 }
 
 /* floor(a time / 64) for any a. */
@@ -87,7 +92,8 @@ static inline int32_t timemask_part(int32_t a, int32_t time)
 }
 
 /* Value at a time. */
-static inline int32_t timemask_value(const struct timemask_timed *p, const struct timemask_here *here, int32_t time)
+static inline int32_t timemask_value(const struct timemask_timed *p, const struct timemask_here *here,
+                                     int32_t time)
 {
     return add_wrap(here->at, timemask_part(add_wrap(here->change, timemask_part(p->curve, time)), time));
 }

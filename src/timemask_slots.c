@@ -2,7 +2,8 @@
 /* timemask_slots.c - entries of pixels: taken, lost, merged, averaged. */
 #include "timemask_slots.h"
 
-void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear)
+void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2,
+                                int32_t slots_log2, bool linear)
 {
     size_t pixels = (size_t)1 << pixels_log2;
     b->any = (uint32_t *)memory;
@@ -42,8 +43,8 @@ uint32_t smear_timemask_slope(int32_t slope)
     return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
 }
 
-/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of the exposure
- * less b's, in 1/32, `slope` a's slope less b's. */
+/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of
+ * the exposure less b's, in 1/32, `slope` a's slope less b's. */
 static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
 {
     int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
@@ -75,7 +76,8 @@ static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bo
         uint32_t red = smear_srgb_decode[pixel_red(a)] * wa + smear_srgb_decode[pixel_red(b)] * wb;
         uint32_t green = smear_srgb_decode[pixel_green(a)] * wa + smear_srgb_decode[pixel_green(b)] * wb;
         uint32_t blue = smear_srgb_decode[pixel_blue(a)] * wa + smear_srgb_decode[pixel_blue(b)] * wb;
-        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5], smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
+        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5],
+                          smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
                           smear_srgb_encode[mulh_u32(blue << 11, by) >> 5]);
     }
     /* Below 2^13: products with by / 2^4 fit. */
@@ -130,7 +132,8 @@ static inline uint32_t apart(const struct entry *a, const struct entry *b)
     return (distance(a->depth, b->depth) + 16u) * (color + 16u);
 }
 
-/* All entries are taken: two that are alike share one. What is new first looks for one like itself, from the latest on. */
+/* All entries are taken: two that are alike share one. What is new first
+ * looks for one like itself, from the latest on. */
 static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const struct entry *fresh)
 {
     struct entry all[TIMEMASK_ENTRIES];
@@ -152,7 +155,8 @@ static SMEAR_NOINLINE void merge(struct timemask_slots *b, uint32_t pixel, const
                 second = j;
             }
         }
-    struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh, b->linear);
+    struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh,
+                                     b->linear);
     entry_put(b, pixel, first, &joined);
     if (second < TIMEMASK_ENTRIES)
         entry_put(b, pixel, second, fresh);
@@ -174,7 +178,9 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
         if (both != 0) {
             int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
             int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
-            uint32_t taken = deeper > most ? both : deeper <= -most ? 0 : nearer_slots(deeper, turn, both, last_slot);
+            uint32_t taken = deeper > most   ? both
+                           : deeper <= -most ? 0
+                                             : nearer_slots(deeper, turn, both, last_slot);
             mask &= ~both | taken;
             b->held[at] &= ~taken;
             if (b->held[at] == 0) {     /* the last one takes its place */
@@ -207,7 +213,8 @@ void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, cons
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
-int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows, int32_t stride)
+int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows,
+                                    int32_t stride)
 {
     const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
     int32_t farthest = UINT16_MAX;
@@ -235,7 +242,8 @@ static uint32_t mean_linear(const struct timemask_slots *b, uint32_t pixel, uint
         blue += n * smear_srgb_decode[pixel_blue(color)];
     }
     const int down = b->slots_log2 + 4;
-    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down], smear_srgb_encode[blue >> down]);
+    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down],
+                      smear_srgb_encode[blue >> down]);
 }
 
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still)
@@ -273,7 +281,8 @@ static inline void sum_add(uint32_t sum[TIMEMASK_SUM_WORDS], uint32_t color, uin
     }
 }
 
-void smear_timemask_slots_sum(const struct timemask_slots *b, uint32_t pixel, uint32_t sum[TIMEMASK_SUM_WORDS])
+void smear_timemask_slots_sum(const struct timemask_slots *b, uint32_t pixel,
+                              uint32_t sum[TIMEMASK_SUM_WORDS])
 {
     sum[0] = sum[1] = sum[2] = sum[3] = 0;
     for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2)
@@ -287,6 +296,7 @@ void smear_timemask_slots_sum_before(const struct timemask_slots *b, uint32_t pi
     sum[0] = sum[1] = sum[2] = sum[3] = 0;
     for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2) {
         int32_t nearer = ((int32_t)b->depth[at] - code) * 32, slope = timemask_slope_of(b->color[at]);
-        sum_add(sum, b->color[at], count_bits(nearer_slots(nearer, slope, b->held[at], last_slot)), b->linear);
+        sum_add(sum, b->color[at], count_bits(nearer_slots(nearer, slope, b->held[at], last_slot)),
+                b->linear);
     }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_slots.h - who is seen in a pixel in which time slots: an A-buffer over time.
  *
- * A pixel has up to five entries, each with the slots it holds, a colour, and a depth code that goes evenly with time. A
- * slot is in at most one entry: the nearer of two takes it. What no entry holds shows the still scene. When a sixth is
- * needed, the two most alike become one, coloured by their shares. */
+ * A pixel has up to five entries, each with the slots it holds, a colour, and a depth code that goes evenly
+ * with time. A slot is in at most one entry: the nearer of two takes it. What no entry holds shows the still
+ * scene. When a sixth is needed, the two most alike become one, coloured by their shares. */
 #ifndef SMEAR_TIMEMASK_SLOTS_H
 #define SMEAR_TIMEMASK_SLOTS_H
 
@@ -37,11 +37,14 @@ struct timemask_fragment {
 
 static inline size_t timemask_slots_bytes(uint32_t pixels)
 {
-    return pixels * (TIMEMASK_ENTRIES * (2 * sizeof(uint32_t) + sizeof(uint16_t)) + sizeof(uint32_t) + sizeof(uint16_t) + 1);
+    return pixels
+         * (TIMEMASK_ENTRIES * (2 * sizeof(uint32_t) + sizeof(uint16_t)) + sizeof(uint32_t) + sizeof(uint16_t)
+            + 1);
 }
 
 /* Over `memory` of that size, aligned for words. */
-void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2, int32_t slots_log2, bool linear);
+void smear_timemask_slots_place(struct timemask_slots *b, void *memory, int32_t pixels_log2,
+                                int32_t slots_log2, bool linear);
 
 /* Frees all entries. */
 void smear_timemask_slots_clear(struct timemask_slots *b);
@@ -57,16 +60,19 @@ static inline int32_t timemask_slope_of(uint32_t color)
 }
 
 /* Whether an entry is of the same colour and, as far as that matters, the same surface. */
-static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, uint32_t color, int32_t depth)
+static inline bool timemask_is_same(const struct timemask_slots *b, uint32_t at, uint32_t color,
+                                    int32_t depth)
 {
     return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
 }
 
 /* timemask_slots_add, where others have a say or entries run out. */
-void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel, const struct timemask_fragment *f);
+void smear_timemask_slots_contest(struct timemask_slots *b, uint32_t pixel,
+                                  const struct timemask_fragment *f);
 
 /* `high`: code that is not exceeded. */
-SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
+SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, struct timemask_fragment f,
+                                     int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
     int32_t farthest = b->farthest[pixel];
@@ -94,17 +100,20 @@ SMEAR_INLINE void timemask_slots_add(struct timemask_slots *b, uint32_t pixel, s
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
-/* Depth code at or beyond which nothing new is seen in rows of `width` pixels, `stride` apart: 0 while slots are free. */
-int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows, int32_t stride);
+/* Depth code at or beyond which nothing new is seen in rows of `width`
+ * pixels, `stride` apart: 0 while slots are free. */
+int32_t smear_timemask_slots_hidden(const struct timemask_slots *b, int32_t width, int32_t rows,
+                                    int32_t stride);
 
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_slots_mean(const struct timemask_slots *b, uint32_t pixel, uint32_t still);
 
-/* What entries add up to, in slots x codes: red and blue, 16 bits each, green and slots; in linear light red, green, blue
- * (q16 of light) and slots. */
+/* What entries add up to, in slots x codes: red and blue, 16 bits each, green and slots; in linear light
+ * red, green, blue (q16 of light) and slots. */
 enum { TIMEMASK_SUM_WORDS = 4 };
 
-void smear_timemask_slots_sum(const struct timemask_slots *b, uint32_t pixel, uint32_t sum[TIMEMASK_SUM_WORDS]);
+void smear_timemask_slots_sum(const struct timemask_slots *b, uint32_t pixel,
+                              uint32_t sum[TIMEMASK_SUM_WORDS]);
 
 /* The same of what is nearer than a depth code. */
 void smear_timemask_slots_sum_before(const struct timemask_slots *b, uint32_t pixel, int32_t code,

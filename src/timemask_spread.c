@@ -35,14 +35,19 @@ static const struct sum *rows_mix(struct timemask_spread *s, int32_t y, struct s
 }
 
 /* The rest of the exposure shows the still scene. */
-SMEAR_INLINE uint32_t over_still(const uint32_t sum[TIMEMASK_SUM_WORDS], uint32_t still, int shift, bool linear)
+SMEAR_INLINE uint32_t over_still(const uint32_t sum[TIMEMASK_SUM_WORDS], uint32_t still, int shift,
+                                 bool linear)
 {
     const uint32_t all = 1u << shift, half = all >> 1;
     if (linear) {
         uint32_t rest = all - sum[3], down = (uint32_t)shift + 4;
-        return pixel_make(0, smear_srgb_encode[(sum[0] + smear_srgb_decode[pixel_red(still)] * rest + half) >> down],
-                          smear_srgb_encode[(sum[1] + smear_srgb_decode[pixel_green(still)] * rest + half) >> down],
-                          smear_srgb_encode[(sum[2] + smear_srgb_decode[pixel_blue(still)] * rest + half) >> down]);
+        return pixel_make(0,
+                          smear_srgb_encode[(sum[0] + smear_srgb_decode[pixel_red(still)] * rest + half)
+                                            >> down],
+                          smear_srgb_encode[(sum[1] + smear_srgb_decode[pixel_green(still)] * rest + half)
+                                            >> down],
+                          smear_srgb_encode[(sum[2] + smear_srgb_decode[pixel_blue(still)] * rest + half)
+                                            >> down]);
     }
     uint32_t rest = all - (sum[1] & 0xffffu);
     uint32_t red_blue = sum[0] + (still & 0xff00ffu) * rest + half * 0x10001u;
@@ -63,8 +68,9 @@ static SMEAR_NOINLINE void sum_before(const struct timemask_spread *s, int32_t x
         uint32_t one[TIMEMASK_SUM_WORDS];
         if (weight == 0)
             continue;
-        smear_timemask_slots_sum_before(s->slots, (uint32_t)(pixel + (i & 1 ? s->right : 0) + (i & 2 ? s->down : 0)), code,
-                                        one);
+        smear_timemask_slots_sum_before(s->slots,
+                                        (uint32_t)(pixel + (i & 1 ? s->right : 0) + (i & 2 ? s->down : 0)),
+                                        code, one);
         for (int k = 0; k < TIMEMASK_SUM_WORDS; k++)
             sum[k] += one[k] * weight;
     }

@@ -6,12 +6,12 @@
 #include "fixmath.h"
 #include "matrix.h"
 
-/* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges are then
- * at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */
+/* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges
+ * are then at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */
 #define SMEAR_GUARD_PX 2048
 
-/* Depth units in q11 of every vertex that is drawn: the near plane, and two units for all that is too far to tell
- * apart. The margins keep planes of triangles from leaving 0 .. 65535 by rounding (raster.c). */
+/* Depth units in q11 of every vertex that is drawn: the near plane, and two units for all that is too far to
+ * tell apart. The margins keep planes of triangles from leaving 0 .. 65535 by rounding (raster.c). */
 #define SMEAR_DEPTH_MAX ((int32_t)(SMEAR_DEPTH_NEAR * 2048u))
 #define SMEAR_DEPTH_MIN 4096
 
@@ -41,8 +41,8 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one: the
- * lower ones have 14 bits, so three products fit. */
+/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one:
+ * the lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
 #if SMEAR_HAS_MUL64
@@ -65,7 +65,8 @@ static inline void smear_transform_vertex(struct smear_homogeneous *out,
     out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
 }
 
-/* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product first, so nothing is lost but the last bits. */
+/* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product
+ * first, so nothing is lost but the last bits. */
 static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
 {
     int32_t high = mulh_i32(a, (int32_t)r);
@@ -103,7 +104,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
 
     int32_t depth;
     if (is_orthographic(p))
-        depth = times_recip(sub_wrap(p->far_distance, in->distance), (uint32_t)p->depth_mantissa, p->depth_shift);
+        depth = times_recip(sub_wrap(p->far_distance, in->distance), (uint32_t)p->depth_mantissa,
+                            p->depth_shift);
     else
         depth = times_recip(p->depth_mantissa, r, p->depth_shift + zeros);
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
@@ -115,8 +117,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
 #define project project_inline
 #endif
 
-/* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's borders. All that
- * lies beyond one of them is not seen, also where it reaches in front of the near plane. */
+/* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's
+ * borders. All that lies beyond one of them is not seen, also where it reaches in front of the near plane. */
 static inline int outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
 {
     int64_t x = (int64_t)h->x * 2, y = (int64_t)h->y * 2;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* vector.h - four words at once, where the compiler and the core have them. Loops that use them have a plain twin that
- * gives the same bits. */
+/* vector.h - four words at once, where the compiler and the core have them. Loops that use them
+ * have a plain twin that gives the same bits. */
 #ifndef SMEAR_VECTOR_H
 #define SMEAR_VECTOR_H
 

@@ -60,8 +60,8 @@ void smear_setup_velocity(struct setup *s)
     /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
     s->velocity_affine = in_front
         && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
-    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where depths change,
-     * pixels may go further than their vertices. */
+    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
+     * depths change, pixels may go further than their vertices. */
     s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
                                                >= (uint32_t)s->frame->reach_q3;
     if (s->velocity_affine) {
@@ -74,8 +74,9 @@ void smear_setup_velocity(struct setup *s)
         smear_plane_make(s, &s->vy, dy[0], dy[1], dy[2]);
         return;
     }
-    /* A surface point's place in a pose is sum(b n) / sum(b r): b screen weights, n = r X + displacement x r. Places are
-     * taken from v[0]. Ratios are brought to 2^16 at the largest, so that all values stay in 31 bits. */
+    /* A surface point's place in a pose is sum(b n) / sum(b r): b screen weights, n = r
+     * X + displacement x r. Places are taken from v[0]. Ratios are brought to 2^16 at the
+     * largest, so that all values stay in 31 bits. */
     int down = 4;
     uint32_t largest = max_u32(magnitude_i32(low), magnitude_i32(high));
     while (largest >> down > 0xffff)
@@ -95,9 +96,9 @@ void smear_setup_velocity(struct setup *s)
     }
 }
 
-/* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of the planes
- * above. A point that was at or behind the eye has no place; the least denominator sends it far out, in the direction
- * from which it crosses the plane of the eye. */
+/* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of
+ * the planes above. A point that was at or behind the eye has no place; the least denominator sends it far
+ * out, in the direction from which it crosses the plane of the eye. */
 static void pose_displacement(const struct setup *s, int pose, int32_t x, int32_t y, int32_t out[2])
 {
     int32_t ratio = plane_at(&s->ratio[pose], x, y);
@@ -142,10 +143,12 @@ static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t
     shorten(out, 22);
 }
 
-void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3, int32_t out[2])
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3,
+                          int32_t out[2])
 {
     /* Up to 128 px and shutters of 360 degrees, products have 32 bits. */
-    if (((magnitude_i32(displacement[0]) | magnitude_i32(displacement[1])) >> 15 | (uint32_t)scale >> 16) == 0) {
+    if (((magnitude_i32(displacement[0]) | magnitude_i32(displacement[1])) >> 15 | (uint32_t)scale >> 16)
+        == 0) {
         out[0] = displacement[0] * scale >> 8;
         out[1] = displacement[1] * scale >> 8;
     } else {
@@ -218,19 +221,22 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
     displacement_at(s, x, p->y, here);
     stored_velocity(s, here, stored);
     while (x < p->b) {
-        int32_t end = min_i32((x & ~7) + 8, p->right - 1), n = end - x, step[2] = { 0, 0 }, wide[2] = { 0, 0 };
+        int32_t end = min_i32((x & ~7) + 8, p->right - 1), n = end - x, step[2] = { 0, 0 },
+                wide[2] = { 0, 0 };
         if (n > 0) {
             displacement_at(s, end, p->y, next);
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
                 int32_t change = stored_next[i] - stored[i];
-                step[i] = n == 8 ? (change + 4) >> 3 : (int32_t)(((int64_t)change * inverse[n] + 0x8000) >> 16);
+                step[i] = n == 8 ? (change + 4) >> 3
+                                 : (int32_t)(((int64_t)change * inverse[n] + 0x8000) >> 16);
                 if (target_is_inspected(t))
                     wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }
         }
         int32_t stop = min_i32(n > 0 ? end : x + 1, p->b);
-        int32_t vx = stored[0], vy = stored[1], ix = here[0] * 64 + 32, iy = here[1] * 64 + 32;    /* q16, q14 */
+        /* q16, q14 */
+        int32_t vx = stored[0], vy = stored[1], ix = here[0] * 64 + 32, iy = here[1] * 64 + 32;
         for (; x < stop; x++, at++, z += (uint32_t)p->dz) {
             if (is_drawn(p, x - p->a, z, depth)) {
                 velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* window.h - the rolling window: the rows of the sharp frame that a filter may still read.
  *
- * A ring of pixel rows: the tile row being finished, the one below it, and `reach` rows of the one above. Where the reach
- * exceeds a tile (desc.scatter), as many tile rows below it as that covers.
+ * A ring of pixel rows: the tile row being finished, the one below it, and `reach` rows of the one above.
+ * Where the reach exceeds a tile (desc.scatter), as many tile rows below it as that covers.
  *
  *      row - 2    row - 1    row
  *      (reach)    finished   drawn        the oldest rows are overwritten next
@@ -36,7 +36,8 @@ struct smear_window {
     int32_t reach;
     int32_t columns, rows;          /* tiles */
     int32_t ring;                   /* pixel rows kept */
-    int32_t lag;                    /* tile rows that are drawn before one is finished: as many as the reach covers */
+    int32_t lag;                    /* tile rows that are drawn before one is finished:
+                                     * as many as the reach covers */
     uint32_t *color;
     uint16_t *depth;
     int8_t *velocity8;              /* one of the two, or none (sharp only) */

@@ -7,12 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Values of a line: as many as 110 columns take. */
+static int line_values(const uint32_t *value, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (value[i] > 9999)
+            return 8;
+    return 16;
+}
+
 static void print_table(const char *comment, const char *type, const char *name, const uint32_t *value,
                         int count)
 {
+    const int per_line = line_values(value, count);
     printf("\n/* %s */\nconst %s %s[%d] = {", comment, type, name, count);
     for (int i = 0; i < count; i++)
-        printf("%s%u,", i % 16 == 0 ? "\n    " : " ", value[i]);
+        printf("%s%u,", i % per_line == 0 ? "\n    " : " ", value[i]);
     printf("\n};\n");
 }
 
