@@ -135,7 +135,8 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
-    struct sum total = { 0, 0, DEMO_LOOP / step }, submit = total, raster = total, blur = total, convert = total;
+    struct sum total = { 0, 0, DEMO_LOOP / step }, submit = total, raster = total, blur = total,
+               convert = total;
     uint32_t worst = 0;
     uint32_t moving = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
@@ -207,7 +208,8 @@ static int cost_of(const struct demo_screen *screen, const char *name, uint32_t 
     const struct demo_blur *way = name != NULL ? demo_blur_find(name) : NULL;
     if (name != NULL && way == NULL)
         return failed("no such way to blur", 0);
-    return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0) : cost(screen, way, step);
+    return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0)
+                                              : cost(screen, way, step);
 }
 
 static int memory(void)

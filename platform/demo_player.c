@@ -6,13 +6,16 @@
 
 #define DAY 0xa9d6efu
 
-/* Triangle lists have room for every frame of the loop, also with places at three instants: nothing is drawn in parts. */
+/* Triangle lists have room for every frame of the loop, also with places at
+ * three instants: nothing is drawn in parts. */
 const struct demo_screen demo_screens[] = {
-    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2, .sharp = 1, .timed = 1,
-                .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS, .max_triangles = 268, .vertex_cache = 32 },
+    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2, .sharp = 1,
+                .timed = 1, .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS, .max_triangles = 268,
+                .vertex_cache = 32 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
-               .max_draws = DEMO_DRAWS, .max_triangles = 300 }, SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
+               .max_draws = DEMO_DRAWS, .max_triangles = 300 },
+      SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
                     .max_draws = DEMO_DRAWS, .max_triangles = 310 },
       SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
@@ -20,7 +23,8 @@ const struct demo_screen demo_screens[] = {
                 .bands = 2, .max_draws = DEMO_DRAWS, .max_triangles = 520 },
       SMEAR_RECONSTRUCT, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
-                 .max_draws = DEMO_DRAWS, .max_triangles = 530 }, SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", 0 },
+                 .max_draws = DEMO_DRAWS, .max_triangles = 530 },
+      SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", 0 },
 };
 
 const int demo_screen_count = sizeof demo_screens / sizeof *demo_screens;
@@ -44,12 +48,14 @@ const struct demo_blur demo_blurs[] = {
     { "none", SMEAR_NONE, 0 },
     { "accumulate-2", SMEAR_ACCUMULATE, 2 }, { "accumulate-4", SMEAR_ACCUMULATE, 4 },
     { "accumulate-8", SMEAR_ACCUMULATE, 8 }, { "accumulate-16", SMEAR_ACCUMULATE, 16 },
-    { "reconstruct-4", SMEAR_RECONSTRUCT, 4 }, { "reconstruct-8", SMEAR_RECONSTRUCT, 8 }, { "reconstruct-16", SMEAR_RECONSTRUCT, 16 },
+    { "reconstruct-4", SMEAR_RECONSTRUCT, 4 }, { "reconstruct-8", SMEAR_RECONSTRUCT, 8 },
+    { "reconstruct-16", SMEAR_RECONSTRUCT, 16 },
     { "pingpong", SMEAR_PINGPONG, 0 }, { "object", SMEAR_OBJECT, 0 }, { "layered", SMEAR_LAYERED, 0 },
-    { "subframes-4", SMEAR_SUBFRAMES, 4 }, { "subframes-8", SMEAR_SUBFRAMES, 8 }, { "subframes-32", SMEAR_SUBFRAMES, 32 },
+    { "subframes-4", SMEAR_SUBFRAMES, 4 }, { "subframes-8", SMEAR_SUBFRAMES, 8 },
+    { "subframes-32", SMEAR_SUBFRAMES, 32 },
     { "timemask-8", SMEAR_TIMEMASK, 8 }, { "timemask-32", SMEAR_TIMEMASK, 32 },
-    { "auto", SMEAR_AUTO, 0 }, { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT }, { "auto-balanced", SMEAR_AUTO, SMEAR_BALANCED },
-    { "auto-fine", SMEAR_AUTO, SMEAR_FINE }
+    { "auto", SMEAR_AUTO, 0 }, { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT },
+    { "auto-balanced", SMEAR_AUTO, SMEAR_BALANCED }, { "auto-fine", SMEAR_AUTO, SMEAR_FINE }
 };
 
 const int demo_blur_count = sizeof demo_blurs / sizeof *demo_blurs;

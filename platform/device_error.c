@@ -4,10 +4,11 @@
  *     device_error blurs              the names of demo_player.c
  *     device_error SCREEN STEP        a line "BLUR RMS" for each
  *
- * RMS over all pixels and frames of the loop, in 8-bit codes. The truth of a frame is the mean of INSTANTS sharp frames at
- * the exact poses of the exposure's instants, not at poses between two frames, in the screen's own light. Frames are those
- * that the target draws, before its display's format rounds them: the library gives the same bits everywhere. Every STEPth
- * frame of the loop counts, as in `demo cost SCREEN BLUR STEP`. */
+ * RMS over all pixels and frames of the loop, in 8-bit codes. The truth of a frame is the mean of
+ * INSTANTS sharp frames at the exact poses of the exposure's instants, not at poses between two
+ * frames, in the screen's own light. Frames are those that the target draws, before its display's
+ * format rounds them: the library gives the same bits everywhere. Every STEPth frame of the loop
+ * counts, as in `demo cost SCREEN BLUR STEP`. */
 #include "demo_player.h"
 
 #include <math.h>
@@ -26,8 +27,8 @@ static int take_band(void *user, const smear_band *band)
 {
     struct picture *p = user;
     for (int y = 0; y < band->height; y++)
-        memcpy(p->pixel + (size_t)(band->y + y) * (size_t)p->width, (const uint8_t *)band->pixels + (size_t)y * band->stride,
-               4 * (size_t)p->width);
+        memcpy(p->pixel + (size_t)(band->y + y) * (size_t)p->width,
+               (const uint8_t *)band->pixels + (size_t)y * band->stride, 4 * (size_t)p->width);
     return 0;
 }
 
@@ -79,13 +80,15 @@ static uint16_t *find_truth(const struct demo_screen *screen, int step)
                 die("no instant");
             for (size_t i = 0; i < pixels; i++)
                 for (int c = 0; c < 3; c++)
-                    sum[3 * i + (size_t)c] = (uint16_t)(sum[3 * i + (size_t)c] + (picture.pixel[i] >> (16 - 8 * c) & 255u));
+                    sum[3 * i + (size_t)c] = (uint16_t)(sum[3 * i + (size_t)c]
+                                                        + (picture.pixel[i] >> (16 - 8 * c) & 255u));
         }
     }
     return sums;
 }
 
-static double error_of(const struct demo_screen *screen, const struct demo_blur *blur, const uint16_t *truth, int step)
+static double error_of(const struct demo_screen *screen, const struct demo_blur *blur, const uint16_t *truth,
+                       int step)
 {
     static struct demo_player player;
     size_t pixels = (size_t)screen->desc.width * (size_t)screen->desc.height;
@@ -99,7 +102,8 @@ static double error_of(const struct demo_screen *screen, const struct demo_blur 
         const uint16_t *want = truth + (size_t)frame * 3 * pixels;
         for (size_t i = 0; i < pixels && frame % step == step / 2; i++)
             for (int c = 0; c < 3; c++, count++) {
-                double off = (double)(picture.pixel[i] >> (16 - 8 * c) & 255u) - want[3 * i + (size_t)c] / (double)INSTANTS;
+                double off = (double)(picture.pixel[i] >> (16 - 8 * c) & 255u)
+                           - want[3 * i + (size_t)c] / (double)INSTANTS;
                 sum += off * off;
             }
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* footprint_arena.c - bytes of memory the library wants for contexts of 240x240 pixels, RGB565, 600 triangles, 8 draws:
- * sharp; with a window (reach 12); timed without a window (tiles of 16); timed with one. 0: refused. */
+/* footprint_arena.c - bytes of memory the library wants for contexts of 240x240 pixels,
+ * RGB565, 600 triangles, 8 draws: sharp; with a window (reach 12); timed without a window
+ * (tiles of 16); timed with one. 0: refused. */
 #include "platform.h"
 
 #include "../tests/target_print.h"
@@ -10,7 +11,8 @@
 int main(void)
 {
     const smear_desc desc[] = {
-        { .sharp = 1, .tile = 16 }, { .reach = 12 }, { .sharp = 1, .timed = 1, .tile = 16 }, { .reach = 12, .timed = 1 }
+        { .sharp = 1, .tile = 16 }, { .reach = 12 }, { .sharp = 1, .timed = 1, .tile = 16 },
+        { .reach = 12, .timed = 1 }
     };
     for (unsigned i = 0; i < sizeof desc / sizeof *desc; i++) {
         smear_desc d = desc[i];

@@ -40,7 +40,8 @@ static const struct model_screen screens[] = {
 static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
 static smear_actor *actor;
 static smear_context *ctx;
-static int32_t zoom = 158218;           /* Q16.16: how far the camera is, in radii; from 1 / tan(22.5 degrees) on */
+static int32_t zoom = 158218;           /* Q16.16: how far the camera is, in radii;
+                                         * from 1 / tan(22.5 degrees) on */
 static bool is_sharp;
 
 static int failed(const char *what, int result)
@@ -63,7 +64,8 @@ static bool is_word(const char *text, const char *word)
     return *text == *word;
 }
 
-/* As `smear render` looks at a file without a camera: from the right and above, the whole model in 45 degrees. */
+/* As `smear render` looks at a file without a camera: from the
+ * right and above, the whole model in 45 degrees. */
 static smear_camera camera_for(const smear_model *model)
 {
     static const int32_t basis[9] = {       /* columns: right, up, back along (0.5, 0.35, 1) */
@@ -205,7 +207,8 @@ static int cost(const struct model_screen *screen)
         tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
     }
     for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {
-        const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1, .time = (int32_t)(i * 2184) };
+        const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
+                                  .time = (int32_t)(i * 2184) };
         uint32_t before = platform_clock();
         result = smear_actor_advance(actor, &play);
         posing += platform_clock_count(platform_clock() - before);

@@ -4,8 +4,8 @@
  *     tiny FRAME OUT.ppm [sharp]      draws frame FRAME and writes it
  *     tiny cost                       instructions per frame, where there is a clock
  *
- * A mean of 8 instants, band by band (desc.accumulate = 2): no window, no lists of movers, sums of 4 rows. The same
- * program draws the same frames on a host with the whole library. */
+ * A mean of 8 instants, band by band (desc.accumulate = 2): no window, no lists of movers, sums of 4 rows.
+ * The same program draws the same frames on a host with the whole library. */
 #include "platform.h"
 #include "tiny.h"
 #include "tiny_plane.h"
@@ -26,7 +26,8 @@ static bool is_writing;
 
 /* ------------------------------------------------------------------ poses */
 
-/* Cosine and sine of k quarter frames of a turn, q24, by steps of one: the multiples stay exact enough for a loop. */
+/* Cosine and sine of k quarter frames of a turn, q24, by steps of one:
+ * the multiples stay exact enough for a loop. */
 struct turn {
     int32_t cosine, sine;
 };
@@ -45,7 +46,8 @@ static struct turn turn_by(struct turn step, int k)
 /* Where the aeroplane and its propeller are after `quarter` quarters of a frame. */
 static void pose(smear_transform *plane, smear_transform *blade, int quarter)
 {
-    static const struct turn propeller = { 16456498, 3266472 }, roll = { 16773186, 366055 };  /* 11.25, 1.25 degrees */
+    /* 11.25, 1.25 degrees */
+    static const struct turn propeller = { 16456498, 3266472 }, roll = { 16773186, 366055 };
     static const smear_transform identity = SMEAR_IDENTITY;
     struct turn r = turn_by(roll, quarter), p = turn_by(propeller, quarter & 31);
     *plane = identity;
@@ -89,31 +91,36 @@ static int flush(void *user, const smear_band *band)
 /* A band of 4 rows sees at most 44 of the 134 triangles. */
 static const smear_desc desc = {
     .width = WIDTH, .height = HEIGHT, .tile = 8, .sharp = 1, .accumulate = 2, .band_rows = 4,
-    .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .max_draws = 3, .max_triangles = 44, .vertex_cache = 16,
-    .flush = flush
+    .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .max_draws = 3, .max_triangles = 44,
+    .vertex_cache = 16, .flush = flush
 };
 
-/* Where things are now, at shutter open and at shutter close: the library reads it until the frame is drawn. */
+/* Where things are now, at shutter open and at shutter close: the
+ * library reads it until the frame is drawn. */
 static smear_transform plane[3], blade[3];
 
 static __attribute__((noinline)) int submit(smear_context *ctx, int frame, bool sharp)
 {
-    static const smear_material paint = { 0 }, blade_paint = { .color = { 30, 30, 34, 255 }, .double_sided = 1 },
+    static const smear_material paint = { 0 },
+                                blade_paint = { .color = { 30, 30, 34, 255 }, .double_sided = 1 },
                                 grass = { .color = { 92, 128, 60, 255 }, .unlit = 1 };
     static const smear_camera camera = {
-        .pose = { { 11226149, 0, 12467901, 0, 1 << 24, 0, -12467901, 0, 11226149 },     /* 48 degrees to its side */
+        /* 48 degrees to its side */
+        .pose = { { 11226149, 0, 12467901, 0, 1 << 24, 0, -12467901, 0, 11226149 },
                   { 150978, 98304, 135942 } },
         .focal = 131072, .near_plane = 1 << 15
     };
     static const smear_frame frames[2] = {
-        { .camera = &camera, .method = SMEAR_ACCUMULATE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1, .samples = 8,
-          .clear = 0x9cc4e8 },
-        { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1, .clear = 0x9cc4e8 }
+        { .camera = &camera, .method = SMEAR_ACCUMULATE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1,
+          .samples = 8, .clear = 0x9cc4e8 },
+        { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1,
+          .clear = 0x9cc4e8 }
     };
     static const smear_draw draws[3] = {
         { .mesh = &ground_mesh, .material = &grass },
         { .mesh = &plane_mesh, .material = &paint, .now = &plane[0], .open = &plane[1], .close = &plane[2] },
-        { .mesh = &blade_mesh, .material = &blade_paint, .now = &blade[0], .open = &blade[1], .close = &blade[2] }
+        { .mesh = &blade_mesh, .material = &blade_paint, .now = &blade[0], .open = &blade[1],
+          .close = &blade[2] }
     };
     pose(&plane[0], &blade[0], frame * QUARTERS + 1);       /* 180 degrees are two quarters */
     pose(&plane[1], &blade[1], frame * QUARTERS);
