@@ -291,22 +291,27 @@ static void bars_of_object(struct bars *b)
         rmse[i] = rmse_of(b, kind, setting);
         known = known && cost[i] > 0.0;
     }
-    bar(b, "object, each thing along one velocity: error", known ? geometric_mean(rmse, SCENES) : NAN, AT_MOST, 1.8, "",
-        known ? "(translate, cross, fence_obj, enter, long)" : "");
-    bar(b, "object, each thing along one velocity: cost", known ? geometric_mean(cost, SCENES) : NAN, AT_MOST, 1.6, "x", "");
+    bar(b, "object, each thing along one velocity: error", known ? geometric_mean(rmse, SCENES) : NAN,
+        AT_MOST, 1.8, "", known ? "(translate, cross, fence_obj, enter, long)" : "");
+    bar(b, "object, each thing along one velocity: cost", known ? geometric_mean(cost, SCENES) : NAN, AT_MOST,
+        1.6, "x", "");
 }
 
 static void bars_of_layers(struct bars *b)
 {
-    struct chart_mean layered = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT, chart_find_setting("layered 8"));
-    struct chart_mean filter = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT, chart_find_setting("reconstruct 8"));
+    struct chart_mean layered = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT,
+                                              chart_find_setting("layered 8"));
+    struct chart_mean filter = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT,
+                                             chart_find_setting("reconstruct 8"));
     bool known = layered.known && filter.known;
     char note[64] = "";
     if (known)
-        snprintf(note, sizeof note, "(%.2f and %.2f; %.2fx and %.2fx)", layered.rmse, filter.rmse, layered.cost, filter.cost);
-    bar(b, "layered 8 over reconstruct 8, object scenes: error", known ? layered.rmse / filter.rmse : NAN, AT_MOST, 2.0 / 3, "",
-        note);
-    bar(b, "layered 8 over reconstruct 8, object scenes: cost", known ? layered.cost / filter.cost : NAN, AT_MOST, 1.0, "", "");
+        snprintf(note, sizeof note, "(%.2f and %.2f; %.2fx and %.2fx)", layered.rmse, filter.rmse,
+                 layered.cost, filter.cost);
+    bar(b, "layered 8 over reconstruct 8, object scenes: error", known ? layered.rmse / filter.rmse : NAN,
+        AT_MOST, 2.0 / 3, "", note);
+    bar(b, "layered 8 over reconstruct 8, object scenes: cost", known ? layered.cost / filter.cost : NAN,
+        AT_MOST, 1.0, "", "");
     bars_of_object(b);
 }
 

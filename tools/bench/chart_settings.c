@@ -11,7 +11,10 @@ const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
-enum { NONE, ACCUMULATE, PUBLISHED, MENDED, CAMERA, PINGPONG, HALF, TWO_CAMERAS, OBJECT, LAYERED, SUBFRAMES, TIMEMASK, AUTO };
+enum {
+    NONE, ACCUMULATE, PUBLISHED, MENDED, CAMERA, PINGPONG, HALF, TWO_CAMERAS, OBJECT, LAYERED, SUBFRAMES,
+    TIMEMASK, AUTO
+};
 
 const struct chart_curve chart_curves[] = {
     [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
@@ -24,7 +27,8 @@ const struct chart_curve chart_curves[] = {
     [HALF] = { "half: reconstruct at half the size", "half", "#c77cba", MARK_TRIANGLE, false },
     [TWO_CAMERAS] = { "two cameras: one velocity, N taps, over all", "plain", "#a0a0a0", MARK_SQUARE, false },
     [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
-    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE, false },
+    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE,
+                  false },
     [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
     [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
     [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* filters.c - what the camera's velocity costs per pixel, whatever the scene; passes against direct taps; the other filters
- * on the scenes they are for. Linear light, poses at shutter open and close, XRGB8888, 180 degrees. */
+/* filters.c - what the camera's velocity costs per pixel, whatever the scene; passes
+ * against direct taps; the other filters on the scenes they are for. Linear light, poses at
+ * shutter open and close, XRGB8888, 180 degrees. */
 #include "groups.h"
 #include "kinds.h"
 #include "sheet.h"
@@ -13,8 +14,8 @@
 
 /* ------------------------------------------------------------------ takes */
 
-static const char *const camera_scenes[] = { "suite/pan", "suite/dolly", "suite/roll", "suite/textured", "suite/arena",
-                                             "demo/race" };
+static const char *const camera_scenes[] = { "suite/pan", "suite/dolly", "suite/roll", "suite/textured",
+                                             "suite/arena", "demo/race" };
 enum { CAMERA_SCENES = sizeof camera_scenes / sizeof *camera_scenes, STEPS = 3 };
 
 static const struct pan {
@@ -178,8 +179,9 @@ static bool report_passes(struct sheet *sheet, struct failure *f)
         }
         printf("%-34s %12.2f  %5.3f  %14.2f  %5.3f\n", pans[i].name, rmse[0], cost[0], rmse[1], cost[1]);
         for (int k = 0; k < LIGHTS && i == 1; k++)
-            printf("  bars, %s: RMSE at most 1.5 (%s), cost at most 0.333 (%s)\n", k == 0 ? "linear light" : "encoded",
-                   sheet_most(sheet, rmse[k], 1.5), sheet_most(sheet, cost[k], 1.0 / 3));
+            printf("  bars, %s: RMSE at most 1.5 (%s), cost at most 0.333 (%s)\n",
+                   k == 0 ? "linear light" : "encoded", sheet_most(sheet, rmse[k], 1.5),
+                   sheet_most(sheet, cost[k], 1.0 / 3));
     }
     for (int i = 0; i < PANS * LIGHTS; i++)
         image_free(&picture[i]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* memory.c - the arena of two small displays, meshes excluded: smear_memory_size() of this machine (pointers are twice
- * as wide here as on a microcontroller: context and draws are a little larger) and the macro's constant. */
+/* memory.c - the arena of two small displays, meshes excluded: smear_memory_size() of this
+ * machine (pointers are twice as wide here as on a microcontroller: context and draws are
+ * a little larger) and the macro's constant. */
 #include "sheet.h"
 
 #include <smear.h>
@@ -19,11 +20,12 @@ static const struct display {
     double bar_encoded, bar_linear;     /* kB of 1024 bytes; 0: none */
 } displays[] = {
     { "240x240 RGB565, reach 12, 600 triangles",
-      { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565 },
+      { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8,
+        .format = SMEAR_RGB565 },
       0.0, 0.0 },
     { "  in bands of 4 rows, 32 vertices cached",
-      { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565,
-        .band_rows = 4, .vertex_cache = 32 },
+      { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8,
+        .format = SMEAR_RGB565, .band_rows = 4, .vertex_cache = 32 },
       112.0, 136.0 },
     { "128x64 L4, reach 4, 200 triangles",
       { .width = 128, .height = 64, .reach = 4, .max_triangles = 200, .max_draws = 4, .format = SMEAR_L4 },
@@ -33,7 +35,8 @@ static const struct display {
         .tile = 4, .band_rows = 2 },
       28.0, 34.0 },
     { "240x240 RGB565, sharp only, 600 triangles",
-      { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565, .sharp = 1 },
+      { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565,
+        .sharp = 1 },
       0.0, 0.0 },
 };
 

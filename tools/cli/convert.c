@@ -286,12 +286,12 @@ static void print_result(const struct conversion *c, const struct convert_option
                m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
                r->error_time);
     }
-    printf("flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash, c->bytes.meshes,
-           c->bytes.textures, c->bytes.animation);
+    printf("flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash,
+           c->bytes.meshes, c->bytes.textures, c->bytes.animation);
     printf("ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",
            c->bytes.actor[1], c->bytes.actor[0], c->bytes.actor[2], c->bytes.open);
-    printf("largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n", c->error_px,
-           c->rest_error_px, o->rows, o->fov_degrees, c->distance);
+    printf("largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n",
+           c->error_px, c->rest_error_px, o->rows, o->fov_degrees, c->distance);
 }
 
 static int check_limits(const struct convert_command *command, const char *path, const struct conversion *c)
@@ -302,8 +302,9 @@ static int check_limits(const struct convert_command *command, const char *path,
         fail(&f, "has %d triangles, more than %ld (--max-triangles); smear does not simplify", c->triangles,
              command->max_triangles);
     else if (command->max_flash > 0 && flash > (size_t)command->max_flash)
-        fail(&f, "takes %zu bytes of flash (meshes %zu, textures %zu, animation %zu), more than %ld (--max-flash)",
-             flash, c->bytes.meshes, c->bytes.textures, c->bytes.animation, command->max_flash);
+        fail(&f, "takes %zu bytes of flash (meshes %zu, textures %zu, animation %zu), "
+             "more than %ld (--max-flash)", flash, c->bytes.meshes, c->bytes.textures, c->bytes.animation,
+             command->max_flash);
     else if (command->max_ram > 0 && c->bytes.actor[1] > (size_t)command->max_ram)
         fail(&f, "takes %zu bytes of RAM with 2 poses, more than %ld (--max-ram)", c->bytes.actor[1],
              command->max_ram);
@@ -342,8 +343,9 @@ static int write_result(const struct convert_command *command, const char *path,
     size_t size;
     name_from(command->output, name);
     bool ok = ends_with(command->output, ".smr")
-            ? convert_to_blob(c, &bytes, &size, &f)
-            : convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), &bytes, &size, &f);
+                ? convert_to_blob(c, &bytes, &size, &f)
+                : convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), &bytes,
+                                    &size, &f);
     if (!ok)
         return say_bad_input(path, &f);
     ok = file_write(command->output, bytes, size, &f);
@@ -386,8 +388,9 @@ static int convert_loaded(struct convert_command *command, const char *path, con
 
 int command_convert(int count, char **text)
 {
-    struct convert_command command = { .options = { .scale = 1, .texture_edge = 128, .colors = 256, .influences = 4,
-                                                    .clip_error_px = 0.1, .rows = 240, .fov_degrees = 45 } };
+    struct convert_command command = { .options = { .scale = 1, .texture_edge = 128, .colors = 256,
+                                                    .influences = 4, .clip_error_px = 0.1, .rows = 240,
+                                                    .fov_degrees = 45 } };
     struct failure f = { "" };
     struct model model;
     const char *path;

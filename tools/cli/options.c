@@ -146,7 +146,8 @@ static const char *read_method(void *to, const char *value)
         ((struct render_options *)to)->method = methods[i].method;
         return methods[i].is_built ? NULL : "not built yet";
     }
-    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong, half, object or layered";
+    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong, half, object "
+           "or layered";
 }
 
 static const char *read_samples(void *to, const char *value)
@@ -171,14 +172,16 @@ static bool read_departure(void *to, const char *name, const char *value)
     int found = read_name(name, names);
     if (found < 0 || value != NULL)
         return false;
-    ((struct render_options *)to)->reconstruct |= 1 << found;   /* SMEAR_FENCE, SMEAR_CORNER, ... in this order */
+    /* SMEAR_FENCE, SMEAR_CORNER, ... in this order */
+    ((struct render_options *)to)->reconstruct |= 1 << found;
     return true;
 }
 
 static const char *read_reconstruct(void *to, const char *value)
 {
     ((struct render_options *)to)->reconstruct = 0;
-    return read_list(value, read_departure, to) ? NULL : "needs a list of fence, corner, box, direction, uniform";
+    return read_list(value, read_departure, to) ? NULL
+                                                : "needs a list of fence, corner, box, direction, uniform";
 }
 
 static const char *read_quality(void *to, const char *value)
@@ -476,8 +479,9 @@ static int check_outputs(struct render_options *o)
 
 int options_read_seen(struct render_options *o, int count, char **text, bool *wants_help)
 {
-    *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1, .method = SMEAR_AUTO,
-                                  .shutter_degrees = 180, .view = { .fov_degrees = 45.0 } };
+    *o = (struct render_options){ .width = 320, .height = 240, .fps = 30.0, .threads = 1,
+                                  .method = SMEAR_AUTO, .shutter_degrees = 180,
+                                  .view = { .fov_degrees = 45.0 } };
     int status = arguments_read(count, text, table, o, &o->scene, 1, wants_help);
     if (status != STATUS_OK || *wants_help)
         return status;

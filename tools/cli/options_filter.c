@@ -35,8 +35,10 @@ static bool read_pass_setting(void *to, const char *name, const char *number)
         size_t field;
         long low, high;
     } settings[] = {
-        { "passes", offsetof(smear_pingpong, passes), 1, 3 }, { "taps", offsetof(smear_pingpong, taps), 2, 64 },
-        { "base", offsetof(smear_pingpong, base), 2, 64 },    { "bias", offsetof(smear_pingpong, bias), 1, 255 },
+        { "passes", offsetof(smear_pingpong, passes), 1, 3 },
+        { "taps", offsetof(smear_pingpong, taps), 2, 64 },
+        { "base", offsetof(smear_pingpong, base), 2, 64 },
+        { "bias", offsetof(smear_pingpong, bias), 1, 255 },
     };
     double jitter;
     if (number == NULL) {
@@ -105,7 +107,9 @@ static bool read_scale_of(void *to, const char *name, const char *text)
 
 const char *read_scale(void *to, const char *value)
 {
-    return read_list(value, read_scale_of, to) ? NULL : "needs a list of turn=F, way=F, objects=F, factors from 0 to 63";
+    return read_list(value, read_scale_of, to)
+             ? NULL
+             : "needs a list of turn=F, way=F, objects=F, factors from 0 to 63";
 }
 
 /* ------------------------------------------------------------------ the shutter */
@@ -189,9 +193,11 @@ int check_filter(const struct render_options *o)
     if (o->weights != SMEAR_WEIGHTS_STACK && !reconstructs)
         return say_bad_usage("--weights", "goes with --method reconstruct, or --inside reconstruct");
     if (o->scatter && !(reconstructs || (o->method == SMEAR_CAMERA && !is_pingpong)))
-        return say_bad_usage("--scatter", "goes with --method reconstruct or camera, not with pingpong or half");
+        return say_bad_usage("--scatter",
+                             "goes with --method reconstruct or camera, not with pingpong or half");
     if (o->scatter && o->method == SMEAR_HALF)
-        return say_bad_usage("--scatter", "goes with --method reconstruct or camera, not with pingpong or half");
+        return say_bad_usage("--scatter",
+                             "goes with --method reconstruct or camera, not with pingpong or half");
     if ((o->turn_scale | o->way_scale | o->object_scale) != 0 && o->exact)
         return say_bad_usage("--scale", "contradicts --exact, which moves all as the file does");
     return STATUS_OK;

@@ -170,7 +170,8 @@ long source_period(const struct source *s, const struct source_view *view, doubl
     if (!s->is_file)
         return fabs(frames - (double)lround(frames)) < 1e-6 ? lround(frames) : 0;
     for (int i = 0; i < m->clip_count; i++)
-        if (view->clip == NULL ? i == 0 : strcmp(view->clip, "all") == 0 || model_find_clip(m, view->clip) == i)
+        if (view->clip == NULL ? i == 0
+                               : strcmp(view->clip, "all") == 0 || model_find_clip(m, view->clip) == i)
             longest = fmax(longest, m->clip[i].duration);
     frames = longest * fps;
     return frames > 0.0 && frames < 1e6 ? lround(frames) + !view->loop : 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* blob.c - a conversion as a .smr file: src/blob.h has the layout. Written byte by byte, low byte first, so that the
- * host's byte order does not matter. */
+/* blob.c - a conversion as a .smr file: src/blob.h has the layout. Written byte by byte, low byte first, so
+ * that the host's byte order does not matter. */
 #include "build.h"
 
 #include "../../src/blob.h"
@@ -162,8 +162,9 @@ static void put_draws(struct blob_writer *w)
     begin_table(w, BLOB_DRAW, c->model.draw_count);
     for (int i = 0; i < c->model.draw_count; i++) {
         const smear_model_draw *d = &c->model.draw[i];
-        const uint16_t halves[10] = { d->mesh, d->material, d->node, d->skin, d->target_first, d->target_count,
-                                      d->weight_first, d->transform, d->deformed, d->influences };
+        const uint16_t halves[10] = { d->mesh, d->material, d->node, d->skin, d->target_first,
+                                      d->target_count, d->weight_first, d->transform, d->deformed,
+                                      d->influences };
         put_array(b, halves, 10, 2);
         put_u32(b, d->influence_first);
         put_u32(b, d->vertex_first);

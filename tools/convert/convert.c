@@ -14,7 +14,8 @@
 
 void *pile_alloc(struct convert_pile *pile, size_t count, size_t size, struct failure *f)
 {
-    if (pile->count == pile->room && !grow((void **)&pile->block, &pile->room, pile->count + 1, sizeof *pile->block, f))
+    if (pile->count == pile->room
+        && !grow((void **)&pile->block, &pile->room, pile->count + 1, sizeof *pile->block, f))
         return NULL;
     void *block = calloc(count > 0 ? count : 1, size);
     if (block == NULL)
@@ -158,8 +159,9 @@ static bool keep_lists(struct converter *c)
     m->text = list_keep(&c->text, c->pile, c->f);
     out->texture_report = list_keep(&c->texture_report, c->pile, c->f);
     if (m->mesh == NULL || m->draw == NULL || m->joint == NULL || m->skin == NULL || m->influence == NULL
-        || m->target == NULL || m->delta == NULL || m->delta_normal == NULL || m->clip == NULL || m->channel == NULL
-        || m->key_time == NULL || m->key_value == NULL || m->text == NULL || out->texture_report == NULL)
+        || m->target == NULL || m->delta == NULL || m->delta_normal == NULL || m->clip == NULL
+        || m->channel == NULL || m->key_time == NULL || m->key_value == NULL || m->text == NULL
+        || out->texture_report == NULL)
         return false;
     m->mesh_count = (uint16_t)c->mesh.count;
     m->draw_count = (uint16_t)c->draws.count;
@@ -179,7 +181,8 @@ static bool keep_lists(struct converter *c)
     out->key_times = c->key_time.count;
     out->key_values = c->key_value.count;
     out->text_size = c->text.count;
-    return m->deformed_vertices <= 1u << 20 || fail(c->f, "has more than a million vertices that are deformed");
+    return m->deformed_vertices <= 1u << 20
+        || fail(c->f, "has more than a million vertices that are deformed");
 }
 
 static bool start(struct converter *c)
@@ -215,9 +218,10 @@ static bool start(struct converter *c)
 
 static void drop_lists(struct converter *c)
 {
-    struct list *const lists[] = { &c->mesh, &c->material, &c->draws, &c->joint, &c->skins, &c->influence, &c->target,
-                                   &c->delta, &c->delta_normal, &c->clip, &c->channel, &c->key_time, &c->key_value,
-                                   &c->text, &c->texture, &c->texture_report, &c->weight_factor };
+    struct list *const lists[] = { &c->mesh, &c->material, &c->draws, &c->joint, &c->skins, &c->influence,
+                                   &c->target, &c->delta, &c->delta_normal, &c->clip, &c->channel,
+                                   &c->key_time, &c->key_value, &c->text, &c->texture, &c->texture_report,
+                                   &c->weight_factor };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         list_free(lists[i]);
 }
@@ -245,8 +249,10 @@ bool convert_model(const struct model *model, const struct convert_options *opti
     if (ok) {
         count_file(&c);
         count_bytes(out);
-        ok = out->triangles > 0 ? measure(&c)
-           : fail(f, "has nothing to draw (none of its %d triangles has an area and can be seen)", out->triangles_in_file);
+        ok = out->triangles > 0
+               ? measure(&c)
+               : fail(f, "has nothing to draw (none of its %d triangles has an area and can be seen)",
+                      out->triangles_in_file);
     }
     drop_lists(&c);
     if (!ok)

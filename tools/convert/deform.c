@@ -19,11 +19,15 @@ struct influence {
 };
 
 /* Heavier ones first; lower joints first among equals. */
+static inline bool is_before(const struct influence *a, const struct influence *b)
+{
+    return a->weight > b->weight || (a->weight == b->weight && a->joint < b->joint);
+}
+
 static void sort_influences(struct influence *in, int count)
 {
     for (int i = 1; i < count; i++)
-        for (int k = i; k > 0 && (in[k].weight > in[k - 1].weight
-                                  || (in[k].weight == in[k - 1].weight && in[k].joint < in[k - 1].joint)); k--) {
+        for (int k = i; k > 0 && is_before(&in[k], &in[k - 1]); k--) {
             struct influence swap = in[k];
             in[k] = in[k - 1];
             in[k - 1] = swap;
@@ -135,7 +139,8 @@ static bool write_joint(struct converter *c, const struct out_skin *skin, int jo
     for (int k = 0; k < 3; k++)
         offset[k] = in->offset[k] * in->step;
     transform_double(origin, bind, offset);
-    double scale = ldexp(in->step / skin->out_grid.step, exponent), unit = ldexp(1, exponent - c->unit_exponent);
+    double scale = ldexp(in->step / skin->out_grid.step, exponent),
+           unit = ldexp(1, exponent - c->unit_exponent);
     out->node = (uint16_t)at->node;
     bool ok = true;
     for (int row = 0; row < 3 && ok; row++) {
@@ -250,7 +255,8 @@ bool morph_deltas(struct converter *c, const struct shape *s, struct raw_mesh *m
             for (int k = 0; has_normals && turns != NULL && k < 3; k++)
                 turn[k] = (double)turns[from + (size_t)k];
             if (d->bakes) {
-                /* exact for turns and even scale, where the inverse transpose is the matrix itself over its scale */
+                /* exact for turns and even scale, where the inverse
+                 * transpose is the matrix itself over its scale */
                 double turned[3], size = largest_column(d->at.matrix);
                 for (int row = 0; row < 3; row++)
                     turned[row] = (d->at.matrix[row] * turn[0] + d->at.matrix[4 + row] * turn[1]
@@ -282,7 +288,8 @@ static bool write_target(struct converter *c, const struct raw_mesh *mesh, int t
         largest = abs(mesh->delta[i]) > largest ? abs(mesh->delta[i]) : largest;
         has_normals = has_normals || (mesh->delta_normal != NULL && mesh->delta_normal[i] != 0);
     }
-    *out = (smear_model_target){ .delta_first = (uint32_t)c->delta.count, .normal_first = SMEAR_MODEL_NO_NORMALS,
+    *out = (smear_model_target){ .delta_first = (uint32_t)c->delta.count,
+                                 .normal_first = SMEAR_MODEL_NO_NORMALS,
                                  .shift = largest > 2 * 32767 ? 2 : largest > 32767 ? 1 : 0 };
     if (has_normals)
         out->normal_first = (uint32_t)c->delta_normal.count;

@@ -76,7 +76,8 @@ uint8_t exact_byte(double x)
     return x >= 1 ? 255 : (uint8_t)floor(x * 255.0 + 0.5);
 }
 
-/* ((code + 1/2) / 255 + 0.055) / 1.055 to the power of 12/5: the square times the fifth root of the square. */
+/* ((code + 1/2) / 255 + 0.055) / 1.055 to the power of 12/5: the
+ * square times the fifth root of the square. */
 static double threshold_above(int code)
 {
     double x = (code + 0.5) / 255.0;

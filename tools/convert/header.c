@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* header.c - a conversion as a C header: typed constant arrays and the smear_model that points to them. C99 and C++. */
+/* header.c - a conversion as a C header: typed constant arrays and the
+ * smear_model that points to them. C99 and C++. */
 #include "build.h"
 
 #include "../image/buffer.h"
@@ -79,7 +80,8 @@ static void put_words(struct header_writer *w, const int32_t *value, int count)
 }
 
 /* A pointer member: `NAME_what_index`, or 0 where there is nothing; then `after`. */
-static void put_pointer(struct header_writer *w, const char *what, int index, bool is_there, const char *after)
+static void put_pointer(struct header_writer *w, const char *what, int index, bool is_there,
+                        const char *after)
 {
     if (!is_there)
         put(w, "0%s", after);
@@ -130,7 +132,8 @@ static void put_textures(struct header_writer *w)
         put(w, "    { ");
         put_pointer(w, "texels", c->same_texels[i], true, ", ");
         put_pointer(w, "palette", c->same_texels[i], t->palette != NULL, ", ");
-        put(w, "%u, %u, %s, %s, %s },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v]);
+        put(w, "%u, %u, %s, %s, %s },\n", t->width, t->height, format[t->format], wrap[t->wrap_u],
+            wrap[t->wrap_v]);
     }
     close_table(w);
 }
@@ -148,8 +151,8 @@ static void put_materials(struct header_writer *w)
             put(w, "    { &%s_texture[%d], ", w->name, (int)(m->texture - c->texture));
         else
             put(w, "    { 0, ");
-        put(w, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2], m->color[3],
-            alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
+        put(w, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2],
+            m->color[3], alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
     }
     close_table(w);
 }
@@ -197,9 +200,9 @@ static void put_draws(struct header_writer *w)
         open_table(w, "smear_model_draw", "draw", c->model.draw_count);
         for (int i = 0; i < c->model.draw_count; i++) {
             const smear_model_draw *d = &c->model.draw[i];
-            put(w, "    { %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRIu32 " },\n", d->mesh, d->material,
-                d->node, d->skin, d->target_first, d->target_count, d->weight_first, d->transform, d->deformed,
-                d->influences, d->influence_first, d->vertex_first);
+            put(w, "    { %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRIu32 " },\n", d->mesh,
+                d->material, d->node, d->skin, d->target_first, d->target_count, d->weight_first,
+                d->transform, d->deformed, d->influences, d->influence_first, d->vertex_first);
         }
         close_table(w);
     }
@@ -243,8 +246,8 @@ static void put_morphs(struct header_writer *w)
         open_table(w, "smear_model_target", "target", c->target_count);
         for (int i = 0; i < c->target_count; i++) {
             const smear_model_target *t = &c->model.target[i];
-            put(w, "    { %" PRIu32 ", %" PRIu32 ", 0x%" PRIx32 ", %" PRIu32 " },\n", t->delta_first, t->delta_count,
-                t->normal_first, t->shift);
+            put(w, "    { %" PRIu32 ", %" PRIu32 ", 0x%" PRIx32 ", %" PRIu32 " },\n", t->delta_first,
+                t->delta_count, t->normal_first, t->shift);
         }
         close_table(w);
     }
@@ -252,8 +255,8 @@ static void put_morphs(struct header_writer *w)
         open_table(w, "smear_model_delta", "delta", c->delta_count);
         for (int i = 0; i < c->delta_count; i++) {
             const smear_model_delta *d = &c->model.delta[i];
-            put(w, "%s{ %u, { %d, %d, %d } },%s", i % 3 == 0 ? "    " : " ", d->vertex, d->step[0], d->step[1],
-                d->step[2], i % 3 == 2 || i + 1 == c->delta_count ? "\n" : "");
+            put(w, "%s{ %u, { %d, %d, %d } },%s", i % 3 == 0 ? "    " : " ", d->vertex, d->step[0],
+                d->step[1], d->step[2], i % 3 == 2 || i + 1 == c->delta_count ? "\n" : "");
         }
         close_table(w);
     }
@@ -291,13 +294,14 @@ static void put_clips(struct header_writer *w)
         close_table(w);
     }
     if (c->channel_count > 0) {
-        static const char *const path[] = { "SMEAR_PATH_TRANSLATION", "SMEAR_PATH_ROTATION", "SMEAR_PATH_SCALE",
-                                            "SMEAR_PATH_WEIGHTS" };
+        static const char *const path[] = { "SMEAR_PATH_TRANSLATION", "SMEAR_PATH_ROTATION",
+                                            "SMEAR_PATH_SCALE", "SMEAR_PATH_WEIGHTS" };
         open_table(w, "smear_model_channel", "channel", c->channel_count);
         for (int i = 0; i < c->channel_count; i++) {
             const smear_model_channel *channel = &c->model.channel[i];
-            put(w, "    { %u, %s, %u, %u, %u, %" PRIu32 ", %" PRIu32 ", { ", channel->target, path[channel->path],
-                channel->step, channel->key_count, channel->width, channel->time_first, channel->value_first);
+            put(w, "    { %u, %s, %u, %u, %u, %" PRIu32 ", %" PRIu32 ", { ", channel->target,
+                path[channel->path], channel->step, channel->key_count, channel->width, channel->time_first,
+                channel->value_first);
             put_words(w, channel->offset, 3);
             put(w, " }, %" PRId32 ", %" PRId32 " },\n", channel->factor, channel->shift);
         }
@@ -401,7 +405,8 @@ static void put_top(struct header_writer *w, const char *from)
     for (; *from != '\0'; from++)           /* nothing that ends the comment */
         buffer_byte(&w->b, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
     put(w, " for smear, written by smear convert.\n *\n"
-           " * %d triangles, %d vertices, %u draws, %d textures, %u nodes, %u clips: %zu bytes of constant data.\n"
+           " * %d triangles, %d vertices, %u draws, %d textures, %u nodes, %u clips: "
+           "%zu bytes of constant data.\n"
            " * Include it in one source file. */\n", w->c->triangles, w->c->vertices, m->draw_count,
         w->c->texture_count, m->node_count, m->clip_count,
         w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
@@ -409,14 +414,17 @@ static void put_top(struct header_writer *w, const char *from)
            "#if SMEAR_MODEL_FORMAT != %d\n"
            "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
         w->upper, w->upper, SMEAR_MODEL_FORMAT);
-    put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper, m->draw_count);
-    put(w, "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32 ", %u, (poses))\n\n",
+    put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper,
+        m->draw_count);
+    put(w,
+        "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32
+        ", %u, (poses))\n\n",
         w->upper, m->node_count, m->joint_count, m->weight_count, m->transform_count, m->deformed_count,
         m->deformed_vertices, m->normals);
 }
 
-bool convert_to_header(const struct conversion *c, const char *name, const char *from, uint8_t **bytes, size_t *size,
-                       struct failure *f)
+bool convert_to_header(const struct conversion *c, const char *name, const char *from, uint8_t **bytes,
+                       size_t *size, struct failure *f)
 {
     struct header_writer w = { .c = c, .name = name };
     size_t length = strlen(name);

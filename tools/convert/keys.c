@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* keys.c - clips as keys that the device mixes linearly.
  *
- * A channel of the file (held, linear, spherical or cubic) is looked at where it has keys, between them, and where it
- * bends; then as few of those instants as will do become keys: each segment is made as long as the mixture stays
- * within the tolerance at all instants in it. Errors are in world units, by how far the node's vertices reach; what
- * skins and chains of nodes make of them together is measured afterwards (measure.c). */
+ * A channel of the file (held, linear, spherical or cubic) is looked at where it has keys, between them, and
+ * where it bends; then as few of those instants as will do become keys: each segment is made as long as the
+ * mixture stays within the tolerance at all instants in it. Errors are in world units, by how far the node's
+ * vertices reach; what skins and chains of nodes make of them together is measured afterwards (measure.c). */
 #include "build.h"
 
 #include "exact.h"
@@ -107,7 +107,8 @@ struct instants {
     int width;
 };
 
-static bool add_instant(struct instants *all, const struct model_channel *channel, double time, struct failure *f)
+static bool add_instant(struct instants *all, const struct model_channel *channel, double time,
+                        struct failure *f)
 {
     double *t = list_add(&all->time, 1, f), *v = list_add(&all->value, all->width, f);
     if (t == NULL || v == NULL)
@@ -146,8 +147,9 @@ static bool bends(const struct model_channel *channel, const struct metric *m, d
 }
 
 /* The instants behind `from` up to `to`. */
-static bool add_between(struct instants *all, const struct model_channel *channel, const struct metric *m, double from,
-                        double to, int depth, double tolerance, double *scratch, struct failure *f)
+static bool add_between(struct instants *all, const struct model_channel *channel, const struct metric *m,
+                        double from, double to, int depth, double tolerance, double *scratch,
+                        struct failure *f)
 {
     double middle = from + (to - from) / 2;
     if (depth > 0 && bends(channel, m, from, to, tolerance, scratch))
@@ -193,8 +195,8 @@ bool channel_moves(const struct converter *c, const struct model_channel *channe
 /* ------------------------------------------------------------------ keys */
 
 /* Whether the instants between `first` and `last` are mixtures of the two. */
-static bool is_mixture(const struct instants *all, const struct metric *m, int first, int last, double tolerance,
-                       double *mixed)
+static bool is_mixture(const struct instants *all, const struct metric *m, int first, int last,
+                       double tolerance, double *mixed)
 {
     const double *time = all->time.data, *value = all->value.data;
     for (int i = first + 1; i < last; i++) {
@@ -216,8 +218,8 @@ static bool is_constant(const struct instants *all, const struct metric *m, doub
 }
 
 /* Marks the instants that become keys. */
-static void choose_keys(const struct converter *c, const struct instants *all, const struct metric *m, bool steps,
-                        bool *chosen, double *scratch)
+static void choose_keys(const struct converter *c, const struct instants *all, const struct metric *m,
+                        bool steps, bool *chosen, double *scratch)
 {
     const double *value = all->value.data;
     int count = all->time.count;
@@ -259,7 +261,8 @@ static bool quantise_keys(struct converter *c, smear_model_channel *out, const d
 {
     int width = out->width, count = out->key_count;
     bool each = out->path != SMEAR_PATH_WEIGHTS;
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, range = 0;
+    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
+           range = 0;
     int16_t *key = list_add(&c->key_value, width * count, c->f);
     if (key == NULL)
         return false;
@@ -308,7 +311,8 @@ static bool quantise_rotations(struct converter *c, const smear_model_channel *o
 }
 
 /* What the device's values are in, against the file's. */
-static double unit_of(const struct converter *c, const struct model_channel *channel, int component, double *limit)
+static double unit_of(const struct converter *c, const struct model_channel *channel, int component,
+                      double *limit)
 {
     *limit = ldexp(2047, 16);
     if (channel->path == MODEL_WEIGHTS) {
@@ -347,7 +351,8 @@ static bool write_keys(struct converter *c, const struct model_channel *channel,
         out->key_count++;
         /* the curve at the tick itself: held values change at the key, others are sampled there */
         if (channel->interpolation == MODEL_STEP)
-            memcpy(value, (const double *)all->value.data + (size_t)i * (size_t)width, (size_t)width * sizeof *value);
+            memcpy(value, (const double *)all->value.data + (size_t)i * (size_t)width,
+                   (size_t)width * sizeof *value);
         else
             track_sample(channel, ldexp(tick, (int)tick_shift - 16), value);
         for (int k = 0; k < width && channel->path != MODEL_ROTATION; k++)
@@ -373,7 +378,8 @@ static bool write_channel(struct converter *c, const struct model_channel *chann
     double *scratch = pile_alloc(c->pile, 5 * (size_t)channel->width, sizeof *scratch, c->f);
     smear_model_channel out = {
         .target = (uint16_t)(weights ? c->weight_first[channel->node] : c->node_of[channel->node]),
-        .path = paths[channel->path], .step = channel->interpolation == MODEL_STEP, .width = (uint16_t)channel->width
+        .path = paths[channel->path], .step = channel->interpolation == MODEL_STEP,
+        .width = (uint16_t)channel->width
     };
     if (scratch == NULL)
         return false;
@@ -403,7 +409,8 @@ static const struct model_channel *find_channel(const struct model_clip *clip, i
     return found;
 }
 
-static bool write_moves(struct converter *c, const struct model_clip *clip, uint32_t tick_shift, int *keys_in_file)
+static bool write_moves(struct converter *c, const struct model_clip *clip, uint32_t tick_shift,
+                        int *keys_in_file)
 {
     static const enum model_path paths[] = { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE };
     for (int n = 0; n < c->node_count; n++)
@@ -438,7 +445,9 @@ static bool write_weights_at_rest(struct converter *c)
     int16_t *table = pile_alloc(c->pile, (size_t)c->weight_count, sizeof *table, c->f);
     for (int n = 0; table != NULL && n < m->node_count; n++) {
         const struct model_node *node = &m->node[n];
-        const float *rest = node->weight != NULL ? node->weight : node->mesh >= 0 ? m->mesh[node->mesh].weight : NULL;
+        const float *rest = node->weight != NULL ? node->weight
+                          : node->mesh >= 0      ? m->mesh[node->mesh].weight
+                                                 : NULL;
         int first = c->weight_first[n];
         for (int k = 0; first >= 0 && rest != NULL && k < track_weight_count(m, n); k++)
             table[first + k] = (int16_t)fmax(-32767, fmin(32767, floor(

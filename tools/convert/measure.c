@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* measure.c - what a conversion costs, and how far its vertices are from where the model has them: the result is
- * played by the code that plays it on the device. */
+/* measure.c - what a conversion costs, and how far its vertices are from where the model has them: the result
+ * is played by the code that plays it on the device. */
 #include "build.h"
 
 #include "../model/matrix.h"
@@ -46,8 +46,8 @@ void count_bytes(struct conversion *c)
     const smear_model *m = &c->model;
     struct convert_bytes *b = &c->bytes;
     size_t vertices = m->deformed_vertices, nodes = m->node_count;
-    b->open = align8((size_t)c->texture_count * TEXTURE_BYTES) + align8((size_t)m->material_count * MATERIAL_BYTES)
-            + align8((size_t)m->mesh_count * MESH_BYTES);
+    b->open = align8((size_t)c->texture_count * TEXTURE_BYTES)
+            + align8((size_t)m->material_count * MATERIAL_BYTES) + align8((size_t)m->mesh_count * MESH_BYTES);
     b->meshes = (size_t)m->mesh_count * MESH_BYTES + (size_t)m->material_count * MATERIAL_BYTES;
     for (uint32_t i = 0; i < m->mesh_count; i++)
         b->meshes += mesh_arrays(m, i);
@@ -62,10 +62,12 @@ void count_bytes(struct conversion *c)
                  + (size_t)c->channel_count * sizeof *m->channel + (size_t)c->key_times * 2
                  + (size_t)c->key_values * 2 + (size_t)c->text_size;
     for (size_t poses = 1; poses <= 3; poses++)
-        b->actor[poses - 1] = SMEAR_ACTOR_HEAD_BYTES + align8(nodes * TRANSFORM_BYTES) + align8(m->joint_count * 48u)
-                            + align8(m->weight_count * 2u) + align8((size_t)m->deformed_count * MESH_BYTES)
+        b->actor[poses - 1] = SMEAR_ACTOR_HEAD_BYTES + align8(nodes * TRANSFORM_BYTES)
+                            + align8(m->joint_count * 48u) + align8(m->weight_count * 2u)
+                            + align8((size_t)m->deformed_count * MESH_BYTES)
                             + align8(m->normals ? 3 * vertices : 0)
-                            + poses * (align8((size_t)m->transform_count * TRANSFORM_BYTES) + align8(6 * vertices));
+                            + poses * (align8((size_t)m->transform_count * TRANSFORM_BYTES)
+                                       + align8(6 * vertices));
 }
 
 /* ------------------------------------------------------------------ errors */
@@ -144,7 +146,8 @@ bool measure(struct converter *c)
     ok = ok || fail(c->f, "the result cannot be played");
     ok = ok && model_pose(c->model, MODEL_CLIP_NONE, 0, false, &pose, c->f);
     if (ok)
-        c->out->rest_error_px = c->out->error_px = largest_distance(c, actor, &pose) * c->out->pixels_per_unit;
+        c->out->rest_error_px = c->out->error_px = largest_distance(c, actor, &pose)
+                                                 * c->out->pixels_per_unit;
     for (int i = 0; i < c->options->clip_count && ok; i++)
         ok = measure_clip(c, actor, &pose, i);
     model_pose_free(&pose);

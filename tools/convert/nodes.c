@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* nodes.c - which nodes of a model have to be nodes on the device. The others go into what hangs on them: vertices of
- * a mesh that stands still, matrices of joints. Then scales: every node's basis is kept near one by a power of two, and
- * places are counted in units that suit the model's size. */
+/* nodes.c - which nodes of a model have to be nodes on the device. The others go into what hangs on them:
+ * vertices of a mesh that stands still, matrices of joints. Then scales: every node's basis is kept near one
+ * by a power of two, and places are counted in units that suit the model's size. */
 #include "build.h"
 
 #include "exact.h"
@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Places of a model lie within this many of its units; the device has room for eight times as many, for what its joints
- * take there. */
+/* Places of a model lie within this many of its units; the device has room for eight
+ * times as many, for what its joints take there. */
 #define MODEL_UNITS 256.0
 
 /* Q16.16 ends at 32768. */
@@ -139,7 +139,8 @@ bool find_moving_nodes(struct converter *c)
     find_reach(c, &pose);
     for (int i = 0; i < c->options->clip_count; i++)
         for (int k = 0; k < 5; k++) {
-            track_pose_set(&pose, m, c->options->clip[i], m->clip[c->options->clip[i]].duration * k / 4, c->root);
+            track_pose_set(&pose, m, c->options->clip[i], m->clip[c->options->clip[i]].duration * k / 4,
+                           c->root);
             find_reach(c, &pose);
         }
     track_pose_free(&pose);
@@ -451,7 +452,8 @@ bool write_nodes(struct converter *c)
         bool ok = true;
         if (n->moves) {
             const struct model_node *source = &c->model->node[n->source];
-            double q[4] = { source->rotation[0], source->rotation[1], source->rotation[2], source->rotation[3] };
+            double q[4] = { source->rotation[0], source->rotation[1], source->rotation[2],
+                            source->rotation[3] };
             exact_normalize4(q);
             for (int k = 0; k < 3 && ok; k++)
                 ok = to_fixed(&out->rest[k], source->translation[k] * unit, 16, place, c->f)
@@ -461,7 +463,8 @@ bool write_nodes(struct converter *c)
         } else {
             for (int row = 0; row < 3 && ok; row++) {
                 for (int column = 0; column < 3 && ok; column++)
-                    ok = to_fixed(&out->rest[3 * row + column], n->fixed[4 * column + row] * scale, 24, factor, c->f);
+                    ok = to_fixed(&out->rest[3 * row + column], n->fixed[4 * column + row] * scale, 24,
+                                  factor, c->f);
                 ok = ok && to_fixed(&out->rest[9 + row], n->fixed[12 + row] * unit, 16, place, c->f);
             }
         }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* order.c - triangles in an order that finds transformed vertices again.
  *
- * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64 (src/assemble.c). So both orders
- * matter: that of the triangles, and the numbers of the vertices. Vertices are numbered as they come first, which makes
- * the cache hold the newest 64 as long as nothing older is asked for. Triangles are taken one by one: of those at a
- * vertex in the cache the one that has to transform the fewest vertices; among equals the one whose vertices have the
- * fewest triangles left, or lie there longest. Whichever order transforms the fewest vertices is kept, the file's own
- * among them. */
+ * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64 (src/assemble.c). So
+ * both orders matter: that of the triangles, and the numbers of the vertices. Vertices are numbered as they
+ * come first, which makes the cache hold the newest 64 as long as nothing older is asked for. Triangles are
+ * taken one by one: of those at a vertex in the cache the one that has to transform the fewest vertices;
+ * among equals the one whose vertices have the fewest triangles left, or lie there longest. Whichever order
+ * transforms the fewest vertices is kept, the file's own among them. */
 #include "build.h"
 
 #include <limits.h>
@@ -235,10 +235,12 @@ bool order_triangles(struct raw_mesh *m, bool keep_order, struct convert_pile *p
     int tries = keep_order ? 0 : (int)(sizeof tastes / sizeof *tastes), best = INT_MAX;
     struct walk w = { .mesh = m };
     size_t triangles = (size_t)m->triangle_count;
-    int *order[2] = { pile_alloc(pile, triangles, sizeof(int), f), pile_alloc(pile, triangles, sizeof(int), f) };
+    int *order[2] = { pile_alloc(pile, triangles, sizeof(int), f),
+                      pile_alloc(pile, triangles, sizeof(int), f) };
     uint32_t *index[2] = { pile_alloc(pile, triangles, 3 * sizeof(uint32_t), f),
                            pile_alloc(pile, triangles, 3 * sizeof(uint32_t), f) };
-    if (order[0] == NULL || order[1] == NULL || index[0] == NULL || index[1] == NULL || !list_triangles(&w, pile, f))
+    if (order[0] == NULL || order[1] == NULL || index[0] == NULL || index[1] == NULL
+        || !list_triangles(&w, pile, f))
         return false;
     for (int i = -1; i < tries; i++) {          /* -1: the file's order of triangles */
         if (i >= 0)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* shape.c - which draws of the model become one draw of the result, and their vertices on grids of int16 steps. */
+/* shape.c - which draws of the model become one draw of the result,
+ * and their vertices on grids of int16 steps. */
 #include "build.h"
 
 #include "exact.h"
@@ -266,8 +267,9 @@ static struct scene_surface surface_of(struct converter *c, const struct shape *
     struct scene_surface out = {
         .vertex_count = s->vertex_count, .triangle_count = s->triangle_count, .position = s->position,
         .normal = s->normal, .uv = s->uv, .color = s->color, .face_color = s->face_color, .index = s->index,
-        .material = { .wrap_u = m->wrap_u, .wrap_v = m->wrap_v, .alpha = m->alpha, .alpha_cutoff = m->alpha_cutoff,
-                      .double_sided = m->double_sided, .unlit = m->unlit, .bilinear = c->options->bilinear },
+        .material = { .wrap_u = m->wrap_u, .wrap_v = m->wrap_v, .alpha = m->alpha,
+                      .alpha_cutoff = m->alpha_cutoff, .double_sided = m->double_sided,
+                      .unlit = m->unlit, .bilinear = c->options->bilinear },
     };
     memcpy(out.material.base, m->base, sizeof out.material.base);
     if (s->uv != NULL)
@@ -277,7 +279,8 @@ static struct scene_surface surface_of(struct converter *c, const struct shape *
 }
 
 /* A part as arrays of our own, with all that a vertex carries. */
-static bool raw_from_part(struct converter *c, const struct shape *s, const struct part *part, struct raw_mesh *mesh)
+static bool raw_from_part(struct converter *c, const struct shape *s, const struct part *part,
+                          struct raw_mesh *mesh)
 {
     size_t vertices = (size_t)part->vertex_count, triangles = (size_t)part->triangle_count;
     *mesh = (struct raw_mesh){ .vertex_count = part->vertex_count, .triangle_count = part->triangle_count,
@@ -361,7 +364,8 @@ static bool add_draw(struct converter *c, const struct shape *s, const smear_mes
     return write_targets(c, raw, d);
 }
 
-static bool finish_mesh(struct converter *c, const struct shape *s, struct raw_mesh *raw, int material, int uv_shift)
+static bool finish_mesh(struct converter *c, const struct shape *s, struct raw_mesh *raw, int material,
+                        int uv_shift)
 {
     bool blends = c->model->material[s->material].alpha == MODEL_ALPHA_BLEND, ok = true;
     int file_order = 0;
@@ -398,7 +402,8 @@ static bool finish_mesh(struct converter *c, const struct shape *s, struct raw_m
 }
 
 /* The material in the result; its texture is set in finish_textures. */
-static bool material_for(struct converter *c, const struct shape *s, const smear_material *converted, int *out)
+static bool material_for(struct converter *c, const struct shape *s, const smear_material *converted,
+                         int *out)
 {
     const struct model_material *m = &c->model->material[s->material];
     int *known = &c->material_of[2 * s->material + (s->uv != NULL)], texture = -1;
@@ -426,7 +431,8 @@ static bool repeat_shape(struct converter *c, const struct shape *s, int first_d
     for (int i = first_draw; i < first_draw + draw_count; i++) {
         const smear_model_draw before = ((smear_model_draw *)c->draws.data)[i];
         smear_mesh mesh = ((smear_mesh *)c->mesh.data)[before.mesh];
-        struct convert_origin *origin = pile_alloc(c->pile, (size_t)c->out->origin_count[i], sizeof *origin, c->f);
+        struct convert_origin *origin = pile_alloc(c->pile, (size_t)c->out->origin_count[i], sizeof *origin,
+                                                   c->f);
         if (origin == NULL || !set_grid(c, s, &mesh))
             return false;
         memcpy(origin, c->out->origin[i], (size_t)c->out->origin_count[i] * sizeof *origin);
@@ -445,7 +451,8 @@ struct written {
     int first, count;           /* draws */
 };
 
-static bool write_shape(struct converter *c, struct shape *s, struct texture_store *store, struct written *written)
+static bool write_shape(struct converter *c, struct shape *s, struct texture_store *store,
+                        struct written *written)
 {
     bool ok;
     int material = -1;
@@ -480,7 +487,8 @@ bool write_meshes(struct converter *c)
     c->out->origin = pile_alloc(c->pile, (size_t)c->draw_room, sizeof *c->out->origin, c->f);
     c->out->origin_count = pile_alloc(c->pile, (size_t)c->draw_room, sizeof *c->out->origin_count, c->f);
     c->material_of = pile_alloc(c->pile, 2 * (size_t)c->model->material_count, sizeof *c->material_of, c->f);
-    bool ok = written != NULL && c->out->origin != NULL && c->out->origin_count != NULL && c->material_of != NULL;
+    bool ok = written != NULL && c->out->origin != NULL && c->out->origin_count != NULL
+           && c->material_of != NULL;
     for (int i = 0; ok && i < 2 * c->model->material_count; i++)
         c->material_of[i] = -1;
     c->transform_count = 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* texture.c - smaller pictures, palettes, and colours instead of a texture. Integers throughout, so that the same
- * picture gives the same bytes on every host. */
+/* texture.c - smaller pictures, palettes, and colours instead of a texture. Integers throughout, so that the
+ * same picture gives the same bytes on every host. */
 #include "build.h"
 
 #include "exact.h"
@@ -95,8 +95,8 @@ struct color_sum {
     double linear[3], alpha, count;
 };
 
-static void add_texel(struct color_sum *sum, const struct image *image, const struct model_material *m, double u,
-                      double v)
+static void add_texel(struct color_sum *sum, const struct image *image, const struct model_material *m,
+                      double u, double v)
 {
     int x = wrapped(u, image->width, m->wrap_u), y = wrapped(v, image->height, m->wrap_v);
     const uint8_t *p = image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
@@ -124,7 +124,8 @@ static void triangle_color(const struct shape *s, const struct image *image, con
         for (int j = 0; i + j < n; j++)
             for (int half = 0; half < (i + j + 1 < n ? 2 : 1); half++) {
                 double a = (i + (1 + half) / 3.0) / n, b = (j + (1 + half) / 3.0) / n, rest = 1 - a - b;
-                add_texel(&sum, image, m, a * (double)uv[0][0] + b * (double)uv[1][0] + rest * (double)uv[2][0],
+                add_texel(&sum, image, m,
+                          a * (double)uv[0][0] + b * (double)uv[1][0] + rest * (double)uv[2][0],
                           a * (double)uv[0][1] + b * (double)uv[1][1] + rest * (double)uv[2][1]);
             }
     for (int k = 0; k < 3; k++)
@@ -132,8 +133,8 @@ static void triangle_color(const struct shape *s, const struct image *image, con
     out[3] = (float)(sum.alpha / sum.count);
 }
 
-/* Smooth shading wants colours at vertices: the mean of their triangles. Where colours of the picture meet, its
- * coordinates differ and so do the vertices. */
+/* Smooth shading wants colours at vertices: the mean of their triangles. Where colours of the picture meet,
+ * its coordinates differ and so do the vertices. */
 static bool to_vertices(struct converter *c, struct shape *s, const float *face)
 {
     size_t vertices = (size_t)s->vertex_count;
@@ -204,7 +205,8 @@ static int by_key(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Swatches begin .. end - 1: their summed squared distance from the mean along the channel where it is largest. */
+/* Swatches begin .. end - 1: their summed squared distance from the
+ * mean along the channel where it is largest. */
 struct color_box {
     int begin, end, channel;
     uint64_t spread;
@@ -369,7 +371,8 @@ static uint32_t expand_565(unsigned texel)
 
 static unsigned pack_565(uint32_t argb)
 {
-    unsigned r = ((unsigned)channel_of(argb, 1) * 31 + 127) / 255, g = ((unsigned)channel_of(argb, 2) * 63 + 127) / 255;
+    unsigned r = ((unsigned)channel_of(argb, 1) * 31 + 127) / 255,
+             g = ((unsigned)channel_of(argb, 2) * 63 + 127) / 255;
     return r << 11 | g << 5 | ((unsigned)channel_of(argb, 3) * 31 + 127) / 255;
 }
 

@@ -13,7 +13,8 @@
 static const float *value_of_key(const struct model_channel *c, int key)
 {
     size_t width = (size_t)c->width, index = (size_t)key;
-    return c->interpolation == MODEL_CUBICSPLINE ? c->value + (3 * index + 1) * width : c->value + index * width;
+    return c->interpolation == MODEL_CUBICSPLINE ? c->value + (3 * index + 1) * width
+                                                 : c->value + index * width;
 }
 
 static void mix_cubic(const struct model_channel *c, int key, double t, double seconds, double *out)
@@ -114,7 +115,9 @@ static void set_rest(struct track_pose *p, const struct model *model, int i)
     memcpy(p->rotation[i], node->rotation, sizeof node->rotation);
     memcpy(p->scale[i], node->scale, sizeof node->scale);
     int count = track_weight_count(model, i);
-    const float *weight = node->weight != NULL ? node->weight : count > 0 ? model->mesh[node->mesh].weight : NULL;
+    const float *weight = node->weight != NULL ? node->weight
+                        : count > 0            ? model->mesh[node->mesh].weight
+                                               : NULL;
     for (int k = 0; k < count; k++)
         p->weight[p->weight_at[i] + k] = (double)weight[k];
 }
@@ -127,15 +130,18 @@ void track_local(const struct track_pose *p, const struct model *model, int i, d
         matrix_from_trs(out, p->translation[i], p->rotation[i], p->scale[i]);
 }
 
-void track_pose_set(struct track_pose *p, const struct model *model, int clip, double time, const double root[16])
+void track_pose_set(struct track_pose *p, const struct model *model, int clip, double time,
+                    const double root[16])
 {
     for (int i = 0; i < model->node_count; i++)
         set_rest(p, model, i);
     for (int i = 0; clip >= 0 && i < model->clip[clip].channel_count; i++) {
         const struct model_channel *c = &model->clip[clip].channel[i];
-        track_sample(c, time, c->path == MODEL_TRANSLATION ? p->translation[c->node]
-                            : c->path == MODEL_ROTATION    ? p->rotation[c->node]
-                            : c->path == MODEL_SCALE       ? p->scale[c->node] : p->weight + p->weight_at[c->node]);
+        track_sample(c, time,
+                     c->path == MODEL_TRANSLATION ? p->translation[c->node]
+                     : c->path == MODEL_ROTATION  ? p->rotation[c->node]
+                     : c->path == MODEL_SCALE     ? p->scale[c->node]
+                                                  : p->weight + p->weight_at[c->node]);
     }
     for (int i = 0; i < model->node_count; i++) {
         double local[16];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* weld.c - vertices that are equal in everything the device sees become one; triangles that lose a corner by it go.
- * Vertices keep the order in which they come first. */
+/* weld.c - vertices that are equal in everything the device sees become one; triangles that lose a corner by
+ * it go. Vertices keep the order in which they come first. */
 #include "build.h"
 
 #include <string.h>

@@ -129,19 +129,22 @@ static void add_name(struct token t, int file)
     if (t.length >= NAME_BYTES || name_count == NAMES_MAX)
         fail(files[file].path, "too many names");
     for (int i = 0; i < name_count; i++)
-        if (names[i].file == file && strlen(names[i].text) == t.length && memcmp(names[i].text, t.at, t.length) == 0)
+        if (names[i].file == file && strlen(names[i].text) == t.length
+            && memcmp(names[i].text, t.at, t.length) == 0)
             return;
     memcpy(names[name_count].text, t.at, t.length);
     names[name_count].text[t.length] = '\0';
     names[name_count++].file = file;
 }
 
-/* Functions, objects, types, tags, constants of enums and macros that the file declares outside of functions. */
+/* Functions, objects, types, tags, constants of enums and macros
+ * that the file declares outside of functions. */
 static void find_names(int file)
 {
     static const char *const keywords[] = {
-        "static", "const", "extern", "inline", "void", "int", "unsigned", "char", "bool", "struct", "enum", "union", "typedef",
-        "volatile", "__attribute__", "SMEAR_STATIC_ASSERT", "SMEAR_INLINE", "SMEAR_NOINLINE", "SMEAR_SHARED", NULL
+        "static", "const", "extern", "inline", "void", "int", "unsigned", "char", "bool", "struct", "enum",
+        "union", "typedef", "volatile", "__attribute__", "SMEAR_STATIC_ASSERT", "SMEAR_INLINE",
+        "SMEAR_NOINLINE", "SMEAR_SHARED", NULL
     };
     int depth = 0, parentheses = 0;
     bool in_enum = false, line_start = true;
@@ -207,7 +210,8 @@ static bool collides(struct token t, int file)
             is_elsewhere = true;
     }
     /* Names of the interface between files are declared in a header and defined in a source. */
-    return files[file].is_source && is_ours && is_elsewhere && (t.length < 6 || memcmp(t.at, "smear_", 6) != 0);
+    return files[file].is_source && is_ours && is_elsewhere
+        && (t.length < 6 || memcmp(t.at, "smear_", 6) != 0);
 }
 
 /* ------------------------------------------------------------------ writing */
@@ -233,14 +237,16 @@ static void write_file(FILE *out, int file, bool renames)
     int struct_depth = 0, depth = 0;                /* of the braces of a struct's definition */
     struct token before = { END, "", 0 }, before_that = before;
     bool line_start = true;
-    fprintf(out, "\n/* ==================================================================== %s */\n\n", files[file].path);
+    fprintf(out, "\n/* ==================================================================== %s */\n\n",
+            files[file].path);
     for (const char *p = files[file].text; *p != '\0';) {
         struct token t = next_token(p);
         if (line_start && (skipped = skip_include(p)) != NULL) {
             p = skipped;
             continue;
         }
-        if (line_start && strncmp(p, "#include SMEAR_CONFIG_FILE", 26) != 0 && strncmp(p, "/* SPDX", 7) == 0) {
+        if (line_start && strncmp(p, "#include SMEAR_CONFIG_FILE", 26) != 0
+            && strncmp(p, "/* SPDX", 7) == 0) {
             p += strcspn(p, "\n") + 1;
             continue;
         }
@@ -314,13 +320,15 @@ static void write_file(FILE *out, int file, bool renames)
 static void write_head(FILE *out, bool is_source)
 {
     fputs(is_source ? "/* SPDX-License-Identifier: MIT */\n"
-                      "/* smear.c - the whole library, put together by `make dist` from the files named below. C99 or later, or C++20.\n"
+                      "/* smear.c - the whole library, put together by `make dist` from the files "
+                      "named below. C99 or later, or C++20.\n"
                       " * Needs smear.h beside it, and memcpy and memset. */\n"
                       "#include \"smear.h\"\n\n"
                       "#ifdef __clang__       /* not every build needs every helper */\n"
                       "#pragma clang diagnostic ignored \"-Wunused-function\"\n"
                       "#endif\n"
-                      "/* What differs in C++: literals, and pointers to untyped memory, which become what they are assigned to. */\n"
+                      "/* What differs in C++: literals, and pointers to untyped memory, "
+                      "which become what they are assigned to. */\n"
                       "#ifdef __cplusplus\n"
                       "#pragma GCC diagnostic ignored \"-Wmissing-field-initializers\"\n"
                       "template <class type> using smear_literal = type;\n"
@@ -340,7 +348,8 @@ static void write_head(FILE *out, bool is_source)
                       "#define SMEAR_UNTYPED_CONST const void *\n"
                       "#endif\n"
                     : "/* SPDX-License-Identifier: MIT */\n"
-                      "/* smear.h - the interface of smear.c, put together by `make dist`: configuration, library, models. C99, C++11. */\n",
+                      "/* smear.h - the interface of smear.c, put together by `make dist`: "
+                      "configuration, library, models. C99, C++11. */\n",
           out);
 }
 

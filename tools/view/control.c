@@ -253,7 +253,8 @@ static void do_debug(struct view *v, int way)
     v->debug_kind = (enum debug_kind)(((int)v->debug_kind + way + DEBUG_KINDS) % DEBUG_KINDS);
     v->is_dirty = true;
     const char *legend = debug_legends[v->debug_kind];
-    view_say(v, "%s%s%s", debug_names[v->debug_kind], legend != NULL ? ": " : "", legend != NULL ? legend : "");
+    view_say(v, "%s%s%s", debug_names[v->debug_kind], legend != NULL ? ": " : "",
+             legend != NULL ? legend : "");
 }
 
 static void do_overlay(struct view *v, int way)

@@ -9,8 +9,8 @@
 
 #define PI 3.14159265358979323846
 
-const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "methods", "samples", "bands", "wire",
-                                    NULL };
+const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "methods", "samples", "bands",
+                                    "wire", NULL };
 const char *const debug_legends[] = {
     [DEBUG_PICTURE] = NULL,
     [DEBUG_VELOCITY] = "colour: direction; bright: fast",
@@ -159,7 +159,8 @@ static uint32_t samples_color(const struct tile_note *tile)
     return rgb(2.0 * share - 0.6, 1.6 * share - 0.2, blue);
 }
 
-static void show_notes(const struct lane *lane, uint32_t (*color)(const struct tile_note *), uint32_t *picture)
+static void show_notes(const struct lane *lane, uint32_t (*color)(const struct tile_note *),
+                       uint32_t *picture)
 {
     const struct tiles *t = &lane->tiles;
     int width = lane->setup.width, height = lane->setup.height;
@@ -172,8 +173,8 @@ static void show_notes(const struct lane *lane, uint32_t (*color)(const struct t
         }
 }
 
-/* A streak longer than twice the reach is shortened by filters: the edges of tiles that hold one, or lie beside one that
- * does, are violet. */
+/* A streak longer than twice the reach is shortened by filters: the edges of tiles that hold
+ * one, or lie beside one that does, are violet. */
 static bool show_kinds(const struct debug *d, const struct lane *lane, uint32_t *picture, struct failure *f)
 {
     const struct tiles *t = &lane->tiles;

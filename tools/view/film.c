@@ -60,12 +60,14 @@ void film_screenshot(struct view *v)
 
 /* ------------------------------------------------------------------ loops */
 
-/* Frames from `first` until two in a row look as the first two do; 0: none within the search; -1: it was ended. */
+/* Frames from `first` until two in a row look as the first two do;
+ * 0: none within the search; -1: it was ended. */
 static long find_loop(struct view *v, long first)
 {
     uint32_t start[2] = { 0, 0 }, last = 0;
     for (long i = 0; i <= MAX_SEARCH; i++) {
-        if (!view_busy(v, "looking for a loop", i, MAX_SEARCH) || !view_draw_main(v, (first + i) * VIEW_UNITS))
+        if (!view_busy(v, "looking for a loop", i, MAX_SEARCH)
+            || !view_draw_main(v, (first + i) * VIEW_UNITS))
             return -1;
         uint32_t crc = v->main.stats.crc32;
         if (i < 2)

@@ -3,7 +3,8 @@
  * the terminal, or kept and checked without anybody looking. Environment variables stand for the
  * options of `smear view`:
  *
- *     SMEAR_OUT      x11, term, fb, drm or null; unset: what is there, and null where SMEAR_FRAMES are checked or printed
+ *     SMEAR_OUT      x11, term, fb, drm or null; unset: what is there, and null where SMEAR_FRAMES are
+ *                    checked or printed
  *     SMEAR_ZOOM     1..8; unset: the largest that fits
  *     SMEAR_ROTATE   0, 90, 180 or 270
  *     SMEAR_FPS      frames per second at most; unset: 60; 0: as fast as it goes
@@ -160,7 +161,8 @@ static bool open_screen(struct failure *f)
         known = known || strcmp(screen_names[i], out) == 0;
     if (!known)
         return fail(f, "there is no SMEAR_OUT=%s", out);
-    if (out == NULL && display.frames > 0 && (text_of("SMEAR_CHECK") != NULL || number_of("SMEAR_CRC", 0, 1, 0) == 1))
+    if (out == NULL && display.frames > 0
+        && (text_of("SMEAR_CHECK") != NULL || number_of("SMEAR_CRC", 0, 1, 0) == 1))
         out = screen_null.name;         /* nobody looks */
     for (zoom = zoom > 0 ? zoom : 8; display.look.zoom == 0 && zoom > 1; zoom--)
         if (w * zoom <= WISHED_WIDTH && h * zoom <= WISHED_HEIGHT)

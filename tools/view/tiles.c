@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* tiles.c - see tiles.h. The only file of the viewer that looks into a context: the public statistics count tiles, but
- * do not say where they are. */
+/* tiles.c - see tiles.h. The only file of the viewer that looks into a context: the public statistics
+ * count tiles, but do not say where they are. */
 #include "tiles.h"
 
 #include "../../src/context.h"
@@ -68,7 +68,8 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
 {
     switch (c->frame.method) {
     case SMEAR_ACCUMULATE:
-        return (struct tile_note){ TILES_ACCUMULATE, TILES_COMPLEX, c->frame.samples > 0 ? c->frame.samples : 8 };
+        return (struct tile_note){ TILES_ACCUMULATE, TILES_COMPLEX,
+                                   c->frame.samples > 0 ? c->frame.samples : 8 };
     case SMEAR_RECONSTRUCT:
     case SMEAR_CAMERA:
     case SMEAR_PINGPONG:

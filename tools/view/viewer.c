@@ -68,8 +68,8 @@ long view_period(const struct view *v)
 static void wrap(struct view *v)
 {
     long period = view_period(v);
-    if (v->source->is_file && v->wish.frames == 0 && !v->main.options.view.loop && !v->main.options.has_time &&
-        period > 0 && v->at >= (int64_t)period * VIEW_UNITS)
+    if (v->source->is_file && v->wish.frames == 0 && !v->main.options.view.loop && !v->main.options.has_time
+        && period > 0 && v->at >= (int64_t)period * VIEW_UNITS)
         v->at = 0;
 }
 

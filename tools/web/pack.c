@@ -7,8 +7,8 @@
  *                                      @bytes FILE     becomes the file's bytes as text
  *
  * Scripts and styles lose indentation, empty lines and lines that are only a comment. Bytes are their number
- * and text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's basE91, with characters that
- * a script element may hold). unpack.js reads both. */
+ * and text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's basE91, with
+ * characters that a script element may hold). unpack.js reads both. */
 #include "../image/deflate.h"
 #include "../image/image.h"
 

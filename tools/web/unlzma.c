@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* unlzma.c - reads a .lzma file that ends with an end mark, after Igor Pavlov's lzma-specification. Alone in a module of
- * its own: it unpacks the others.
+/* unlzma.c - reads a .lzma file that ends with an end mark, after Igor Pavlov's lzma-specification. Alone
+ * in a module of its own: it unpacks the others.
  *
  * The file's bytes go to unlzma_input(); what unlzma() makes of them lies at unlzma_output(). */
 #include <stdbool.h>
