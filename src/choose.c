@@ -6,9 +6,10 @@
 
 #include "fixmath.h"
 
-/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where movers go apart, as many as keep a step of one within `spread`
- * of that of another; from `most` on a time mask, whose closed forms do not care how long a way is, costs less. Measured
- * on the scenes of the quality suite (make chart). */
+/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where movers go
+ * apart, as many as keep a step of one within `spread` of that of another; from `most` on a time mask, whose closed forms
+ * do not care how long a way is, costs less. Measured on the scenes of the quality suite (make chart): fewer instants cost
+ * a tenth less and are seen as teeth at the ends of long streaks (failure rows 3 and 22). */
 struct preset {
     int32_t target;                     /* from this error on, 1/64 codes */
     int32_t least, step, spread, most;  /* 1/16 px */
@@ -86,7 +87,9 @@ void smear_choose_step(struct smear_step *step, const struct smear_chooser *choo
                        int32_t instants)
 {
     *step = (struct smear_step){ 0, 0 };
-    if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load) || spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
+    if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load))
+        return;
+    if (spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
         return;
     step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
     step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
@@ -100,44 +103,55 @@ static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int
                                                             sparse };
 }
 
+static void choose_subframes(struct smear_tile_choice *choice, int32_t instants)
+{
+    choice->method = TILE_SUBFRAMES;
+    choice->instants = instants;
+}
+
+/* Instants that SMEAR_AUTO takes of a tile. */
+static int32_t auto_instants(const struct preset *p, const struct smear_chooser *chooser,
+                             const struct smear_tile_load *load)
+{
+    const int32_t travel = travel_of(load);
+    int32_t instants = travel / 16 + 1;
+    if (may_fill(chooser, load)) {
+        instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
+        if (p->least <= 3 && travel < 8)        /* half a pixel */
+            instants = 2;
+        instants = max_i32(instants, spread_of(load) / p->spread + 1);
+    }
+    /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
+     * not known, as clipping moves their ends. */
+    if ((load->flags & PATH_PIECE) != 0)
+        instants = max_i32(min_i32(instants, p->most), max_i32(8, p->least + 3));
+    return instants;
+}
+
+static void choose_auto(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
+                        const struct smear_tile_load *load, bool closed_form)
+{
+    const struct preset *p = preset_of(chooser->target);
+    const int32_t instants = auto_instants(p, chooser, load);
+    if (closed_form && (load->flags & PATH_PIECE) == 0 && (instants > p->most || !chooser->fills)) {
+        /* A texture shows where its surface is all over, not only at edges. */
+        const int32_t bend = (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32);
+        choose_timemask(choice, p->slots, bend, p->edge, p->tap, p->sparse);
+    } else {
+        choose_subframes(choice, min_i32(instants, INSTANTS_MAX));
+    }
+}
+
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
-    const bool pieces = (load->flags & PATH_PIECE) != 0;
     const bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
-    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
+    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0)
         choice->method = TILE_COPY;
-    } else if (chooser->method == SMEAR_SUBFRAMES) {
-        choice->method = TILE_SUBFRAMES;
-        choice->instants = instants_for(load, chooser->samples);
-    } else if (chooser->method == SMEAR_TIMEMASK) {
-        if (closed_form) {
-            choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
-        } else {
-            choice->method = TILE_SUBFRAMES;
-            choice->instants = instants_for(load, chooser->samples);
-        }
-    } else {
-        const struct preset *p = preset_of(chooser->target);
-        const int32_t travel = travel_of(load);
-        int32_t instants = travel / 16 + 1;
-        if (may_fill(chooser, load)) {
-            instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
-            if (p->least <= 3 && travel < 8)        /* half a pixel */
-                instants = 2;
-            instants = max_i32(instants, spread_of(load) / p->spread + 1);
-        }
-        /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
-         * not known, as clipping moves their ends. */
-        if (pieces)
-            instants = max_i32(min_i32(instants, p->most), max_i32(8, p->least + 3));
-        if (closed_form && !pieces && (instants > p->most || !chooser->fills)) {
-            /* A texture shows where its surface is all over, not only at edges. */
-            choose_timemask(choice, p->slots, (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32), p->edge,
-                            p->tap, p->sparse);
-        } else {
-            choice->method = TILE_SUBFRAMES;
-            choice->instants = min_i32(instants, INSTANTS_MAX);
-        }
-    }
+    else if (chooser->method == SMEAR_AUTO)
+        choose_auto(choice, chooser, load, closed_form);
+    else if (chooser->method == SMEAR_TIMEMASK && closed_form)
+        choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
+    else
+        choose_subframes(choice, instants_for(load, chooser->samples));
 }

@@ -10,7 +10,8 @@ enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 
 /* The movers of a tile: all that may be seen there during the exposure. */
 struct smear_tile_load {
-    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where x0 > x1 */
+    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where
+                                 * x0 > x1 */
     uint16_t bend;              /* largest, 1/16 px */
     uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
     uint8_t method;             /* smear_tile_method it got in the end */
@@ -41,7 +42,6 @@ struct smear_chooser {
 /* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);
-
 
 /* How a tile's movers go on between `instants` that it shares; none where they do not go alike. */
 void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,

@@ -1043,6 +1043,8 @@ static void prepare(struct smear_context *c)
                                  && c->state != STATE_FILTER
                                  && !(same_camera(&c->camera, &c->camera_open)
                                       && same_camera(&c->camera, &c->camera_close));
+    /* Pairs of taps of the widest gap, 8 to either side, find room
+     * between the borders of a frame this large. */
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,
                                          min_i32(w->width, w->height) >= 24 };
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
