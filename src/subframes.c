@@ -827,8 +827,10 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     const struct smear_raster_target *s = &t->still;
     const struct box whole = { s->x0, s->y0, s->x1, s->y1 };
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
-    const bool packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_MAX);
-    struct subframes f = { .t = t, .packed = packed, .instants = (uint32_t)instants };
+    struct subframes f = {
+        .t = t, .packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_MAX),
+        .instants = (uint32_t)instants
+    };
     f.listed = (uint32_t *)t->work;
     for (int i = 0; i < min_i32(SUM_PLANES, 3); i++)
         f.sum[i] = f.listed + LISTED + i * pixels;
