@@ -45,6 +45,8 @@ static bool resolve(smear_desc *d)
         || (d->inspect != NULL && !SMEAR_WITH_INSPECT) || (d->layers && !SMEAR_WITH_LAYERS)
         || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
         return false;
+    /* Asked for, not as it turns out: the picture depends on the tile. */
+    const bool has_reach = !is_timed(d) || !d->sharp;
     if (!SMEAR_WITH_RECONSTRUCT)
         d->sharp = 1;
     if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
@@ -56,7 +58,7 @@ static bool resolve(smear_desc *d)
     if (d->reach < 1 || d->reach > 64)
         return false;
     if (d->tile == 0)
-        d->tile = (int16_t)(is_timed(d) && d->sharp ? 32
+        d->tile = (int16_t)(!has_reach ? 32
                           : d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
     if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64
         || (d->tile < d->reach && !d->scatter))
