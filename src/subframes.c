@@ -290,7 +290,8 @@ static void note(struct subframes *f, const struct smear_mover *m)
 {
     const struct smear_path_bounds *b = geometry_bounds(f->t->frame->geometry, m->triangle);
     f->nearest = max_u32(f->nearest, m->nearest);
-    box_add(&f->area, &(struct box){ b->x0, b->y0, b->x1, b->y1 });
+    const struct box way = { b->x0, b->y0, b->x1, b->y1 };
+    box_add(&f->area, &way);
 }
 
 /* Lists what may be seen. True when something moves. */
