@@ -541,10 +541,11 @@ static void merge_group(struct smear_context *c, struct layers_row *r, struct sm
     r->gather = (struct smear_gather_area){
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
         .still = r->still.color, .still_depth = r->still.depth, .still_stride = c->window.width,
+        .passed = rows->over, .passed_depth = rows->over_depth,
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks,
         .height = height, .tile_shift = c->window.tile_shift,
         .samples = min_i32(c->frame.samples, SMEAR_GATHER_TAPS), .linear = c->raster.linear,
-        .over = group->rank != 0, .passed = rows->over, .passed_depth = rows->over_depth,
-        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks
+        .over = group->rank != 0
     };
     if (rows->held.group != group)
         smear_streak_edges(s, rows->edge, s->upright ? rows->rows : rows->width);
