@@ -325,13 +325,13 @@ static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32
 {
     const struct smear_gather_area *a = g->a;
     uint32_t passed = a->passed[at];
-    struct seen seen = { .passed_depth = passed != 0 ? a->passed_depth[at] : 0 };
+    struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->passed_depth[at] : 0u };
     const int32_t of = look(g, &seen, here, still_depth, taken, a->linear, true);
     const uint32_t front = min_u32(seen.sum.weight, WHOLE);
     if (seen.behind.weight != 0 && front < WHOLE) {
         /* Its share of the time in which nothing of the layer is in front. */
         const uint32_t part = seen.behind.weight >= WHOLE - front
-                                ? WHOLE
+                                ? (uint32_t)WHOLE
                                 : (seen.behind.weight << 12) / (WHOLE - front);
         const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
         a->still[at] = mixed_pixel(a->still[at], whole, part, a->linear);
