@@ -433,7 +433,7 @@ static int32_t safe_distance(const struct smear_clip_vertex corner[3], const str
         for (int i = 0; i < 3; i++) {
             const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
             const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
-                                         : (int64_t)corner[i].pose[key].w << up;
+                                         : (int64_t)corner[i].pose[key].w * ((int64_t)1 << up);
             way = corner[i].now.w - there > way ? corner[i].now.w - there : way;
         }
     way += now->near_distance + (int64_t)8;

@@ -116,7 +116,7 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
         cross += h * l;
         low += l * l;
     }
-    int32_t along = (along_high << 4) + (along_low >> 8);       /* q6 x length */
+    int32_t along = along_high * 16 + (along_low >> 8);       /* q6 x length */
     if (along <= 0)
         return 0;
     uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
