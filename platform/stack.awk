@@ -10,6 +10,7 @@
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
     reach["src/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
+    reach["src/convert.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
     reach["src/raster.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
     if (root != "") {       # smear_jobs_run lies in its caller
