@@ -503,6 +503,8 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
             doublings = here >= 0 ? here : doublings;
         }
     }
+    while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* none holds for any triangle */
+        doublings--;
     return least << doublings;
 }
 
