@@ -24,14 +24,13 @@ enum {
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { 512, 2, 640, 512, 32, 8, 2, 768, 2 },
         { SMEAR_DRAFT, 2, 400, 400, 32, 8, 2, 768, 2 },
         { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
         { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
         { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
         { SMEAR_FINE, 9, 96, 56, 48, 32, 8, 256, 6 },
-        { 20, 13, 64, 36, 48, 32, 8, 256, 6 },
-        { 0, 17, 48, 24, 64, 32, 8, 256, 6 }
+        { 20, 13, 64, 36, 1000, 32, 8, 256, 6 },
+        { 0, 17, 48, 24, 1000, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
