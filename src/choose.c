@@ -30,7 +30,7 @@ static const struct preset *preset_of(int32_t target)
         { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
         { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
         { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
-        { 20, 13, 64, 36, 1000, 16, 32, 8, 256, 6 },
+        { 20, 15, 64, 36, 1000, 16, 32, 8, 256, 6 },
         { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
@@ -122,7 +122,7 @@ static int32_t auto_instants(const struct preset *p, const struct smear_chooser 
     /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
      * not known, as clipping moves their ends. */
     if ((load->flags & PATH_PIECE) != 0)
-        instants = max_i32(min_i32(instants, p->most), p->pieces);
+        instants = clamp_i32(instants, p->pieces, PATH_PIECES);
     return instants;
 }
 

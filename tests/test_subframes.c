@@ -601,6 +601,34 @@ static void test_a_step_closes_the_gap_between_instants(void)
     }
 }
 
+static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
+{
+    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
+    uint32_t wide[32], unlike[2] = { 0, 0 };
+    square_scene(false, 24);
+    for (uint32_t i = 0; i < mover_count; i++) {
+        mover[i].first = 0;
+        mover[i].last = 3;
+    }
+    draw_still();
+    struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+    smear_subframes_tiles(&t, 4, step);
+    for (int32_t x = 0; x < 32; x++)
+        wide[x] = memory.out[14 * t.pitch + x];
+    for (int32_t margin = 0; margin <= 3; margin += 3) {
+        draw_still();
+        t = tiles_at(16, 0, 2, 0, mover);
+        t.pitch = 64;
+        t.still.x1 += margin;
+        t.last_column += margin != 0;
+        smear_subframes_tiles(&t, 4, step);
+        for (int32_t x = 0; x < 32; x++)
+            unlike[margin != 0] += memory.out[14 * t.pitch + x] != wide[x];
+    }
+    CHECK_EQ(unlike[1], 0);
+    CHECK(unlike[0] > 0);
+}
+
 static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
 {
     const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
@@ -862,6 +890,7 @@ void suite_subframes(void)
     RUN(test_a_moving_edge_is_a_ramp);
     RUN(test_tiles_together_are_what_they_are_alone);
     RUN(test_a_step_closes_the_gap_between_instants);
+    RUN(test_gaps_at_a_border_close_with_what_lies_beyond_it);
     RUN(test_what_hides_movers_stays_as_it_is_beside_closed_gaps);
     RUN(test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps);
     RUN(test_shutters_weigh_by_their_slots);
