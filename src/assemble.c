@@ -58,70 +58,76 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
+/* Clips and projects; returns twice the polygon's area. */
+static int64_t cut_polygon(struct smear_clip_polygon *p, struct smear_screen screen[SMEAR_CLIP_MAX],
+                           const struct smear_assembler *a, const struct smear_assembly *d, int codes)
+{
+    int64_t area = 0;
+    smear_clip_polygon(p, &d->at.now, codes);
+    for (int i = 0; i < p->count; i++) {
+        smear_project(&screen[i], &d->at.now, &clip_corner(p, i)->now, &a->viewport);
+        if (i >= 2)
+            area += area_of(&screen[0], &screen[i - 1], &screen[i]);
+    }
+    return area;
+}
+
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
 static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
                                        struct smear_segment **segment, uint32_t triangle,
                                        const struct smear_cached_vertex *corner[3])
 {
-    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon polygon;
     struct smear_screen screen[SMEAR_CLIP_MAX];
     const smear_mesh *mesh = d->mesh;
+    const bool textured = segment_textured(*segment), colored = segment_colored(*segment);
+    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
     int codes = 0;
     for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &polygon[i];
+        struct smear_clip_vertex *v = &polygon.vertex[i];
         uint32_t index = index_of(corner[i]);
         codes |= corner[i]->outcode;
         v->now = corner[i]->now;
-        for (int pose = 0; pose < CLIP_POSES; pose++)
-            v->pose[pose] = v->now;
-        for (int pose = 0; SMEAR_WITH_RECONSTRUCT && pose < d->moves; pose++)
+        for (int pose = 0; pose < poses; pose++)
             pose_transform(&v->pose[pose], d, pose, index);
-        v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
-        v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
-        for (int c = 0; c < CLIP_COLORS; c++)
-            v->color[c] = 0;
+        for (int k = 0; k < 2 && textured; k++)
+            v->uv[k] = mesh->uv[2 * index + (uint32_t)k];
     }
 
     /* Which side is seen decides the light of vertices, and only
-     * the cut polygon can tell: clip places first. */
-    struct smear_clip_vertex copy[SMEAR_WITH_GOURAUD ? SMEAR_CLIP_MAX : 1];
-    struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
-    for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
-        probe[i] = polygon[i];
-    int count = smear_clip_polygon(probe, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
-    int64_t area = 0;
-    for (int i = 0; i < count; i++)
-        smear_project(&screen[i], &d->at.now, &probe[i].now, &a->viewport);
-    for (int i = 2; i < count; i++)
-        area += area_of(&screen[0], &screen[i - 1], &screen[i]);
-    bool back = (area > 0) != d->mirrored;
-    if (area == 0 || (back && !d->material->double_sided))
-        return true;
-
-    struct smear_face face = smear_face_of(d, triangle, back);
-    if (*segment == NULL)
-        *segment = smear_record_segment(a, d);
-    if (*segment == NULL)
-        return false;
-    if (segment_colored(*segment)) {
+     * the cut polygon can tell: where both are drawn, places are cut first. */
+    bool back = false;
+    if (colored && d->material->double_sided) {
+        smear_clip_start(&polygon, 0, false, false);
+        back = (cut_polygon(&polygon, screen, a, d, codes) > 0) != d->mirrored;
+        for (int i = 0; i < 3; i++)
+            polygon.vertex[i].now = corner[i]->now;
+    }
+    struct smear_face face;
+    if (colored) {
+        face = smear_face_of(d, triangle, back);
         for (int i = 0; i < 3; i++) {
             struct smear_color color;
             smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
             for (int c = 0; c < CLIP_COLORS; c++)
-                polygon[i].color[c] = color.channel[c];
+                polygon.vertex[i].color[c] = color.channel[c];
         }
     }
-    if (SMEAR_WITH_GOURAUD)
-        count = smear_clip_polygon(polygon, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
+    smear_clip_start(&polygon, poses, textured, colored);
+    const int64_t area = cut_polygon(&polygon, screen, a, d, codes);
+    back = (area > 0) != d->mirrored;
+    if (area == 0 || (back && !d->material->double_sided))
+        return true;
+    if (!colored)
+        face = smear_face_of(d, triangle, back);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
-    for (int i = 0; i < count; i++) {
-        smear_project(&screen[i], &d->at.now, &polygon[i].now, &a->viewport);
+    for (int i = 0; i < polygon.count; i++) {
         screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
         screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
     }
-    for (int i = 2; i < count; i++) {
+    for (int i = 2; i < polygon.count; i++) {
         const int fan[3] = { 0, i - 1, i };
         const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
         /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
@@ -138,7 +144,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         *segment = s;
         uint16_t offset[3];
         for (int k = 0; k < 3; k++) {
-            const struct smear_clip_vertex *v = &polygon[fan[k]];
+            const struct smear_clip_vertex *v = clip_corner(&polygon, fan[k]);
             uint32_t *record = a->geometry->pool + a->geometry->vertex_words;
             offset[k] = (uint16_t)(a->geometry->vertex_words - s->base);
             a->geometry->vertex_words += s->stride;

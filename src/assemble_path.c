@@ -206,26 +206,25 @@ struct cut {
 };
 
 /* Brings another pose into the place that is clipped, or back. */
-static void exchange(struct smear_clip_vertex *v, int count, int key)
+static void exchange(struct smear_clip_polygon *p, int key)
 {
-    for (int i = 0; i < count; i++) {
-        struct smear_homogeneous h = v[i].now;
-        v[i].now = v[i].pose[key];
-        v[i].pose[key] = h;
+    for (int i = 0; i < p->count; i++) {
+        struct smear_clip_vertex *v = clip_corner(p, i);
+        struct smear_homogeneous h = v->now;
+        v->now = v->pose[key];
+        v->pose[key] = h;
     }
 }
 
 /* Leaves what is in front of the near plane and within the guard band at all three instants. */
-static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
+static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
 {
-    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE], CLIP_POSES);
-    for (int key = OPEN; key <= CLOSE && count != 0; key++) {
-        exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR,
-                                   CLIP_POSES);
-        exchange(polygon, count, key);
+    smear_clip_polygon(p, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    for (int key = OPEN; key <= CLOSE && p->count != 0; key++) {
+        exchange(p, key);
+        smear_clip_polygon(p, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        exchange(p, key);
     }
-    return count;
 }
 
 static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
@@ -242,10 +241,9 @@ static void project_corner(struct smear_screen screen[KEYS], const struct smear_
 
 /* What is left of a triangle. */
 struct polygon {
-    struct smear_clip_vertex vertex[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon clip;
     struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
     uint32_t stored[SMEAR_CLIP_MAX];    /* as in struct path_vertex */
-    int count;
     uint8_t piece;
 };
 
@@ -258,7 +256,7 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
 {
     struct smear_geometry *g = b->a->geometry;
     const struct smear_segment *s = b->segment;
-    const struct smear_clip_vertex *v = &p->vertex[i];
+    const struct smear_clip_vertex *v = clip_corner(&p->clip, i);
     if (p->stored[i] > s->base)
         return p->stored[i] - 1;
     uint32_t word = g->vertex_words, *record = g->pool + word;
@@ -307,24 +305,25 @@ static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[
     const struct smear_assembly *d = b->d;
     struct polygon p;
     for (int i = 0; i < 3; i++)
-        p.vertex[i] = corner[i];
-    p.count = clip_all(p.vertex, cut);
+        p.clip.vertex[i] = corner[i];
+    smear_clip_start(&p.clip, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
+    clip_all(&p.clip, cut);
     p.piece = cut->piece;
-    for (int i = 0; i < p.count; i++) {
-        project_corner(p.screen[i], &p.vertex[i], cut, &b->a->viewport);
+    for (int i = 0; i < p.clip.count; i++) {
+        project_corner(p.screen[i], clip_corner(&p.clip, i), cut, &b->a->viewport);
         p.stored[i] = 0;
     }
     bool seen = false;
     for (int key = 0; key < KEYS && !seen; key++) {
         int64_t area = 0;
-        for (int i = 2; i < p.count; i++)
+        for (int i = 2; i < p.clip.count; i++)
             area += area_at(&p, i - 1, i, key);
         seen = ((area > 0) != d->mirrored) == face->back && area != 0;
     }
     if (!seen)
         return true;
     bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < p.count; i++) {
+    for (int i = 2; i < p.clip.count; i++) {
         const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
         if (!add_fan(b, &p, fan, face))
             return false;
@@ -442,24 +441,28 @@ static int32_t safe_distance(const struct smear_clip_vertex corner[3], const str
 
 /* Whether a side of the frame hides all of the polygon: a pose's places lie at
  * sums of those known, so at all times. */
-static bool is_beside(const struct smear_clip_vertex *v, int count, const struct smear_viewport *viewport)
+static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport *viewport)
 {
     int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
-    for (int i = 0; i < count && beside != 0; i++)
+    for (int i = 0; i < p->count && beside != 0; i++) {
+        const struct smear_clip_vertex *v = clip_corner(p, i);
         for (int key = 0; key < KEYS; key++)
-            beside &= outcode_behind(key == MIDDLE ? &v[i].now : &v[i].pose[key], viewport);
+            beside &= outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
+    }
     return beside != 0;
 }
 
 /* Nothing of the triangle that is nearer than this in the middle of the exposure is seen at any time. */
 static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
 {
-    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon polygon;
     struct smear_projection behind = b->d->at.now;
     behind.far_distance = distance;
     for (int i = 0; i < 3; i++)
-        polygon[i] = corner[i];
-    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR, CLIP_POSES), &b->a->viewport);
+        polygon.vertex[i] = corner[i];
+    smear_clip_start(&polygon, CLIP_POSES, false, false);
+    smear_clip_polygon(&polygon, &behind, OUT_FAR);
+    return is_beside(&polygon, &b->a->viewport);
 }
 
 static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
