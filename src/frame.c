@@ -54,6 +54,8 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
 
 static bool same_transform(const smear_transform *a, const smear_transform *b)
 {
+    if (a == b)
+        return true;
     for (int i = 0; i < 9; i++)
         if (a->basis[i] != b->basis[i])
             return false;
@@ -63,8 +65,8 @@ static bool same_transform(const smear_transform *a, const smear_transform *b)
 
 static bool same_camera(const smear_camera *a, const smear_camera *b)
 {
-    return same_transform(&a->pose, &b->pose) && a->focal == b->focal
-        && a->half_height == b->half_height;
+    return a == b || (same_transform(&a->pose, &b->pose) && a->focal == b->focal
+                      && a->half_height == b->half_height);
 }
 
 static bool is_mirrored(const smear_transform *t)
@@ -84,6 +86,8 @@ struct draw_poses {
     const smear_camera *camera[3];
     const int16_t *position[3];
     int32_t deform;                     /* of the way between their vertices, q8 */
+    bool projected[3];                  /* `projection` holds */
+    struct smear_projection projection[3];
 };
 
 /* The layer of a draw, if it has a camera of its own. */
@@ -196,6 +200,7 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
         p->object[i] = object;
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
+        p->projected[i] = false;
     }
     p->deform = 256;
     const struct smear_layer_setting *own = layer_with_camera(c, s);
@@ -247,12 +252,17 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         c->stats.draws_moved++;
 }
 
-static void project_pose(struct smear_projection *out, const struct smear_context *c,
-                         const struct draw_poses *p, int i, const smear_mesh *mesh)
+/* Of a pose, made once. */
+static const struct smear_projection *project_pose(const struct smear_context *c, struct draw_poses *p, int i,
+                                                   const smear_mesh *mesh)
 {
-    struct smear_view view;
-    smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-    smear_projection_make(out, &view, p->camera[i], c->window.height);
+    if (!p->projected[i]) {
+        struct smear_view view;
+        smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
+        smear_projection_make(&p->projection[i], &view, p->camera[i], c->window.height);
+        p->projected[i] = true;
+    }
+    return &p->projection[i];
 }
 
 static bool deformation_is_scaled(const struct draw_poses *p, int k)
@@ -261,7 +271,7 @@ static bool deformation_is_scaled(const struct draw_poses *p, int k)
 }
 
 /* Where the vertices are at an instant: a sum of poses, linear in clip space. */
-static void place(struct smear_placement *out, const struct smear_context *c, const struct draw_poses *p,
+static void place(struct smear_placement *out, const struct smear_context *c, struct draw_poses *p,
                   const smear_mesh *mesh, const struct instant *instant)
 {
     enum { TERMS = SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM ? 5 : 3 };
@@ -273,7 +283,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
     for (int k = 0; k < 3; k++) {
         if (instant->weight[k] == 0)
             continue;
-        project_pose(&sum[count], c, p, k, mesh);
+        sum[count] = *project_pose(c, p, k, mesh);
         position[count] = p->position[k];
         weight[count++] = instant->weight[k];
         if (deformation_is_scaled(p, k)) {      /* part of the way from the mesh's own vertices */
@@ -300,11 +310,11 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
 }
 
 /* A pose between which velocity is measured. */
-static void add_pose(struct smear_assembly *a, const struct smear_context *c, const struct draw_poses *p,
+static void add_pose(struct smear_assembly *a, const struct smear_context *c, struct draw_poses *p,
                      int k)
 {
     const int i = a->moves++;
-    project_pose(&a->pose[i], c, p, k, a->mesh);
+    a->pose[i] = *project_pose(c, p, k, a->mesh);
     a->pose_position[i] = p->position[k];
     if (!SMEAR_WITH_SCALES || !SMEAR_WITH_DEFORM)
         return;
@@ -1038,11 +1048,11 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
     c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
+    c->camera_moves = c->camera_moves && !(same_camera(&c->camera, &c->camera_open)
+                                           && same_camera(&c->camera, &c->camera_close));
     c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion
                                  && c->frame.camera_step != 0 && c->camera_moves && !c->frame.cut
-                                 && c->state != STATE_FILTER
-                                 && !(same_camera(&c->camera, &c->camera_open)
-                                      && same_camera(&c->camera, &c->camera_close));
+                                 && c->state != STATE_FILTER;
     /* Pairs of taps of the widest gap, 8 to either side, find room
      * between the borders of a frame this large. */
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,

@@ -24,7 +24,7 @@ static int32_t scale_to_i32(int64_t a, int shift)
     if (shift < 0) {
         if (shift < -62)
             return 0;
-        a = (a >> -shift) + (a >> (-shift - 1) & 1);
+        a = ((a >> (-shift - 1)) + 1) >> 1;
     } else if (bit_length(a) + shift > 31) {
         return a < 0 ? -INT32_MAX : INT32_MAX;
     } else {
