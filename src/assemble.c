@@ -58,20 +58,6 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
-/* Clips and projects; returns twice the polygon's area. */
-static int64_t cut_polygon(struct smear_clip_polygon *p, struct smear_screen screen[SMEAR_CLIP_MAX],
-                           const struct smear_assembler *a, const struct smear_assembly *d, int codes)
-{
-    int64_t area = 0;
-    smear_clip_polygon(p, &d->at.now, codes);
-    for (int i = 0; i < p->count; i++) {
-        smear_project(&screen[i], &d->at.now, &clip_corner(p, i)->now, &a->viewport);
-        if (i >= 2)
-            area += area_of(&screen[0], &screen[i - 1], &screen[i]);
-    }
-    return area;
-}
-
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
 static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
                                        struct smear_segment **segment, uint32_t triangle,
@@ -82,44 +68,47 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
     const smear_mesh *mesh = d->mesh;
     const bool textured = segment_textured(*segment), colored = segment_colored(*segment);
     const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
-    int codes = 0;
-    for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &polygon.vertex[i];
-        uint32_t index = index_of(corner[i]);
-        codes |= corner[i]->outcode;
-        v->now = corner[i]->now;
-        for (int pose = 0; pose < poses; pose++)
-            pose_transform(&v->pose[pose], d, pose, index);
-        for (int k = 0; k < 2 && textured; k++)
-            v->uv[k] = mesh->uv[2 * index + (uint32_t)k];
-    }
-
-    /* Which side is seen decides the light of vertices, and only
-     * the cut polygon can tell: where both are drawn, places are cut first. */
-    bool back = false;
-    if (colored && d->material->double_sided) {
-        smear_clip_start(&polygon, 0, false, false);
-        back = (cut_polygon(&polygon, screen, a, d, codes) > 0) != d->mirrored;
-        for (int i = 0; i < 3; i++)
-            polygon.vertex[i].now = corner[i]->now;
-    }
+    const int codes = corner[0]->outcode | corner[1]->outcode | corner[2]->outcode;
     struct smear_face face;
-    if (colored) {
-        face = smear_face_of(d, triangle, back);
+    int64_t area;
+    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: where
+     * it is the back, once more. */
+    for (bool back = false, known = !colored;; known = true) {
+        if (colored)
+            face = smear_face_of(d, triangle, back);
         for (int i = 0; i < 3; i++) {
-            struct smear_color color;
-            smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
-            for (int c = 0; c < CLIP_COLORS; c++)
-                polygon.vertex[i].color[c] = color.channel[c];
+            struct smear_clip_vertex *v = &polygon.vertex[i];
+            uint32_t index = index_of(corner[i]);
+            v->now = corner[i]->now;
+            for (int pose = 0; pose < poses; pose++)
+                pose_transform(&v->pose[pose], d, pose, index);
+            if (textured) {
+                v->uv[0] = mesh->uv[2 * index];
+                v->uv[1] = mesh->uv[2 * index + 1];
+            }
+            if (colored) {
+                struct smear_color color;
+                smear_record_shade(&color, d, index, face.color, face.cosine, back);
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    v->color[c] = color.channel[c];
+            }
         }
+        smear_clip_start(&polygon, poses, textured, colored);
+        smear_clip_polygon(&polygon, &d->at.now, codes);
+        area = 0;
+        for (int i = 0; i < polygon.count; i++) {
+            smear_project(&screen[i], &d->at.now, &clip_corner(&polygon, i)->now, &a->viewport);
+            if (i >= 2)
+                area += area_of(&screen[0], &screen[i - 1], &screen[i]);
+        }
+        back = (area > 0) != d->mirrored;
+        if (area == 0 || (back && !d->material->double_sided))
+            return true;
+        if (!colored)
+            face = smear_face_of(d, triangle, back);
+        if (known || !back)
+            break;
     }
-    smear_clip_start(&polygon, poses, textured, colored);
-    const int64_t area = cut_polygon(&polygon, screen, a, d, codes);
-    back = (area > 0) != d->mirrored;
-    if (area == 0 || (back && !d->material->double_sided))
-        return true;
-    if (!colored)
-        face = smear_face_of(d, triangle, back);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
@@ -283,8 +272,8 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     return word;
 }
 
-static inline void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
-                              bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
 {
     struct smear_geometry *g = b->a->geometry;
     const struct smear_segment *s = b->segment;

@@ -447,7 +447,7 @@ static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport 
     for (int i = 0; i < p->count && beside != 0; i++) {
         const struct smear_clip_vertex *v = clip_corner(p, i);
         for (int key = 0; key < KEYS; key++)
-            beside &= outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
+            beside &= smear_outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
     }
     return beside != 0;
 }

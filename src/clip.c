@@ -22,8 +22,12 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
 }
 
 /* Its sign alone: a < -2048 w where floor(a / 2048) < -w. */
-static bool is_outside(const struct smear_homogeneous *h, const struct smear_projection *p, enum plane plane)
+static bool is_outside(const struct smear_clip_vertex *v, const struct smear_projection *p, enum plane plane)
 {
+#ifdef __OPTIMIZE_SIZE__
+    return distance_to(v, p, plane) < 0;
+#else
+    const struct smear_homogeneous *h = &v->now;
     SMEAR_STATIC_ASSERT(SMEAR_GUARD_PX == 1 << 11, "the shift");
     int32_t a = plane >= PLANE_TOP ? h->y : h->x;
     switch (plane) {
@@ -33,6 +37,7 @@ static bool is_outside(const struct smear_homogeneous *h, const struct smear_pro
     case PLANE_TOP:     return a >> 11 < -h->w;
     default:            return -a >> 11 < -h->w;
     }
+#endif
 }
 
 /* a + (b - a) t, t q30, to nearest. */
@@ -88,7 +93,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
     const int count = polygon->count;
     uint32_t outside = 0;       /* a bit per corner */
     for (int i = 0; i < count; i++)
-        outside |= (uint32_t)is_outside(&clip_corner(polygon, i)->now, p, plane) << i;
+        outside |= (uint32_t)is_outside(clip_corner(polygon, i), p, plane) << i;
     if (outside == 0)
         return;
     uint8_t order[SMEAR_CLIP_ROOM];

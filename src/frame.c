@@ -342,7 +342,7 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
     a->path = a->fixed = a->has_rest = false;
-    smear_shading_make(&a->shading, poses.object[0], a->material,
+    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
                        SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
 
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);

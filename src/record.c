@@ -8,6 +8,18 @@ enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more ar
 
 #include "path.h"
 
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
+{
+    for (int i = 0; i < p->extra_count; i++) {
+        struct smear_homogeneous term;
+        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
+        h->x += term.x;
+        h->y += term.y;
+        h->w += term.w;
+        h->distance += term.distance;
+    }
+}
+
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct smear_segment *s = smear_geometry_open(a->geometry);

@@ -63,28 +63,25 @@ struct smear_assembly {
     struct smear_shading shading;
 };
 
+/* Adds the further terms. */
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
+
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
                                        uint32_t index)
 {
-    smear_transform_vertex(h, &p->now, p->position + 3 * index);
-    for (int i = 0; SMEAR_WITH_DEFORM && i < p->extra_count; i++) {
-        struct smear_homogeneous term;
-        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
-        h->x += term.x;
-        h->y += term.y;
-        h->w += term.w;
-        h->distance += term.distance;
-    }
+    transform_vertex(h, &p->now, p->position + 3 * index);
+    if (SMEAR_WITH_DEFORM && p->extra_count != 0)
+        smear_placement_add(h, p, index);
 }
 
 /* A vertex in a pose of the assembly. */
 static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
                                   uint32_t index)
 {
-    smear_transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+    transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
     if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
         struct smear_homogeneous rest;
-        smear_transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
+        transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
         h->x += rest.x;
         h->y += rest.y;
         h->w += rest.w;
@@ -99,7 +96,7 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
 {
     placement_transform(h, p, index);
     if (h->distance < p->now.near_distance)
-        return OUT_NEAR | outcode_behind(h, viewport);
+        return OUT_NEAR | smear_outcode_behind(h, viewport);
     project(screen, &p->now, h, viewport);
     int code = outcode_sides(screen, viewport);
     return h->distance > p->now.far_distance ? code | OUT_FAR : code;
