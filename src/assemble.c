@@ -30,6 +30,20 @@ static uint32_t index_of(const struct smear_cached_vertex *v)
     return v->tag & 0xffffu;
 }
 
+/* Where the vertex is now, before the division: remembered, or found again. */
+static const struct smear_homogeneous *now_of(struct smear_homogeneous *found, const struct smear_assembly *d,
+                                              const struct smear_cached_vertex *v)
+{
+#if SMEAR_FAST_STACK
+    placement_transform(found, &d->at, index_of(v));
+    return found;
+#else
+    (void)found;
+    (void)d;
+    return &v->now;
+#endif
+}
+
 static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
     const int64_t far_out = (1 << 27) - 1;
@@ -79,7 +93,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         for (int i = 0; i < 3; i++) {
             struct smear_clip_vertex *v = &polygon.vertex[i];
             uint32_t index = index_of(corner[i]);
-            v->now = corner[i]->now;
+            v->now = *now_of(&v->now, d, corner[i]);
             for (int pose = 0; pose < poses; pose++)
                 pose_transform(&v->pose[pose], d, pose, index);
             if (textured) {
@@ -250,9 +264,9 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
         store_color(record + s->color, color.channel);
     }
     for (int pose = 0; pose < segment_moves(s); pose++) {
-        struct smear_homogeneous h;
+        struct smear_homogeneous h, now;
         pose_transform(&h, d, pose, index);
-        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, now_of(&now, d, v), &v->screen,
                      &b->a->viewport);
     }
     return word;
@@ -368,7 +382,12 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
         v = spare;
     v->tag = tag;
     v->stored = 0;
-    v->outcode = placement_project(&v->screen, &v->now, &d->at, tag & 0xffffu, &a->viewport);
+#if SMEAR_FAST_STACK
+    struct smear_homogeneous passing, *now = &passing;
+#else
+    struct smear_homogeneous *now = &v->now;
+#endif
+    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
     return v;
 }
 

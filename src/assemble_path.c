@@ -113,7 +113,7 @@ struct path_batch {
                                          * find_apart; 0 not looked for */
 };
 
-static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
+static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
@@ -187,9 +187,9 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
     if (!has_room(b))
         return false;
     uint32_t base = b->segment->base;
-    uint16_t offset0 = (uint16_t)(store_vertex(b, v0, triangle, back) - base);
-    uint16_t offset1 = (uint16_t)(store_vertex(b, v1, triangle, back) - base);
-    uint16_t offset2 = (uint16_t)(store_vertex(b, v2, triangle, back) - base);
+    uint16_t offset0 = (uint16_t)(store_path_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(store_path_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(store_path_vertex(b, v2, triangle, back) - base);
     struct smear_face face = smear_face_of(b->d, triangle, back);
     const uint16_t offset[3] = { offset0, offset1, offset2 };
     list_triangle(b, &bounds, offset, &face);
@@ -512,7 +512,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 }
 
 /* `corner` as the mesh has them: counter-clockwise in front. */
-static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3],
+static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
                                        uint32_t triangle, const int codes[KEYS], bool back)
 {
     const struct smear_assembly *d = b->d;
@@ -607,8 +607,8 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         return true;
     }
     if (any & OUT_CLIP)
-        return add_clipped(b, v, triangle, codes, false)
-            && (!d->material->double_sided || add_clipped(b, v, triangle, codes, true));
+        return add_clipped_path(b, v, triangle, codes, false)
+            && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
     bool front = false, behind = false;
     struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
     for (int key = 0; key < KEYS; key++) {

@@ -24,7 +24,7 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
 /* Its sign alone: a < -2048 w where floor(a / 2048) < -w. */
 static bool is_outside(const struct smear_clip_vertex *v, const struct smear_projection *p, enum plane plane)
 {
-#ifdef __OPTIMIZE_SIZE__
+#if SMEAR_ONE_COPY
     return distance_to(v, p, plane) < 0;
 #else
     const struct smear_homogeneous *h = &v->now;

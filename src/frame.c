@@ -367,12 +367,10 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
 
 /* ------------------------------------------------------------------ assembling */
 
-/* Assembles all draws for the tile rows [first, end). False when the store is full. */
-static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
-                                         const struct instant *instant, bool drop)
+/* Assembles all draws into what `as` names. False when the store is full. */
+static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
+                           bool drop)
 {
-    smear_geometry_reset(&c->geometry, first, end);
-    smear_assembler_reset(&c->assembler);
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
         uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
@@ -383,11 +381,46 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
         const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
         make_assembly(c, i, is_sharp ? &sharp_instant : instant, &a);
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
-                          : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop)
-                                                             : smear_assemble(&c->assembler, &a, drop)))
+                          : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(as, &a, drop)
+                                                             : smear_assemble(as, &a, drop)))
             return false;
     }
     return true;
+}
+
+#if SMEAR_FAST_STACK
+/* The same with what it works on brought to the stack. */
+static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct instant *instant, bool drop)
+{
+    enum { VERTICES = 64 };
+    struct smear_cached_vertex cache[VERTICES];
+    struct smear_geometry geometry = c->geometry;
+    struct smear_assembler as = c->assembler;
+    as.geometry = &geometry;
+    as.cache = cache;
+    as.cache_mask = VERTICES - 1;
+    as.serial = 0;
+    smear_assembler_reset(&as);
+    const bool done = assemble_draws(c, &as, instant, drop);
+    c->geometry = geometry;
+    c->assembler.path_count = as.path_count;
+    c->assembler.triangles_drawn = as.triangles_drawn;
+    c->assembler.triangles_dropped = as.triangles_dropped;
+    return done;
+}
+#endif
+
+/* Assembles all draws for the tile rows [first, end). False when the store is full. */
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
+                                         const struct instant *instant, bool drop)
+{
+    smear_geometry_reset(&c->geometry, first, end);
+#if SMEAR_FAST_STACK
+    if (!has_layers(c))
+        return assemble_fast(c, instant, drop);
+#endif
+    smear_assembler_reset(&c->assembler);
+    return assemble_draws(c, &c->assembler, instant, drop);
 }
 
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
@@ -908,8 +941,9 @@ static int render_timed(struct smear_context *c)
 }
 
 /* Which draws are blurred, and how they move. */
-static void find_layers(struct smear_context *c, const struct instant *middle)
+static SMEAR_NOINLINE void find_layers(struct smear_context *c, const struct instant *middle)
 {
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     const struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
     smear_layers_begin(c);
     for (uint32_t i = 0; i < c->draw_count; i++) {
@@ -1031,8 +1065,9 @@ static int render_accumulate(struct smear_context *c)
 
 /* ------------------------------------------------------------------ a frame */
 
-static void prepare(struct smear_context *c)
+static SMEAR_NOINLINE void prepare(struct smear_context *c)
 {
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     struct smear_window *w = &c->window;
     smear_stats *s = &c->stats;
     *s = (smear_stats){ .arena_bytes = s->arena_bytes };
@@ -1147,6 +1182,7 @@ void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
     prepare(c);
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;
     c->filter_row = 0;
 }

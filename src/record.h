@@ -14,9 +14,11 @@
 struct smear_cached_vertex {
     uint32_t tag;                   /* draw serial << 16 | vertex index */
     uint32_t stored;                /* its record in the pool: word + 1, or 0 */
-    struct smear_homogeneous now;
     struct smear_screen screen;
     int32_t outcode;
+#if !SMEAR_FAST_STACK               /* else made again where it is needed */
+    struct smear_homogeneous now;
+#endif
 };
 
 struct smear_assembler {
