@@ -25,7 +25,7 @@ PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arg
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o
 RUN_NEEDS    := $(BUILD)/gbarun
 
-HOT           := platform/gba/hot.ld platform/gba/hot_assemble.ld platform/gba/hot_draw.ld
+HOT           := $(addprefix platform/gba/,hot.ld hot_assemble.ld hot_draw.ld hot_warm.ld)
 SCRIPTS       := platform/gba/gba.ld $(HOT)
 TEST_LDFLAGS  := -T gba.ld
 BENCH_LDFLAGS := -T gba.ld
@@ -70,9 +70,11 @@ gba-hot: $(BUILD)/gbarun
 	for way in $(HOT_WAYS); do \
 	    LIMIT=3000 $(RUN) -p $(BUILD)/hot/$$way.profile $(BUILD)/hot/demo.elf cost gba $$way 6 || exit 1; \
 	done
-	sh platform/gba/hot.sh $(BUILD)/hot $(LIB) $(HOT_BYTES) $(HOT_WAYS:%=$(BUILD)/hot/%.profile)
+	sh platform/gba/hot.sh $(BUILD)/hot $(LIB) $(HOT_BYTES) $(WARM_BYTES) $(HOT_WAYS:%=$(BUILD)/hot/%.profile)
 	mv $(HOT:platform/gba/%=$(BUILD)/hot/%) platform/gba/
 
 # Bytes for the functions: fast memory without the stack, interrupts, arithmetic.S and veneers.
 HOT_WAYS  ?= none auto-balanced
 HOT_BYTES ?= 22600
+# And of video memory, without veneers.
+WARM_BYTES ?= 15600
