@@ -365,6 +365,30 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return true;
 }
 
+/* Transforms a vertex. */
+static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
+                               struct smear_cached_vertex *v, uint32_t tag)
+{
+#if SMEAR_FAST_STACK
+    struct smear_homogeneous passing, *now = &passing;
+#else
+    struct smear_homogeneous *now = &v->now;
+#endif
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+}
+
+#ifndef __OPTIMIZE_SIZE__
+/* All of a mesh whose vertices find room: one after the other they cost less. */
+static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
+{
+    struct smear_cached_vertex *v = a->cache;
+    for (const uint32_t end = tag + d->mesh->vertex_count; tag != end; tag++, v++)
+        find_vertex(a, d, v, tag);
+}
+#endif
+
 /* Transforms a vertex that is not remembered. An index the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
                                                       const struct smear_assembly *d, uint32_t tag,
@@ -380,14 +404,7 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
     /* A slot that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
-    v->tag = tag;
-    v->stored = 0;
-#if SMEAR_FAST_STACK
-    struct smear_homogeneous passing, *now = &passing;
-#else
-    struct smear_homogeneous *now = &v->now;
-#endif
-    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+    find_vertex(a, d, v, tag);
     return v;
 }
 
@@ -419,6 +436,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
     const int second = d->mirrored ? 1 : 2, third = 3 - second;
     const uint16_t *index = mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (mesh->vertex_count <= mask + 1u)
+        find_all(a, d, tag);
+#endif
 
     for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
         uint32_t tag0 = tag | index[0], tag1 = tag | index[second], tag2 = tag | index[third];

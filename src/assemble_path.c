@@ -633,6 +633,11 @@ bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly 
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
     const uint16_t *index = d->mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (d->mesh->vertex_count <= mask + 1u)     /* one after the other they cost less */
+        for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
+            find_vertex(&cache[i], a, d, tag + i);
+#endif
     bool added = true;
     for (uint32_t i = 0; i < d->mesh->triangle_count && added; i++, index += 3) {
         struct path_vertex *v[3];

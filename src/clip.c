@@ -119,6 +119,17 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
     polygon->count = result < 3 ? 0 : result;
 }
 
+/* Some corner lies beyond one of the four sides at least: most polygons stay within. */
+static bool leaves_guard(struct smear_clip_polygon *p)
+{
+    for (int i = 0; i < p->count; i++) {
+        const struct smear_homogeneous *h = &clip_corner(p, i)->now;
+        if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> 11 >= h->w)
+            return true;
+    }
+    return false;
+}
+
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored)
 {
     p->count = 3;
@@ -136,7 +147,7 @@ void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_project
     if (codes & OUT_FAR)
         clip_plane(p, projection, PLANE_FAR);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
-    if (codes & (OUT_NEAR | OUT_GUARD))
+    if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p))
         for (int plane = PLANE_LEFT; plane < PLANES; plane++)
             clip_plane(p, projection, (enum plane)plane);
 }

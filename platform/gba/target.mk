@@ -68,7 +68,7 @@ gba-hot: $(BUILD)/gbarun
 	for name in $(notdir $(HOT)); do : > $(BUILD)/hot/$$name; done
 	$(CC) -L$(BUILD)/hot $(LDFLAGS) $(TEST_LDFLAGS) -o $(BUILD)/hot/demo.elf $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
 	for way in $(HOT_WAYS); do \
-	    LIMIT=3000 $(RUN) -p $(BUILD)/hot/$$way.profile $(BUILD)/hot/demo.elf cost gba $$way 6 || exit 1; \
+	    $(RUN) -p $(BUILD)/hot/$$way.profile $(BUILD)/hot/demo.elf cost gba $$way 1 || exit 1; \
 	done
 	sh platform/gba/hot.sh $(BUILD)/hot $(LIB) $(HOT_BYTES) $(WARM_BYTES) $(HOT_WAYS:%=$(BUILD)/hot/%.profile)
 	mv $(HOT:platform/gba/%=$(BUILD)/hot/%) platform/gba/
