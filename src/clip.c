@@ -122,12 +122,16 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
 /* Some corner lies beyond one of the four sides at least: most polygons stay within. */
 static bool leaves_guard(struct smear_clip_polygon *p)
 {
+#ifndef __OPTIMIZE_SIZE__
     for (int i = 0; i < p->count; i++) {
         const struct smear_homogeneous *h = &clip_corner(p, i)->now;
         if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> 11 >= h->w)
             return true;
     }
     return false;
+#else
+    return p->count != 0;
+#endif
 }
 
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored)
