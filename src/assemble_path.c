@@ -416,7 +416,6 @@ static void place_corners(struct smear_clip_vertex corner[3], const struct smear
                           const uint16_t index[3])
 {
     for (int i = 0; i < 3; i++) {
-        corner[i] = (struct smear_clip_vertex){ .now = { 0, 0, 0, 0 } };
         placement_transform(&corner[i].now, &d->at, index[i]);
         for (int key = OPEN; key <= CLOSE; key++)
             placement_transform(&corner[i].pose[key], &d->key[key], index[i]);
@@ -465,18 +464,28 @@ static bool is_apart(const struct smear_clip_vertex corner[3], const struct path
     return is_beside(&polygon, &b->a->viewport);
 }
 
-static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
+static bool is_behind(const struct smear_placement *p, uint32_t index)
 {
-    bool before = false, behind = false;
+    struct smear_homogeneous h;
+    if (p->extra_count == 0)
+        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.near_distance;
+    placement_transform(&h, p, index);
+    return h.w < p->now.near_distance;
+}
+
+/* Whether the near plane cuts the triangle, or passes it during the exposure. */
+static bool passes_near(const struct path_batch *b, const uint16_t index[3])
+{
+    const struct path_vertex *cache = (const struct path_vertex *)(const void *)b->a->cache;
+    int behind = 0;
     for (int i = 0; i < 3; i++) {
-        for (int key = OPEN; key <= CLOSE; key++) {
-            before = before || corner[i].pose[key].w >= d->key[key].now.near_distance;
-            behind = behind || corner[i].pose[key].w < d->key[key].now.near_distance;
-        }
-        before = before || corner[i].now.w >= d->at.now.near_distance;
-        behind = behind || corner[i].now.w < d->at.now.near_distance;
+        const uint32_t tag = b->a->serial << 16 | index[i];
+        const struct path_vertex *v = &cache[tag & (b->a->cache_mask >> 1)];
+        for (int key = 0; key < KEYS; key++)
+            behind += v->tag == tag ? (v->outcode[key] & OUT_NEAR) != 0
+                                    : is_behind(placement_of(b->d, key), index[i]);
     }
-    return before && behind;
+    return behind != 0 && behind != 3 * KEYS;
 }
 
 /* One distance for all triangles of a draw, so that their edges still meet: the largest of some that
@@ -488,15 +497,19 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
     struct smear_clip_vertex corner[3];
     int32_t least = 0;
     int doublings = DOUBLINGS;
+    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles in question lie between */
     for (int pass = 0; pass < 2; pass++) {
-        const uint16_t *index = mesh->index;
-        for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+        uint32_t last = first;
+        for (uint32_t i = first; i < end; i++) {
+            const uint16_t *index = mesh->index + 3 * i;
             if (max_i32(index[0], max_i32(index[1], index[2])) >= (int32_t)mesh->vertex_count)
                 continue;
-            place_corners(corner, b->d, index);
-            if (!passes_near(corner, b->d))
+            if (!passes_near(b, index))
                 continue;
+            place_corners(corner, b->d, index);
+            last = i;
             if (pass == 0) {
+                first = least == 0 ? i : first;
                 least = max_i32(least, safe_distance(corner, b->d));
                 continue;
             }
@@ -505,6 +518,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
                 here--;
             doublings = here >= 0 ? here : doublings;
         }
+        end = last + 1;
     }
     while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* none holds for any triangle */
         doublings--;
