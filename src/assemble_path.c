@@ -18,8 +18,13 @@ enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the inst
 struct path_vertex {
     uint32_t tag, stored;               /* as struct smear_cached_vertex */
     struct smear_screen screen[KEYS];
-    uint8_t outcode[KEYS];
+    uint32_t outcodes;                  /* a byte for each instant: code_at */
 };
+
+static int code_at(uint32_t outcodes, int key)
+{
+    return (int)(outcodes >> 8 * key & 255u);
+}
 
 SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
@@ -34,9 +39,10 @@ static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
     struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
+    v->outcodes = 0;
     for (int key = 0; key < KEYS; key++)
-        v->outcode[key] = (uint8_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
-                                                     &a->viewport);
+        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
+                                                   &a->viewport) << 8 * key;
 }
 
 /* ------------------------------------------------------------------ bounds */
@@ -482,7 +488,7 @@ static bool passes_near(const struct path_batch *b, const uint16_t index[3])
         const uint32_t tag = b->a->serial << 16 | index[i];
         const struct path_vertex *v = &cache[tag & (b->a->cache_mask >> 1)];
         for (int key = 0; key < KEYS; key++)
-            behind += v->tag == tag ? (v->outcode[key] & OUT_NEAR) != 0
+            behind += v->tag == tag ? (code_at(v->outcodes, key) & OUT_NEAR) != 0
                                     : is_behind(placement_of(b->d, key), index[i]);
     }
     return behind != 0 && behind != 3 * KEYS;
@@ -527,7 +533,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 
 /* `corner` as the mesh has them: counter-clockwise in front. */
 static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
-                                       uint32_t triangle, const int codes[KEYS], bool back)
+                                       uint32_t triangle, uint32_t codes, bool back)
 {
     const struct smear_assembly *d = b->d;
     struct smear_clip_vertex corner[3];
@@ -553,9 +559,9 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
     }
     int near_codes = 0;
     for (int key = 0; key < KEYS; key++) {
-        cut.codes[key] = codes[key];
+        cut.codes[key] = code_at(codes, key);
         cut.projection[key] = placement_of(d, key)->now;
-        near_codes |= codes[key] & OUT_NEAR;
+        near_codes |= cut.codes[key] & OUT_NEAR;
     }
     if (near_codes == 0 || is_orthographic(&d->at.now))
         return add_cut(b, corner, &cut, &face);
@@ -595,8 +601,7 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
     if (v->tag == tag)
         return v;
     if ((tag & 0xffffu) >= d->mesh->vertex_count) {
-        for (int key = 0; key < KEYS; key++)
-            spare->outcode[key] = OUT_UNKNOWN;
+        spare->outcodes = OUT_UNKNOWN;
         return spare;
     }
     if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
@@ -608,24 +613,23 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
 static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint32_t triangle)
 {
     const struct smear_assembly *d = b->d;
-    int codes[KEYS], any = 0, all = OUT_REJECT;
-    for (int key = 0; key < KEYS; key++) {
-        codes[key] = v[0]->outcode[key] | v[1]->outcode[key] | v[2]->outcode[key];
-        any |= codes[key];
-        all &= v[0]->outcode[key] & v[1]->outcode[key] & v[2]->outcode[key];
+    const uint32_t codes = v[0]->outcodes | v[1]->outcodes | v[2]->outcodes;
+    if (codes != 0) {
+        const uint32_t shared = v[0]->outcodes & v[1]->outcodes & v[2]->outcodes;
+        const uint32_t any = codes | codes >> 8 | codes >> 16;
+        if (shared & shared >> 8 & shared >> 16 & OUT_REJECT)
+            return true;
+        if (any & OUT_UNKNOWN) {
+            b->a->triangles_dropped++;
+            return true;
+        }
+        if (any & OUT_CLIP)
+            return add_clipped_path(b, v, triangle, codes, false)
+                && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
     }
-    if (all != 0)
-        return true;
-    if (any & OUT_UNKNOWN) {
-        b->a->triangles_dropped++;
-        return true;
-    }
-    if (any & OUT_CLIP)
-        return add_clipped_path(b, v, triangle, codes, false)
-            && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
-    bool front = false, behind = false;
+    bool front = false, behind = !d->material->double_sided;    /* seen, or of no interest */
     struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
-    for (int key = 0; key < KEYS; key++) {
+    for (int key = 0; key < KEYS && !(front && behind); key++) {
         int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);
         front = front || area > 0;
         behind = behind || area < 0;
