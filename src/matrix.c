@@ -115,12 +115,14 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
 static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
                      int scale)
 {
-    for (int j = 0; j < 3; j++)
-        m[j] = scale_to_i32((int64_t)view->basis[row][j] * by.mantissa * sign,
-                            view->basis_exp + by.exponent + scale + 16) & ~3;
+    const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
+    const int shift = view->basis_exp + by.exponent + scale + 16;
+    for (int j = 0; j < 3; j++) {
+        const int64_t a = (int64_t)view->basis[row][j] * factor;
+        m[j] = (shift < 0 && shift > -32 ? narrow_sat(scale_down(a, -shift)) : scale_to_i32(a, shift)) & ~3;
+    }
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
-    m[3] = scale_to_i32((view->origin[row] >> cut) * by.mantissa * sign,
-                        cut - 32 + by.exponent + scale);
+    m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
 
 /* Near and far plane and the factor of depth units, for the scale of `distance`. */
