@@ -277,7 +277,7 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
                                      bool back)
 {
     /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || !segment_colored(b->segment));
+    bool shares = b->shares && (!back || !segment_by_vertices(b->segment));
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
     uint32_t word = store_vertex(b, v, triangle, back);
@@ -295,7 +295,7 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     uint32_t color = 0;
     if (!segment_colored(s))
         color = color_of_face(b, triangle, back);
-    else
+    if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
             channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
     struct tiny_scale scale = tiny_scale_make(area);
@@ -345,7 +345,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     b->segment = s;
     b->a->triangles_drawn++;
     if (count <= POINTS_MAX && b->points
-        && (!segment_colored(s) || segment_flat_depth(s)
+        && (!segment_by_vertices(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, covered, count, area);
@@ -422,9 +422,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
     b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment)
             && segment_moves(b.segment) == 0 && !d->fixed;
-    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
+    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white && mesh->color == NULL)
         b.face_color = mesh->face_color;
-    if (!d->shading.lit && d->shading.white && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
+    if (segment_colored(b.segment) && !d->shading.lit && d->shading.white && !shading_is_linear(&d->shading)
+        && mesh->face_color == NULL)
         b.vertex_color = mesh->color;
     if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);

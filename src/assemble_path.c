@@ -123,7 +123,7 @@ static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    bool shares = b->shares && (!back || !segment_colored(s));
+    bool shares = b->shares && (!back || !segment_by_vertices(s));
     if (shares && v->stored > s->base)
         return v->stored - 1;
     struct smear_geometry *g = b->a->geometry;

@@ -345,6 +345,12 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
                        SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
 
+#if SMEAR_LEVELS
+    /* In linear light, colours that are interpolated may round to other codes. */
+    a->level = a->material->alpha == SMEAR_OPAQUE
+            && !shading_is_linear(&a->shading) && smear_record_is_level(a->mesh, a->shading.lit);
+#endif
+
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
     if (!moves)

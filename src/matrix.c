@@ -34,6 +34,16 @@ static int32_t scale_to_i32(int64_t a, int shift)
     return narrow_sat((int64_t)((uint64_t)a << shift));
 }
 
+/* The same; mostly it shrinks, and needs no call. */
+static inline int32_t scale_inline(int64_t a, int shift)
+{
+#ifndef __OPTIMIZE_SIZE__
+    if (shift < 0 && shift >= -62)
+        return narrow_sat(scale_down(a, -shift));
+#endif
+    return scale_to_i32(a, shift);
+}
+
 /* a 2^shift in 64 bits, clamped to +-2^52 so that sums of a few stay exact. */
 static int64_t scale_to_i52(int64_t a, int shift)
 {
@@ -117,10 +127,8 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
 {
     const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
     const int shift = view->basis_exp + by.exponent + scale + 16;
-    for (int j = 0; j < 3; j++) {
-        const int64_t a = (int64_t)view->basis[row][j] * factor;
-        m[j] = (shift < 0 && shift > -32 ? narrow_sat(scale_down(a, -shift)) : scale_to_i32(a, shift)) & ~3;
-    }
+    for (int j = 0; j < 3; j++)
+        m[j] = scale_inline((int64_t)view->basis[row][j] * factor, shift) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
@@ -201,10 +209,9 @@ static void weigh(struct smear_projection *p, int32_t weight, int scale, int dis
 {
     for (int row = 0; row < rows_of(p); row++) {
         bool is_distance = row == 3 || (row == 2 && !is_orthographic(p));
-        int down = 24 - (is_distance ? distance_scale - p->distance_scale : scale - p->scale);
+        int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
         for (int j = 0; j < 4; j++) {
-            /* Scales only shrink: at least 24. */
-            int32_t m = down > 62 ? 0 : narrow_sat(scale_down((int64_t)p->m[row][j] * weight, down));
+            int32_t m = scale_inline((int64_t)p->m[row][j] * weight, shift - 24);
             p->m[row][j] = j < 3 ? m & ~3 : m;
         }
     }

@@ -52,6 +52,7 @@ struct smear_assembly {
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool level;                         /* triangles have one colour each, though vertices have normals or colours */
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
@@ -67,6 +68,8 @@ struct smear_assembly {
 
 /* Adds the further terms. */
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
+
+static inline bool is_level(const struct smear_assembly *d) { return SMEAR_LEVELS && d->level; }
 
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
                                        uint32_t index)
@@ -125,6 +128,10 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
     *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
 }
 
+/* Whether what vertices have of their own (normals where it is lit, colours) is the same within every
+ * triangle: as faces that are flat come out of modelling programs. */
+bool smear_record_is_level(const smear_mesh *mesh, bool lit);
+
 /* Starts a segment for more records of this draw; null when the table is full. */
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d);
 
@@ -142,6 +149,7 @@ bool smear_record_level(uint32_t *color, const struct smear_segment *s, const in
 struct smear_face {
     bool back;                  /* seen from behind: double-sided */
     const uint8_t *color;
+    const uint8_t *vertex_color;        /* of all three vertices, where the draw is level */
     uint32_t cosine;            /* flat light */
 };
 
@@ -209,7 +217,7 @@ static inline bool is_blend(const struct smear_assembly *d)
 /* Vertices cannot be shared when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
-    return !segment_colored(s)
+    return !segment_by_vertices(s)
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 
