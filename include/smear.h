@@ -516,7 +516,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
 #define SMEAR_TIMED_BYTES(width, height, triangles, tile, strip) \
-    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 14u) \
+    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 28u) \
      + SMEAR_TIMED_WORK_BYTES(tile, strip) \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
      + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \
