@@ -18,6 +18,12 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
+/* One copy for this file, with a name of its own for linker scripts that choose what lies in fast memory. */
+static SMEAR_RARE uint32_t length_from(uint64_t square)
+{
+    return sqrt_floor_64(square);
+}
+
 /* Down to the bits that are wanted, or up. */
 static int shift_to(uint64_t largest, int bits)
 {
@@ -92,8 +98,8 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
         return;
     s->even = keeps_lengths(s->normal_matrix);
     if (s->even) {
-        uint32_t length = sqrt_floor_64(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
-                                                   s->normal_matrix[2][0]));
+        uint32_t length = length_from(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
+                                                 s->normal_matrix[2][0]));
         for (int j = 0; j < 3; j++) {
             int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
                                   s->normal_matrix[2][j] };
@@ -123,8 +129,8 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
     int32_t along = along_high * 16 + (along_low >> 8);       /* q6 x length */
     if (along <= 0)
         return 0;
-    uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
-                                    + (uint32_t)low);
+    uint32_t length = length_from(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
+                                  + (uint32_t)low);
     if (length == 0)
         return 0;
     /* along 2^10 / length, by reciprocal */
