@@ -381,7 +381,8 @@ static inline void find_vertex(const struct smear_assembler *a, const struct sme
 
 #ifndef __OPTIMIZE_SIZE__
 /* All of a mesh whose vertices find room: one after the other they cost less. */
-static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
+static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
+                                    uint32_t tag)
 {
     struct smear_cached_vertex *v = a->cache;
     for (const uint32_t end = tag + d->mesh->vertex_count; tag != end; tag++, v++)

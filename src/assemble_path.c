@@ -119,7 +119,8 @@ struct path_batch {
                                          * find_apart; 0 not looked for */
 };
 
-static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
+static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
+                                  bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;

@@ -82,8 +82,8 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
     for (int i = 0; i < 3; i++) {
         const int64_t x = camera->basis[i], y = camera->basis[3 + i], z = camera->basis[6 + i];
-        for (int j = 0; j < 3; j++)
-            turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];     /* q48 */
+        for (int j = 0; j < 3; j++)     /* q48 */
+            turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];
         view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32 */
     }
     int32_t unit[3][3];
