@@ -509,14 +509,15 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
 
 /* What a worker needs with `timed`: finished pixels, then sums and depths of instants, or slots and lists. */
+#define SMEAR_STRIP_COLUMNS(strip) ((strip) + ((strip) >= SMEAR_STRIP ? 16 : 0))
 #define SMEAR_TIMED_WORK_BYTES(tile, strip) \
-    (SMEAR_ALIGN8((size_t)(strip) * (tile) * 4u) \
-     + (SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u > 8192u \
-            ? SMEAR_ALIGN8((size_t)(strip) * (tile) * 18u) + 512u : 8192u))
+    (SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 4u) \
+     + (SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 18u) + 512u > 8192u \
+            ? SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 18u) + 512u : 8192u))
 
 /* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
 #define SMEAR_TIMED_BYTES(width, height, triangles, tile, strip) \
-    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 28u) \
+    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 18u) \
      + SMEAR_TIMED_WORK_BYTES(tile, strip) \
      + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
      + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \

@@ -13,6 +13,7 @@
 struct preset {
     int32_t target;                     /* from this error on, 1/64 codes */
     int32_t least, step, spread, most;  /* 1/16 px */
+    int32_t pieces;                     /* at least, of what passes through the near plane */
     int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
 };
 
@@ -24,13 +25,13 @@ enum {
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { SMEAR_DRAFT, 2, 288, 512, 32, 8, 2, 768, 2 },
-        { 128, 3, 352, 448, 32, 32, 7, 512, 3 },
-        { SMEAR_BALANCED, 3, 320, 400, 32, 32, 7, 512, 3 },
-        { 64, 5, 192, 144, 40, 32, 7, 512, 3 },
-        { SMEAR_FINE, 9, 96, 56, 48, 32, 8, 256, 6 },
-        { 20, 13, 64, 36, 1000, 32, 8, 256, 6 },
-        { 0, 20, 40, 20, 1000, 32, 8, 256, 6 }
+        { SMEAR_DRAFT, 2, 288, 512, 32, 6, 8, 2, 768, 2 },
+        { 128, 3, 352, 448, 32, 6, 32, 7, 512, 3 },
+        { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
+        { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
+        { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
+        { 20, 13, 64, 36, 1000, 16, 32, 8, 256, 6 },
+        { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -88,8 +89,8 @@ void smear_choose_step(struct smear_step *step, const struct smear_chooser *choo
     *step = (struct smear_step){ 0, 0 };
     if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load))
         return;
-    step->x = (int16_t)(load->x / (load->weight * instants));
-    step->y = (int16_t)(load->y / (load->weight * instants));
+    step->x = (int16_t)(load->x / instants);
+    step->y = (int16_t)(load->y / instants);
 }
 
 static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
@@ -121,7 +122,7 @@ static int32_t auto_instants(const struct preset *p, const struct smear_chooser 
     /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
      * not known, as clipping moves their ends. */
     if ((load->flags & PATH_PIECE) != 0)
-        instants = max_i32(min_i32(instants, p->most), clamp_i32(p->least + 3, 6, 16));
+        instants = max_i32(min_i32(instants, p->most), p->pieces);
     return instants;
 }
 

@@ -12,13 +12,15 @@ enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 struct smear_tile_load {
     int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where
                                  * x0 > x1 */
-    int32_t x, y, weight;       /* sums of ways, longer ones weighing more, and of weights */
+    int16_t x, y;               /* their mean, in which longer ways weigh more */
+    uint16_t weight;            /* of the mean so far */
     uint16_t bend;              /* largest, 1/16 px */
-    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
-    uint8_t method;             /* smear_tile_method it got in the end */
+    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED; smear_tile_method
+                                 * in the end, from TILE_METHOD on */
 };
 
 enum {
+    TILE_METHOD = 10,               /* bit */
     TILE_MOVES = 0x200,             /* there are movers */
     TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
     PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
@@ -26,6 +28,17 @@ enum {
 
 /* TILE_SMOOTH: a time mask whose samples lie apart. */
 enum smear_tile_method { TILE_COPY, TILE_SMOOTH, TILE_SUBFRAMES, TILE_TIMEMASK };
+
+static inline enum smear_tile_method load_method(const struct smear_tile_load *load)
+{
+    return (enum smear_tile_method)(load->flags >> TILE_METHOD);
+}
+
+/* Once. TILE_COPY is what it is without. */
+static inline void load_set_method(struct smear_tile_load *load, enum smear_tile_method method)
+{
+    load->flags |= (uint16_t)((unsigned)method << TILE_METHOD);
+}
 
 struct smear_tile_choice {
     enum smear_tile_method method;

@@ -17,8 +17,9 @@ struct smear_mover {
 struct smear_moving_tile {
     const struct smear_raster_frame *frame;
     const struct smear_shutter *shutter;
-    struct smear_raster_target still;   /* the still scene, drawn; x0, y0, x1, y1
-                                         * are the tiles'. Only read. */
+    struct smear_raster_target still;   /* the still scene, drawn; y0, y1 are the tiles', x0, x1, too, or
+                                         * a little beyond. Only read. */
+    int32_t x0, x1;                     /* the tiles' */
     const struct smear_mover *mover;    /* of the row: those whose columns meet these are seen here */
     uint32_t mover_count;
     int32_t column, last_column;

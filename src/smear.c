@@ -179,12 +179,12 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     }
     c->strip = d->strip;
     if (has_window(d) || is_timed(d))
-        c->scratch = arena_take(a, (size_t)d->workers * (size_t)c->strip * (size_t)d->band_rows, 4);
+        c->scratch = arena_take(a, (size_t)d->workers * SMEAR_STRIP_COLUMNS((size_t)c->strip) * (size_t)d->band_rows, 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
         c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
-        c->work_bytes = (uint32_t)smear_subframes_work(c->strip, d->tile);
+        c->work_bytes = (uint32_t)smear_subframes_work(SMEAR_STRIP_COLUMNS(c->strip), d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;

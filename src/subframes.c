@@ -791,13 +791,14 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
 static void average(const struct subframes *f, const struct box *all, const struct smear_step *step)
 {
     static const struct smear_step none = { 0, 0 };
-    const struct smear_raster_target *s = &f->t->still;
-    for (int32_t x = s->x0; x < s->x1; x += f->t->tile) {
+    const struct smear_moving_tile *t = f->t;
+    const struct smear_raster_target *s = &t->still;
+    for (int32_t x = t->x0; x < t->x1; x += t->tile) {
         struct gap gap;
-        gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - s->x0) / f->t->tile] : &none);
+        gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - t->x0) / t->tile] : &none);
         const int32_t wide = gap.pairs;
         const struct box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
-                               min_i32(min_i32(x + f->t->tile, s->x1), all->x1 + wide),
+                               min_i32(min_i32(x + t->tile, t->x1), all->x1 + wide),
                                min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
             average_tile(f, &b, &gap);

@@ -34,8 +34,7 @@ enum {
     WAY_PX = 24,                    /* smaller triangles lie in few tiles */
     WAY_ALIKE = 8 * 16,             /* ways that need not be told apart */
     WAY_BITS = 14,                  /* of weights */
-    WEIGHT_MAX = 255,               /* of a way in a tile's mean, px: */
-    WEIGHTS_MAX = 1 << 15           /* ways have 16 bits, sums 31 */
+    MEAN_MAX = 512 * 16             /* longer ways count as this one in a mean */
 };
 
 /* Of two depths, q8, within 1/16 .. 16. */
@@ -143,17 +142,12 @@ static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
 static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
                      int32_t bend)
 {
-    const int32_t x = clamp_i32((x0 + x1) >> 1, INT16_MIN, INT16_MAX);
-    const int32_t y = clamp_i32((y0 + y1) >> 1, INT16_MIN, INT16_MAX);
-    const int32_t weight = min_i32((max_i32(abs_i32(x), abs_i32(y)) >> 4) + 1, WEIGHT_MAX);
-    if (load->weight >= WEIGHTS_MAX) {
-        load->x >>= 1;
-        load->y >>= 1;
-        load->weight >>= 1;
-    }
-    load->x += x * weight;
-    load->y += y * weight;
-    load->weight += weight;
+    const int32_t x = clamp_i32((x0 + x1) >> 1, -MEAN_MAX, MEAN_MAX), y = clamp_i32((y0 + y1) >> 1, -MEAN_MAX, MEAN_MAX);
+    const int32_t weight = (max_i32(abs_i32(x), abs_i32(y)) >> 4) + 1, sum = load->weight + weight;
+    const int32_t part = (weight << 15) / sum;
+    load->x = (int16_t)(load->x + (((x - load->x) * part + (1 << 14)) >> 15));
+    load->y = (int16_t)(load->y + (((y - load->y) * part + (1 << 14)) >> 15));
+    load->weight = (uint16_t)min_i32(sum, UINT16_MAX);
     load->bend = (uint16_t)max_i32(load->bend, bend);
     load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
     load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);
@@ -375,15 +369,16 @@ static struct smear_moving_tile tiles_of(const struct finish *f, int first, int 
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
     const struct smear_row_movers *m = &c->row_movers;
+    const int32_t pitch = SMEAR_STRIP_COLUMNS(c->strip);
     struct smear_moving_tile t = {
         .frame = &c->raster, .shutter = &c->shutter, .still = f->still,
         .mover = m->mover, .mover_count = m->count,
         .column = first, .last_column = end - 1, .blend = c->blend,
-        .out = c->scratch + worker * c->strip * w->tile, .pitch = c->strip, .tile = w->tile,
+        .out = c->scratch + worker * pitch * w->tile, .pitch = pitch, .tile = w->tile,
         .work = c->work + (uint32_t)worker * c->work_bytes, .work_bytes = c->work_bytes
     };
-    t.still.x0 = tile_left(c, first);
-    t.still.x1 = tile_right(c, end - 1);
+    t.x0 = t.still.x0 = tile_left(c, first);
+    t.x1 = t.still.x1 = tile_right(c, end - 1);
     return t;
 }
 
@@ -392,17 +387,39 @@ static void hand_on(const struct finish *f, const struct smear_moving_tile *t)
     struct smear_raster_target out = t->still;
     out.color = t->out;
     out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
-    smear_band_convert_rows(&f->row, &out, out.x0, out.x1);
+    smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
 }
 
 static int finish_still(const struct finish *f, int first, int end)
 {
     struct smear_context *c = f->row.c;
     int next = first;
-    for (; next < end && is_still(&c->row_movers.load[next]); next++)
-        c->row_movers.load[next].method = TILE_COPY;
+    while (next < end && is_still(&c->row_movers.load[next]))
+        next++;
     smear_band_convert_rows(&f->row, &f->still, tile_left(c, first), tile_right(c, next - 1));
     return next;
+}
+
+/* Columns beyond a strip's border in which its movers are drawn, too, so that gaps of its last tile, which
+ * movers go on from by `step`, close with what is there. `neighbour`: the tile beyond, or null. */
+static int32_t margin_of(const struct smear_context *c, const struct smear_step *step,
+                         const struct smear_tile_load *neighbour)
+{
+    enum { GAP_SEEN = 2 * 16 };
+    const int32_t most = (SMEAR_STRIP_COLUMNS(c->strip) - c->strip) / 2;
+    const int32_t gap = abs_i32(step->x);       /* 1/16 px */
+    return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
+}
+
+static void widen(struct smear_moving_tile *t, const struct smear_context *c, const struct smear_step *step)
+{
+    const struct smear_tile_load *load = c->row_movers.load;
+    const int first = t->column, last = t->last_column;
+    t->still.x0 -= margin_of(c, &step[0], first > 0 ? &load[first - 1] : NULL);
+    t->still.x1 += margin_of(c, &step[last - first], last + 1 < c->window.columns ? &load[last + 1] : NULL);
+    t->still.x1 = min_i32(t->still.x1, c->window.width);
+    t->column -= t->still.x0 < t->x0;
+    t->last_column += t->still.x1 > t->x1;
 }
 
 /* Tiles beside each other share instants: as many as the one that needs most. */
@@ -413,19 +430,21 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     struct smear_step step[STRIP_TILES_MAX];
     struct smear_tile_choice choice;
     int next = first + 1;
-    load[first].method = TILE_SUBFRAMES;
+    load_set_method(&load[first], TILE_SUBFRAMES);
     for (; next < end && !is_still(&load[next]); next++) {
         smear_choose(&choice, &c->chooser, &load[next]);
         if (choice.method != TILE_SUBFRAMES)
             break;
-        load[next].method = TILE_SUBFRAMES;
+        load_set_method(&load[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);
     }
     for (int i = first; i < next; i++)
         smear_choose_step(&step[i - first], &c->chooser, &load[i], instants);
     struct smear_moving_tile t = tiles_of(f, first, next, worker);
-    c->worker_samples[worker] += smear_subframes_tiles(&t, instants,
-                                                       smear_shutter_is_box(&c->shutter) ? step : NULL);
+    const bool fills = smear_shutter_is_box(&c->shutter);
+    if (fills)
+        widen(&t, c, step);
+    c->worker_samples[worker] += smear_subframes_tiles(&t, instants, fills ? step : NULL);
     hand_on(f, &t);
     return next;
 }
@@ -436,11 +455,10 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
     struct smear_context *c = f->row.c;
     struct smear_tile_load *load = &c->row_movers.load[column];
     struct smear_moving_tile t = tiles_of(f, column, column + 1, worker);
-    load->method = (uint8_t)choice->method;
     if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
         bool is_smooth;
         c->worker_samples[worker] += smear_timemask_tile(&t, &choice->timemask, &is_smooth);
-        load->method = is_smooth ? TILE_SMOOTH : TILE_TIMEMASK;
+        load_set_method(load, is_smooth ? TILE_SMOOTH : TILE_TIMEMASK);
     } else {
         blend_still(&t, c);
     }
@@ -474,13 +492,14 @@ static void count_tiles(struct smear_context *c)
     const struct smear_tile_load *load = c->row_movers.load;
     smear_stats *s = &c->stats;
     for (int32_t i = 0; i < c->window.columns; i++) {
-        s->tiles_still += load[i].method == TILE_COPY;
-        s->tiles_none += load[i].method == TILE_COPY;
-        s->tiles_uniform += load[i].method == TILE_SMOOTH;
-        s->tiles_smooth += load[i].method == TILE_SMOOTH;
-        s->tiles_complex += load[i].method == TILE_TIMEMASK || load[i].method == TILE_SUBFRAMES;
-        s->tiles_timemask += load[i].method == TILE_TIMEMASK;
-        s->tiles_subframes += load[i].method == TILE_SUBFRAMES;
+        const enum smear_tile_method method = load_method(&load[i]);
+        s->tiles_still += method == TILE_COPY;
+        s->tiles_none += method == TILE_COPY;
+        s->tiles_uniform += method == TILE_SMOOTH;
+        s->tiles_smooth += method == TILE_SMOOTH;
+        s->tiles_complex += method == TILE_TIMEMASK || method == TILE_SUBFRAMES;
+        s->tiles_timemask += method == TILE_TIMEMASK;
+        s->tiles_subframes += method == TILE_SUBFRAMES;
     }
 }
 

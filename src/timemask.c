@@ -18,7 +18,7 @@ enum { PIXELS_LOG2 = 7, PIECES_LOG2 = 4 };     /* entries of a block, at most */
 enum { SPARSE_LOG2_MAX = 2 };
 
 enum {
-    LISTED = 128,                               /* movers that are drawn in order of depth */
+    LISTED = 100,                               /* movers that are drawn in order of depth */
     LOOK_EVERY = 4                              /* after so many it is seen whether the rest is hidden */
 };
 

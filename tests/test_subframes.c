@@ -356,6 +356,7 @@ static struct smear_moving_tile tiles_at(int32_t tile, int32_t column, int32_t t
     return (struct smear_moving_tile){
         .frame = &frame, .shutter = &shutter,
         .still = ring_target(column * tile, row * tile, (column + tiles) * tile, (row + 1) * tile),
+        .x0 = column * tile, .x1 = (column + tiles) * tile,
         .mover = movers, .mover_count = mover_count, .column = column, .last_column = column + tiles - 1,
         .blend = blend_head, .out = memory.out, .pitch = tiles * tile, .tile = tile, .work = memory.work
     };

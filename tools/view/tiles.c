@@ -29,12 +29,12 @@ static const struct tile_note still = { TILES_NONE, TILES_STILL, 1 };
 static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
 {
     struct smear_tile_choice choice;
-    if (load->method == TILE_COPY)
+    if (load_method(load) == TILE_COPY)
         return still;
     smear_choose(&choice, &c->chooser, load);
-    if (load->method == TILE_SUBFRAMES)
+    if (load_method(load) == TILE_SUBFRAMES)
         return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
-    if (load->method == TILE_SMOOTH)
+    if (load_method(load) == TILE_SMOOTH)
         return (struct tile_note){ TILES_SMOOTH, TILES_UNIFORM, (uint16_t)choice.timemask.slots };
     return (struct tile_note){ TILES_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
 }
