@@ -142,6 +142,12 @@
 #define SMEAR_ENTER_STAGE(stage) ((void)0)
 #endif
 
+/* 1 where the stack lies in faster memory than the arena, and 2 kB more of it are there: what the loop over
+ * triangles needs at every turn is kept on the stack meanwhile, the vertex cache with it. */
+#ifndef SMEAR_FAST_STACK
+#define SMEAR_FAST_STACK 0
+#endif
+
 /* 1 when the core multiplies 32 x 32 to 64 bits in an instruction. 0 builds high products from 16-bit
  * halves instead of calling the compiler's 64-bit multiply; the bits are the same. */
 #ifndef SMEAR_HAS_MUL64

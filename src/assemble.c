@@ -30,6 +30,20 @@ static uint32_t index_of(const struct smear_cached_vertex *v)
     return v->tag & 0xffffu;
 }
 
+/* Where the vertex is now, before the division: remembered, or found again. */
+static const struct smear_homogeneous *now_of(struct smear_homogeneous *found, const struct smear_assembly *d,
+                                              const struct smear_cached_vertex *v)
+{
+#if SMEAR_FAST_STACK
+    placement_transform(found, &d->at, index_of(v));
+    return found;
+#else
+    (void)found;
+    (void)d;
+    return &v->now;
+#endif
+}
+
 static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
     const int64_t far_out = (1 << 27) - 1;
@@ -63,65 +77,60 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
                                        struct smear_segment **segment, uint32_t triangle,
                                        const struct smear_cached_vertex *corner[3])
 {
-    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon polygon;
     struct smear_screen screen[SMEAR_CLIP_MAX];
     const smear_mesh *mesh = d->mesh;
-    int codes = 0;
-    for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &polygon[i];
-        uint32_t index = index_of(corner[i]);
-        codes |= corner[i]->outcode;
-        v->now = corner[i]->now;
-        for (int pose = 0; pose < CLIP_POSES; pose++)
-            v->pose[pose] = v->now;
-        for (int pose = 0; SMEAR_WITH_RECONSTRUCT && pose < d->moves; pose++)
-            pose_transform(&v->pose[pose], d, pose, index);
-        v->uv[0] = mesh->uv != NULL ? mesh->uv[2 * index] : 0;
-        v->uv[1] = mesh->uv != NULL ? mesh->uv[2 * index + 1] : 0;
-        for (int c = 0; c < CLIP_COLORS; c++)
-            v->color[c] = 0;
-    }
-
-    /* Which side is seen decides the light of vertices, and only
-     * the cut polygon can tell: clip places first. */
-    struct smear_clip_vertex copy[SMEAR_WITH_GOURAUD ? SMEAR_CLIP_MAX : 1];
-    struct smear_clip_vertex *probe = SMEAR_WITH_GOURAUD ? copy : polygon;
-    for (int i = 0; SMEAR_WITH_GOURAUD && i < 3; i++)
-        probe[i] = polygon[i];
-    int count = smear_clip_polygon(probe, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
-    int64_t area = 0;
-    for (int i = 0; i < count; i++)
-        smear_project(&screen[i], &d->at.now, &probe[i].now, &a->viewport);
-    for (int i = 2; i < count; i++)
-        area += area_of(&screen[0], &screen[i - 1], &screen[i]);
-    bool back = (area > 0) != d->mirrored;
-    if (area == 0 || (back && !d->material->double_sided))
-        return true;
-
-    struct smear_face face = smear_face_of(d, triangle, back);
-    if (*segment == NULL)
-        *segment = smear_record_segment(a, d);
-    if (*segment == NULL)
-        return false;
-    if (segment_colored(*segment)) {
+    const bool textured = segment_textured(*segment), colored = segment_colored(*segment);
+    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
+    const int codes = corner[0]->outcode | corner[1]->outcode | corner[2]->outcode;
+    struct smear_face face;
+    int64_t area;
+    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: where
+     * it is the back, once more. */
+    for (bool back = false, known = !colored;; known = true) {
+        if (colored)
+            face = smear_face_of(d, triangle, back);
         for (int i = 0; i < 3; i++) {
-            struct smear_color color;
-            smear_record_shade(&color, d, index_of(corner[i]), face.color, face.cosine, back);
-            for (int c = 0; c < CLIP_COLORS; c++)
-                polygon[i].color[c] = color.channel[c];
+            struct smear_clip_vertex *v = &polygon.vertex[i];
+            uint32_t index = index_of(corner[i]);
+            v->now = *now_of(&v->now, d, corner[i]);
+            for (int pose = 0; pose < poses; pose++)
+                pose_transform(&v->pose[pose], d, pose, index);
+            if (textured) {
+                v->uv[0] = mesh->uv[2 * index];
+                v->uv[1] = mesh->uv[2 * index + 1];
+            }
+            if (colored) {
+                struct smear_color color;
+                smear_record_shade(&color, d, index, face.color, face.cosine, back);
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    v->color[c] = color.channel[c];
+            }
         }
+        smear_clip_start(&polygon, poses, textured, colored);
+        smear_clip_polygon(&polygon, &d->at.now, codes);
+        area = 0;
+        for (int i = 0; i < polygon.count; i++) {
+            smear_project(&screen[i], &d->at.now, &clip_corner(&polygon, i)->now, &a->viewport);
+            if (i >= 2)
+                area += area_of(&screen[0], &screen[i - 1], &screen[i]);
+        }
+        back = (area > 0) != d->mirrored;
+        if (area == 0 || (back && !d->material->double_sided))
+            return true;
+        if (!colored)
+            face = smear_face_of(d, triangle, back);
+        if (known || !back)
+            break;
     }
-    if (SMEAR_WITH_GOURAUD)
-        count = smear_clip_polygon(polygon, 3, &d->at.now, codes, SMEAR_WITH_RECONSTRUCT ? d->moves : 0);
 
     const int32_t guard = SMEAR_GUARD_PX << 8;
     int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
-    for (int i = 0; i < count; i++) {
-        smear_project(&screen[i], &d->at.now, &polygon[i].now, &a->viewport);
+    for (int i = 0; i < polygon.count; i++) {
         screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
         screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
     }
-    for (int i = 2; i < count; i++) {
+    for (int i = 2; i < polygon.count; i++) {
         const int fan[3] = { 0, i - 1, i };
         const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
         /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
@@ -138,7 +147,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
         *segment = s;
         uint16_t offset[3];
         for (int k = 0; k < 3; k++) {
-            const struct smear_clip_vertex *v = &polygon[fan[k]];
+            const struct smear_clip_vertex *v = clip_corner(&polygon, fan[k]);
             uint32_t *record = a->geometry->pool + a->geometry->vertex_words;
             offset[k] = (uint16_t)(a->geometry->vertex_words - s->base);
             a->geometry->vertex_words += s->stride;
@@ -255,9 +264,9 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
         store_color(record + s->color, color.channel);
     }
     for (int pose = 0; pose < segment_moves(s); pose++) {
-        struct smear_homogeneous h;
+        struct smear_homogeneous h, now;
         pose_transform(&h, d, pose, index);
-        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, &v->now, &v->screen,
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, now_of(&now, d, v), &v->screen,
                      &b->a->viewport);
     }
     return word;
@@ -268,7 +277,7 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
                                      bool back)
 {
     /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || !segment_colored(b->segment));
+    bool shares = b->shares && (!back || !segment_by_vertices(b->segment));
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
     uint32_t word = store_vertex(b, v, triangle, back);
@@ -277,8 +286,8 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     return word;
 }
 
-static inline void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
-                              bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
 {
     struct smear_geometry *g = b->a->geometry;
     const struct smear_segment *s = b->segment;
@@ -286,7 +295,7 @@ static inline void add_points(struct batch *b, struct smear_cached_vertex *const
     uint32_t color = 0;
     if (!segment_colored(s))
         color = color_of_face(b, triangle, back);
-    else
+    if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
             channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
     struct tiny_scale scale = tiny_scale_make(area);
@@ -336,7 +345,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     b->segment = s;
     b->a->triangles_drawn++;
     if (count <= POINTS_MAX && b->points
-        && (!segment_colored(s) || segment_flat_depth(s)
+        && (!segment_by_vertices(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, covered, count, area);
@@ -356,6 +365,31 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return true;
 }
 
+/* Transforms a vertex. */
+static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
+                               struct smear_cached_vertex *v, uint32_t tag)
+{
+#if SMEAR_FAST_STACK
+    struct smear_homogeneous passing, *now = &passing;
+#else
+    struct smear_homogeneous *now = &v->now;
+#endif
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+}
+
+#ifndef __OPTIMIZE_SIZE__
+/* All of a mesh whose vertices find room: one after the other they cost less. */
+static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
+                                    uint32_t tag)
+{
+    struct smear_cached_vertex *v = a->cache;
+    for (const uint32_t end = tag + d->mesh->vertex_count; tag != end; tag++, v++)
+        find_vertex(a, d, v, tag);
+}
+#endif
+
 /* Transforms a vertex that is not remembered. An index the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
                                                       const struct smear_assembly *d, uint32_t tag,
@@ -371,9 +405,7 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
     /* A slot that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
-    v->tag = tag;
-    v->stored = 0;
-    v->outcode = placement_project(&v->screen, &v->now, &d->at, tag & 0xffffu, &a->viewport);
+    find_vertex(a, d, v, tag);
     return v;
 }
 
@@ -391,9 +423,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
     b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment)
             && segment_moves(b.segment) == 0 && !d->fixed;
-    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white)
+    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white && mesh->color == NULL)
         b.face_color = mesh->face_color;
-    if (!d->shading.lit && d->shading.white && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
+    if (segment_colored(b.segment) && !d->shading.lit && d->shading.white && !shading_is_linear(&d->shading)
+        && mesh->face_color == NULL)
         b.vertex_color = mesh->color;
     if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);
@@ -405,6 +438,10 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
     const int second = d->mirrored ? 1 : 2, third = 3 - second;
     const uint16_t *index = mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (mesh->vertex_count <= mask + 1u)
+        find_all(a, d, tag);
+#endif
 
     for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
         uint32_t tag0 = tag | index[0], tag1 = tag | index[second], tag2 = tag | index[third];

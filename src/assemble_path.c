@@ -18,8 +18,13 @@ enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the inst
 struct path_vertex {
     uint32_t tag, stored;               /* as struct smear_cached_vertex */
     struct smear_screen screen[KEYS];
-    uint8_t outcode[KEYS];
+    uint32_t outcodes;                  /* a byte for each instant: code_at */
 };
+
+static int code_at(uint32_t outcodes, int key)
+{
+    return (int)(outcodes >> 8 * key & 255u);
+}
 
 SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
@@ -34,9 +39,10 @@ static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
     struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
+    v->outcodes = 0;
     for (int key = 0; key < KEYS; key++)
-        v->outcode[key] = (uint8_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
-                                                     &a->viewport);
+        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
+                                                   &a->viewport) << 8 * key;
 }
 
 /* ------------------------------------------------------------------ bounds */
@@ -113,11 +119,12 @@ struct path_batch {
                                          * find_apart; 0 not looked for */
 };
 
-static uint32_t store_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back)
+static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
+                                  bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    bool shares = b->shares && (!back || !segment_colored(s));
+    bool shares = b->shares && (!back || !segment_by_vertices(s));
     if (shares && v->stored > s->base)
         return v->stored - 1;
     struct smear_geometry *g = b->a->geometry;
@@ -187,9 +194,9 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
     if (!has_room(b))
         return false;
     uint32_t base = b->segment->base;
-    uint16_t offset0 = (uint16_t)(store_vertex(b, v0, triangle, back) - base);
-    uint16_t offset1 = (uint16_t)(store_vertex(b, v1, triangle, back) - base);
-    uint16_t offset2 = (uint16_t)(store_vertex(b, v2, triangle, back) - base);
+    uint16_t offset0 = (uint16_t)(store_path_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(store_path_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(store_path_vertex(b, v2, triangle, back) - base);
     struct smear_face face = smear_face_of(b->d, triangle, back);
     const uint16_t offset[3] = { offset0, offset1, offset2 };
     list_triangle(b, &bounds, offset, &face);
@@ -206,26 +213,25 @@ struct cut {
 };
 
 /* Brings another pose into the place that is clipped, or back. */
-static void exchange(struct smear_clip_vertex *v, int count, int key)
+static void exchange(struct smear_clip_polygon *p, int key)
 {
-    for (int i = 0; i < count; i++) {
-        struct smear_homogeneous h = v[i].now;
-        v[i].now = v[i].pose[key];
-        v[i].pose[key] = h;
+    for (int i = 0; i < p->count; i++) {
+        struct smear_clip_vertex *v = clip_corner(p, i);
+        struct smear_homogeneous h = v->now;
+        v->now = v->pose[key];
+        v->pose[key] = h;
     }
 }
 
 /* Leaves what is in front of the near plane and within the guard band at all three instants. */
-static int clip_all(struct smear_clip_vertex polygon[SMEAR_CLIP_MAX], const struct cut *cut)
+static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
 {
-    int count = smear_clip_polygon(polygon, 3, &cut->projection[MIDDLE], cut->codes[MIDDLE], CLIP_POSES);
-    for (int key = OPEN; key <= CLOSE && count != 0; key++) {
-        exchange(polygon, count, key);
-        count = smear_clip_polygon(polygon, count, &cut->projection[key], cut->codes[key] & ~OUT_FAR,
-                                   CLIP_POSES);
-        exchange(polygon, count, key);
+    smear_clip_polygon(p, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    for (int key = OPEN; key <= CLOSE && p->count != 0; key++) {
+        exchange(p, key);
+        smear_clip_polygon(p, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        exchange(p, key);
     }
-    return count;
 }
 
 static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
@@ -242,10 +248,9 @@ static void project_corner(struct smear_screen screen[KEYS], const struct smear_
 
 /* What is left of a triangle. */
 struct polygon {
-    struct smear_clip_vertex vertex[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon clip;
     struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
     uint32_t stored[SMEAR_CLIP_MAX];    /* as in struct path_vertex */
-    int count;
     uint8_t piece;
 };
 
@@ -258,7 +263,7 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
 {
     struct smear_geometry *g = b->a->geometry;
     const struct smear_segment *s = b->segment;
-    const struct smear_clip_vertex *v = &p->vertex[i];
+    const struct smear_clip_vertex *v = clip_corner(&p->clip, i);
     if (p->stored[i] > s->base)
         return p->stored[i] - 1;
     uint32_t word = g->vertex_words, *record = g->pool + word;
@@ -307,24 +312,25 @@ static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[
     const struct smear_assembly *d = b->d;
     struct polygon p;
     for (int i = 0; i < 3; i++)
-        p.vertex[i] = corner[i];
-    p.count = clip_all(p.vertex, cut);
+        p.clip.vertex[i] = corner[i];
+    smear_clip_start(&p.clip, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
+    clip_all(&p.clip, cut);
     p.piece = cut->piece;
-    for (int i = 0; i < p.count; i++) {
-        project_corner(p.screen[i], &p.vertex[i], cut, &b->a->viewport);
+    for (int i = 0; i < p.clip.count; i++) {
+        project_corner(p.screen[i], clip_corner(&p.clip, i), cut, &b->a->viewport);
         p.stored[i] = 0;
     }
     bool seen = false;
     for (int key = 0; key < KEYS && !seen; key++) {
         int64_t area = 0;
-        for (int i = 2; i < p.count; i++)
+        for (int i = 2; i < p.clip.count; i++)
             area += area_at(&p, i - 1, i, key);
         seen = ((area > 0) != d->mirrored) == face->back && area != 0;
     }
     if (!seen)
         return true;
     bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < p.count; i++) {
+    for (int i = 2; i < p.clip.count; i++) {
         const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
         if (!add_fan(b, &p, fan, face))
             return false;
@@ -417,7 +423,6 @@ static void place_corners(struct smear_clip_vertex corner[3], const struct smear
                           const uint16_t index[3])
 {
     for (int i = 0; i < 3; i++) {
-        corner[i] = (struct smear_clip_vertex){ .now = { 0, 0, 0, 0 } };
         placement_transform(&corner[i].now, &d->at, index[i]);
         for (int key = OPEN; key <= CLOSE; key++)
             placement_transform(&corner[i].pose[key], &d->key[key], index[i]);
@@ -442,38 +447,52 @@ static int32_t safe_distance(const struct smear_clip_vertex corner[3], const str
 
 /* Whether a side of the frame hides all of the polygon: a pose's places lie at
  * sums of those known, so at all times. */
-static bool is_beside(const struct smear_clip_vertex *v, int count, const struct smear_viewport *viewport)
+static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport *viewport)
 {
     int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
-    for (int i = 0; i < count && beside != 0; i++)
+    for (int i = 0; i < p->count && beside != 0; i++) {
+        const struct smear_clip_vertex *v = clip_corner(p, i);
         for (int key = 0; key < KEYS; key++)
-            beside &= outcode_behind(key == MIDDLE ? &v[i].now : &v[i].pose[key], viewport);
+            beside &= smear_outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
+    }
     return beside != 0;
 }
 
 /* Nothing of the triangle that is nearer than this in the middle of the exposure is seen at any time. */
 static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
 {
-    struct smear_clip_vertex polygon[SMEAR_CLIP_MAX];
+    struct smear_clip_polygon polygon;
     struct smear_projection behind = b->d->at.now;
     behind.far_distance = distance;
     for (int i = 0; i < 3; i++)
-        polygon[i] = corner[i];
-    return is_beside(polygon, smear_clip_polygon(polygon, 3, &behind, OUT_FAR, CLIP_POSES), &b->a->viewport);
+        polygon.vertex[i] = corner[i];
+    smear_clip_start(&polygon, CLIP_POSES, false, false);
+    smear_clip_polygon(&polygon, &behind, OUT_FAR);
+    return is_beside(&polygon, &b->a->viewport);
 }
 
-static bool passes_near(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
+static bool is_behind(const struct smear_placement *p, uint32_t index)
 {
-    bool before = false, behind = false;
+    struct smear_homogeneous h;
+    if (p->extra_count == 0)
+        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.near_distance;
+    placement_transform(&h, p, index);
+    return h.w < p->now.near_distance;
+}
+
+/* Whether the near plane cuts the triangle, or passes it during the exposure. */
+static bool passes_near(const struct path_batch *b, const uint16_t index[3])
+{
+    const struct path_vertex *cache = (const struct path_vertex *)(const void *)b->a->cache;
+    int behind = 0;
     for (int i = 0; i < 3; i++) {
-        for (int key = OPEN; key <= CLOSE; key++) {
-            before = before || corner[i].pose[key].w >= d->key[key].now.near_distance;
-            behind = behind || corner[i].pose[key].w < d->key[key].now.near_distance;
-        }
-        before = before || corner[i].now.w >= d->at.now.near_distance;
-        behind = behind || corner[i].now.w < d->at.now.near_distance;
+        const uint32_t tag = b->a->serial << 16 | index[i];
+        const struct path_vertex *v = &cache[tag & (b->a->cache_mask >> 1)];
+        for (int key = 0; key < KEYS; key++)
+            behind += v->tag == tag ? (code_at(v->outcodes, key) & OUT_NEAR) != 0
+                                    : is_behind(placement_of(b->d, key), index[i]);
     }
-    return before && behind;
+    return behind != 0 && behind != 3 * KEYS;
 }
 
 /* One distance for all triangles of a draw, so that their edges still meet: the largest of some that
@@ -485,15 +504,19 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
     struct smear_clip_vertex corner[3];
     int32_t least = 0;
     int doublings = DOUBLINGS;
+    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles in question lie between */
     for (int pass = 0; pass < 2; pass++) {
-        const uint16_t *index = mesh->index;
-        for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+        uint32_t last = first;
+        for (uint32_t i = first; i < end; i++) {
+            const uint16_t *index = mesh->index + 3 * i;
             if (max_i32(index[0], max_i32(index[1], index[2])) >= (int32_t)mesh->vertex_count)
                 continue;
-            place_corners(corner, b->d, index);
-            if (!passes_near(corner, b->d))
+            if (!passes_near(b, index))
                 continue;
+            place_corners(corner, b->d, index);
+            last = i;
             if (pass == 0) {
+                first = least == 0 ? i : first;
                 least = max_i32(least, safe_distance(corner, b->d));
                 continue;
             }
@@ -502,6 +525,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
                 here--;
             doublings = here >= 0 ? here : doublings;
         }
+        end = last + 1;
     }
     while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* none holds for any triangle */
         doublings--;
@@ -509,8 +533,8 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 }
 
 /* `corner` as the mesh has them: counter-clockwise in front. */
-static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex *const vertex[3],
-                                       uint32_t triangle, const int codes[KEYS], bool back)
+static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
+                                       uint32_t triangle, uint32_t codes, bool back)
 {
     const struct smear_assembly *d = b->d;
     struct smear_clip_vertex corner[3];
@@ -536,9 +560,9 @@ static SMEAR_NOINLINE bool add_clipped(struct path_batch *b, struct path_vertex 
     }
     int near_codes = 0;
     for (int key = 0; key < KEYS; key++) {
-        cut.codes[key] = codes[key];
+        cut.codes[key] = code_at(codes, key);
         cut.projection[key] = placement_of(d, key)->now;
-        near_codes |= codes[key] & OUT_NEAR;
+        near_codes |= cut.codes[key] & OUT_NEAR;
     }
     if (near_codes == 0 || is_orthographic(&d->at.now))
         return add_cut(b, corner, &cut, &face);
@@ -578,8 +602,7 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
     if (v->tag == tag)
         return v;
     if ((tag & 0xffffu) >= d->mesh->vertex_count) {
-        for (int key = 0; key < KEYS; key++)
-            spare->outcode[key] = OUT_UNKNOWN;
+        spare->outcodes = OUT_UNKNOWN;
         return spare;
     }
     if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
@@ -591,24 +614,23 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
 static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint32_t triangle)
 {
     const struct smear_assembly *d = b->d;
-    int codes[KEYS], any = 0, all = OUT_REJECT;
-    for (int key = 0; key < KEYS; key++) {
-        codes[key] = v[0]->outcode[key] | v[1]->outcode[key] | v[2]->outcode[key];
-        any |= codes[key];
-        all &= v[0]->outcode[key] & v[1]->outcode[key] & v[2]->outcode[key];
+    const uint32_t codes = v[0]->outcodes | v[1]->outcodes | v[2]->outcodes;
+    if (codes != 0) {
+        const uint32_t shared = v[0]->outcodes & v[1]->outcodes & v[2]->outcodes;
+        const uint32_t any = codes | codes >> 8 | codes >> 16;
+        if (shared & shared >> 8 & shared >> 16 & OUT_REJECT)
+            return true;
+        if (any & OUT_UNKNOWN) {
+            b->a->triangles_dropped++;
+            return true;
+        }
+        if (any & OUT_CLIP)
+            return add_clipped_path(b, v, triangle, codes, false)
+                && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
     }
-    if (all != 0)
-        return true;
-    if (any & OUT_UNKNOWN) {
-        b->a->triangles_dropped++;
-        return true;
-    }
-    if (any & OUT_CLIP)
-        return add_clipped(b, v, triangle, codes, false)
-            && (!d->material->double_sided || add_clipped(b, v, triangle, codes, true));
-    bool front = false, behind = false;
+    bool front = false, behind = !d->material->double_sided;    /* seen, or of no interest */
     struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
-    for (int key = 0; key < KEYS; key++) {
+    for (int key = 0; key < KEYS && !(front && behind); key++) {
         int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);
         front = front || area > 0;
         behind = behind || area < 0;
@@ -630,6 +652,11 @@ bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly 
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
     const uint16_t *index = d->mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (d->mesh->vertex_count <= mask + 1u)     /* one after the other they cost less */
+        for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
+            find_vertex(&cache[i], a, d, tag + i);
+#endif
     bool added = true;
     for (uint32_t i = 0; i < d->mesh->triangle_count && added; i++, index += 3) {
         struct path_vertex *v[3];

@@ -35,6 +35,13 @@
 #endif
 #define SMEAR_NOINLINE __attribute__((noinline))
 
+/* Rarely called: not inlined into what is called often, unless size counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_RARE
+#else
+#define SMEAR_RARE SMEAR_NOINLINE
+#endif
+
 #if defined(__cplusplus)
 #define SMEAR_STATIC_ASSERT(condition, text) static_assert(condition, text)
 #elif __STDC_VERSION__ >= 201112L

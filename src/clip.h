@@ -26,11 +26,30 @@ struct smear_clip_vertex {
  * it may have more, of which none is likely. */
 #define SMEAR_CLIP_MAX (SMEAR_WITH_SUBFRAMES ? 12 : 9)
 
-/* Clips the convex polygon vertex[0 .. count-1] in place; returns how many corners it has then, 0 when
- * nothing is left. `codes` is the union of the three outcodes: only those planes are looked at. The first
- * `poses` of a vertex's poses are in use. An edge is always cut from its inner towards its outer end, so two
- * triangles that share it get the same new vertex, bit for bit. */
-int smear_clip_polygon(struct smear_clip_vertex vertex[SMEAR_CLIP_MAX], int count,
-                       const struct smear_projection *projection, int codes, int poses);
+/* A cut makes two corners before those outside it are given up; one that rounding bent makes a few more. */
+#define SMEAR_CLIP_ROOM (SMEAR_CLIP_MAX + 4)
+
+/* A convex polygon: its corners are vertex[order[0]], vertex[order[1]] ... Behind them `order` names the vertices
+ * that are free: nothing is moved when a corner goes. */
+struct smear_clip_polygon {
+    int count;
+    uint8_t poses;              /* so many of a vertex's poses are in use */
+    bool textured, colored;     /* and these of its other attributes */
+    uint8_t order[SMEAR_CLIP_ROOM];
+    struct smear_clip_vertex vertex[SMEAR_CLIP_ROOM];
+};
+
+static inline struct smear_clip_vertex *clip_corner(struct smear_clip_polygon *p, int i)
+{
+    return &p->vertex[p->order[i]];
+}
+
+/* A triangle of vertex[0 .. 2], which the caller fills in. */
+void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored);
+
+/* Clips the polygon; `count` is 0 when nothing is left. `codes` is the union of the outcodes of its corners: only
+ * those planes are looked at. An edge is always cut from its inner towards its outer end, so two triangles
+ * that share it get the same new vertex, bit for bit. */
+void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_projection *projection, int codes);
 
 #endif

@@ -75,7 +75,7 @@ struct smear_context {
     smear_frame frame;
     smear_camera camera, camera_open, camera_close;
     int32_t half_exposure;          /* q24 frames */
-    bool camera_moves;              /* the earlier camera is known */
+    bool camera_moves;              /* the earlier camera is known, and another */
     smear_camera kept_camera;
     bool has_kept_camera;
     uint32_t frame_number;

@@ -54,6 +54,8 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
 
 static bool same_transform(const smear_transform *a, const smear_transform *b)
 {
+    if (a == b)
+        return true;
     for (int i = 0; i < 9; i++)
         if (a->basis[i] != b->basis[i])
             return false;
@@ -63,8 +65,8 @@ static bool same_transform(const smear_transform *a, const smear_transform *b)
 
 static bool same_camera(const smear_camera *a, const smear_camera *b)
 {
-    return same_transform(&a->pose, &b->pose) && a->focal == b->focal
-        && a->half_height == b->half_height;
+    return a == b || (same_transform(&a->pose, &b->pose) && a->focal == b->focal
+                      && a->half_height == b->half_height);
 }
 
 static bool is_mirrored(const smear_transform *t)
@@ -84,6 +86,8 @@ struct draw_poses {
     const smear_camera *camera[3];
     const int16_t *position[3];
     int32_t deform;                     /* of the way between their vertices, q8 */
+    bool projected[3];                  /* `projection` holds */
+    struct smear_projection projection[3];
 };
 
 /* The layer of a draw, if it has a camera of its own. */
@@ -196,6 +200,7 @@ static void poses_of(struct smear_context *c, const struct smear_submitted *s, s
         p->object[i] = object;
         p->camera[i] = &c->camera;
         p->position[i] = d->mesh->position;
+        p->projected[i] = false;
     }
     p->deform = 256;
     const struct smear_layer_setting *own = layer_with_camera(c, s);
@@ -247,12 +252,17 @@ static void classify_draw(struct smear_context *c, const struct smear_submitted 
         c->stats.draws_moved++;
 }
 
-static void project_pose(struct smear_projection *out, const struct smear_context *c,
-                         const struct draw_poses *p, int i, const smear_mesh *mesh)
+/* Of a pose, made once. */
+static const struct smear_projection *project_pose(const struct smear_context *c, struct draw_poses *p, int i,
+                                                   const smear_mesh *mesh)
 {
-    struct smear_view view;
-    smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-    smear_projection_make(out, &view, p->camera[i], c->window.height);
+    if (!p->projected[i]) {
+        struct smear_view view;
+        smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
+        smear_projection_make(&p->projection[i], &view, p->camera[i], c->window.height);
+        p->projected[i] = true;
+    }
+    return &p->projection[i];
 }
 
 static bool deformation_is_scaled(const struct draw_poses *p, int k)
@@ -261,7 +271,7 @@ static bool deformation_is_scaled(const struct draw_poses *p, int k)
 }
 
 /* Where the vertices are at an instant: a sum of poses, linear in clip space. */
-static void place(struct smear_placement *out, const struct smear_context *c, const struct draw_poses *p,
+static void place(struct smear_placement *out, const struct smear_context *c, struct draw_poses *p,
                   const smear_mesh *mesh, const struct instant *instant)
 {
     enum { TERMS = SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM ? 5 : 3 };
@@ -273,7 +283,7 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
     for (int k = 0; k < 3; k++) {
         if (instant->weight[k] == 0)
             continue;
-        project_pose(&sum[count], c, p, k, mesh);
+        sum[count] = *project_pose(c, p, k, mesh);
         position[count] = p->position[k];
         weight[count++] = instant->weight[k];
         if (deformation_is_scaled(p, k)) {      /* part of the way from the mesh's own vertices */
@@ -300,11 +310,11 @@ static void place(struct smear_placement *out, const struct smear_context *c, co
 }
 
 /* A pose between which velocity is measured. */
-static void add_pose(struct smear_assembly *a, const struct smear_context *c, const struct draw_poses *p,
+static void add_pose(struct smear_assembly *a, const struct smear_context *c, struct draw_poses *p,
                      int k)
 {
     const int i = a->moves++;
-    project_pose(&a->pose[i], c, p, k, a->mesh);
+    a->pose[i] = *project_pose(c, p, k, a->mesh);
     a->pose_position[i] = p->position[k];
     if (!SMEAR_WITH_SCALES || !SMEAR_WITH_DEFORM)
         return;
@@ -332,8 +342,14 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
     a->path = a->fixed = a->has_rest = false;
-    smear_shading_make(&a->shading, poses.object[0], a->material,
+    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
                        SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
+
+#if SMEAR_LEVELS
+    /* In linear light, colours that are interpolated may round to other codes. */
+    a->level = a->material->alpha == SMEAR_OPAQUE
+            && !shading_is_linear(&a->shading) && smear_record_is_level(a->mesh, a->shading.lit);
+#endif
 
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
@@ -357,12 +373,10 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
 
 /* ------------------------------------------------------------------ assembling */
 
-/* Assembles all draws for the tile rows [first, end). False when the store is full. */
-static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
-                                         const struct instant *instant, bool drop)
+/* Assembles all draws into what `as` names. False when the store is full. */
+static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
+                           bool drop)
 {
-    smear_geometry_reset(&c->geometry, first, end);
-    smear_assembler_reset(&c->assembler);
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
         uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
@@ -373,11 +387,46 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
         const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
         make_assembly(c, i, is_sharp ? &sharp_instant : instant, &a);
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
-                          : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(&c->assembler, &a, drop)
-                                                             : smear_assemble(&c->assembler, &a, drop)))
+                          : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(as, &a, drop)
+                                                             : smear_assemble(as, &a, drop)))
             return false;
     }
     return true;
+}
+
+#if SMEAR_FAST_STACK
+/* The same with what it works on brought to the stack. */
+static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct instant *instant, bool drop)
+{
+    enum { VERTICES = 64 };
+    struct smear_cached_vertex cache[VERTICES];
+    struct smear_geometry geometry = c->geometry;
+    struct smear_assembler as = c->assembler;
+    as.geometry = &geometry;
+    as.cache = cache;
+    as.cache_mask = VERTICES - 1;
+    as.serial = 0;
+    smear_assembler_reset(&as);
+    const bool done = assemble_draws(c, &as, instant, drop);
+    c->geometry = geometry;
+    c->assembler.path_count = as.path_count;
+    c->assembler.triangles_drawn = as.triangles_drawn;
+    c->assembler.triangles_dropped = as.triangles_dropped;
+    return done;
+}
+#endif
+
+/* Assembles all draws for the tile rows [first, end). False when the store is full. */
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
+                                         const struct instant *instant, bool drop)
+{
+    smear_geometry_reset(&c->geometry, first, end);
+#if SMEAR_FAST_STACK
+    if (!has_layers(c))
+        return assemble_fast(c, instant, drop);
+#endif
+    smear_assembler_reset(&c->assembler);
+    return assemble_draws(c, &c->assembler, instant, drop);
 }
 
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
@@ -898,8 +947,9 @@ static int render_timed(struct smear_context *c)
 }
 
 /* Which draws are blurred, and how they move. */
-static void find_layers(struct smear_context *c, const struct instant *middle)
+static SMEAR_NOINLINE void find_layers(struct smear_context *c, const struct instant *middle)
 {
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     const struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
     smear_layers_begin(c);
     for (uint32_t i = 0; i < c->draw_count; i++) {
@@ -1021,8 +1071,9 @@ static int render_accumulate(struct smear_context *c)
 
 /* ------------------------------------------------------------------ a frame */
 
-static void prepare(struct smear_context *c)
+static SMEAR_NOINLINE void prepare(struct smear_context *c)
 {
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     struct smear_window *w = &c->window;
     smear_stats *s = &c->stats;
     *s = (smear_stats){ .arena_bytes = s->arena_bytes };
@@ -1038,6 +1089,10 @@ static void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
     c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
+#ifndef __OPTIMIZE_SIZE__       /* else every draw finds it out */
+    c->camera_moves = c->camera_moves && !(same_camera(&c->camera, &c->camera_open)
+                                           && same_camera(&c->camera, &c->camera_close));
+#endif
     c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion
                                  && c->frame.camera_step != 0 && c->camera_moves && !c->frame.cut
                                  && c->state != STATE_FILTER
@@ -1137,6 +1192,7 @@ void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
     prepare(c);
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;
     c->filter_row = 0;
 }

@@ -67,6 +67,7 @@ struct smear_segment {
     uint8_t shade;          /* smear_shade_mode */
     uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
+    uint8_t level;          /* its triangles are flat, though vertices had colours: all the same */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
                              * place of motion words; moves is 0 */
 };
@@ -85,6 +86,19 @@ static inline bool segment_textured(const struct smear_segment *s)
 static inline bool segment_gouraud(const struct smear_segment *s)
 {
     return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
+}
+
+/* Whether level draws are looked for: not where size counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_LEVELS 0
+#else
+#define SMEAR_LEVELS SMEAR_WITH_GOURAUD
+#endif
+
+/* Colours are those of vertices: of all three where it is level. */
+static inline bool segment_by_vertices(const struct smear_segment *s)
+{
+    return segment_gouraud(s) || (SMEAR_LEVELS && s->level);
 }
 
 static inline bool segment_colored(const struct smear_segment *s)

@@ -18,20 +18,16 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
-/* Scales nine values so that the largest has `bits` bits. */
-static void normalize(int32_t out[3][3], int64_t in[3][3], int bits)
+/* One copy for this file, with a name of its own for linker scripts that choose what lies in fast memory. */
+static SMEAR_RARE uint32_t length_from(uint64_t square)
 {
-    uint64_t largest = 1;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            uint64_t size = in[i][j] < 0 ? 0u - (uint64_t)in[i][j] : (uint64_t)in[i][j];
-            largest = largest > size ? largest : size;
-        }
-    int shift = 64 - count_leading_zeros_64(largest) - bits;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            out[i][j] = (int32_t)(shift >= 0 ? in[i][j] >> shift
-                                             : (int64_t)((uint64_t)in[i][j] << -shift));
+    return sqrt_floor_64(square);
+}
+
+/* Down to the bits that are wanted, or up. */
+static int shift_to(uint64_t largest, int bits)
+{
+    return 64 - count_leading_zeros_64(largest) - bits;
 }
 
 /* Columns of equal length at right angles, within 1/256: the matrix is a rotation times a scale. */
@@ -52,11 +48,40 @@ static bool keeps_lengths(int32_t m[3][3])
     return true;
 }
 
-void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *material, bool linear)
+/* Normals of the object to the world's: cofactors of the basis, without the sign of its determinant. */
+static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 {
-    static const smear_material plain = { 0 };
-    const smear_material *m = material != NULL ? material : &plain;
+    int32_t b[9];
+    int64_t cofactor[9];
+    uint32_t largest = 1;
+    uint64_t largest_cofactor = 1;
+    for (int i = 0; i < 9; i++)
+        largest |= basis[i] < 0 ? 0u - (uint32_t)basis[i] : (uint32_t)basis[i];
+    int shift = shift_to(largest, 28);
+    for (int i = 0; i < 9; i++)
+        b[i] = shift >= 0 ? basis[i] >> shift : shl_wrap(basis[i], -shift);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int32_t *b1 = b + (i == 2 ? 0 : 3 * i + 3), *b2 = b + (i == 0 ? 6 : 3 * i - 3);
+            int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
+            int64_t c = (int64_t)b1[j1] * b2[j2] - (int64_t)b1[j2] * b2[j1];
+            cofactor[3 * i + j] = c;
+            largest_cofactor |= (uint64_t)(c < 0 ? -c : c);
+        }
+    shift = shift_to(largest_cofactor, 15);
+    for (int i = 0; i < 9; i++)
+        m[i / 3][i % 3] = (int32_t)(shift >= 0 ? cofactor[i] >> shift
+                                               : (int64_t)((uint64_t)cofactor[i] << -shift));
+
+    const int32_t row[3] = { b[0] >> 8, b[1] >> 8, b[2] >> 8 };
+    if (dot_q(row, m[0], 8) < 0)
+        for (int i = 0; i < 9; i++)
+            m[i / 3][i % 3] = -m[i / 3][i % 3];
+}
+
+void smear_shading_make(struct smear_shading *s, const smear_transform *object,
+                        const smear_material *m, bool has_normals, bool linear)
+{
     s->linear = linear;
     s->lit = !m->unlit;
     for (int i = 0; i < 3; i++)
@@ -68,28 +93,13 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     if (!s->lit)
         return;
 
-    int64_t raw[3][3], cofactor[3][3];
-    int32_t b[3][3];
-    for (int i = 0; i < 9; i++)
-        raw[i / 3][i % 3] = object->basis[i];
-    normalize(b, raw, 28);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            cofactor[i][j] = (int64_t)b[i1][j1] * b[i2][j2] - (int64_t)b[i1][j2] * b[i2][j1];
-        }
-    normalize(s->normal_matrix, cofactor, 15);
-
-    /* Cofactors carry the determinant's sign; a normal must not. */
-    int32_t row[3] = { b[0][0] >> 8, b[0][1] >> 8, b[0][2] >> 8 };
-    if (dot_q(row, s->normal_matrix[0], 8) < 0)
-        for (int i = 0; i < 9; i++)
-            s->normal_matrix[i / 3][i % 3] = -s->normal_matrix[i / 3][i % 3];
-
+    make_normal_matrix(s->normal_matrix, object->basis);
+    if (!has_normals)
+        return;
     s->even = keeps_lengths(s->normal_matrix);
     if (s->even) {
-        uint32_t length = sqrt_floor_64(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
-                                                   s->normal_matrix[2][0]));
+        uint32_t length = length_from(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
+                                                 s->normal_matrix[2][0]));
         for (int j = 0; j < 3; j++) {
             int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
                                   s->normal_matrix[2][j] };
@@ -119,8 +129,8 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
     int32_t along = along_high * 16 + (along_low >> 8);       /* q6 x length */
     if (along <= 0)
         return 0;
-    uint32_t length = sqrt_floor_64(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
-                                    + (uint32_t)low);
+    uint32_t length = length_from(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
+                                  + (uint32_t)low);
     if (length == 0)
         return 0;
     /* along 2^10 / length, by reciprocal */
@@ -142,15 +152,33 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
     return cosine_of(s, n);
 }
 
+/* The normal of edges of any length. */
+static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
+{
+    int32_t n[3];
+    int64_t cross[3];
+    uint64_t largest = 1;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
+        largest |= cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
+    }
+    int shift = shift_to(largest, 14);
+    for (int i = 0; i < 3; i++)
+        n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
+    return cosine_of(s, n);
+}
+
 uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
                           const int16_t c[3])
 {
-    int32_t u[3], v[3], n[3];
+    int32_t u[3], v[3];
     for (int i = 0; i < 3; i++) {
         u[i] = b[i] - a[i];
         v[i] = c[i] - a[i];
     }
 #ifndef __OPTIMIZE_SIZE__
+    int32_t n[3];
     uint32_t size = 0;
     for (int i = 0; i < 3; i++)
         size |= (uint32_t)(u[i] ^ u[i] >> 31) | (uint32_t)(v[i] ^ v[i] >> 31);
@@ -159,7 +187,7 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
         for (int i = 0; i < 3; i++) {
             int j = (i + 1) % 3, k = (i + 2) % 3;
             n[i] = u[j] * v[k] - u[k] * v[j];
-            largest = max_u32(largest, (uint32_t)abs_i32(n[i]));
+            largest |= (uint32_t)abs_i32(n[i]);
         }
         int shift = 32 - count_leading_zeros(largest) - 14;
         for (int i = 0; i < 3; i++)
@@ -167,18 +195,7 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
         return cosine_of(s, n);
     }
 #endif
-    int64_t cross[3];
-    uint64_t largest = 1;
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
-        uint64_t length = cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
-        largest = largest > length ? largest : length;
-    }
-    int shift = 64 - count_leading_zeros_64(largest) - 14;
-    for (int i = 0; i < 3; i++)
-        n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
-    return cosine_of(s, n);
+    return light_of_long(s, u, v);
 }
 
 /* a b with 65535 as one, for both. */

@@ -27,8 +27,9 @@ struct smear_color {
     uint16_t channel[4];
 };
 
+/* has_normals: smear_light_normal() will be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *material, bool linear);
+                        const smear_material *material, bool has_normals, bool linear);
 
 /* 0 .. 65536: max(0, n.l) for an object-space normal of length 127 (vertex). */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);

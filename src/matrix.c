@@ -18,45 +18,56 @@ static int bit_length(int64_t a)
     return a == 0 ? 0 : 64 - count_leading_zeros_64(magnitude(a));
 }
 
+/* a 2^-down to nearest, down 1 .. 62. */
+static inline int64_t scale_down(int64_t a, int down)
+{
+    return ((a >> (down - 1)) + 1) >> 1;
+}
+
 /* a 2^shift, rounded to nearest, clamped to 32 bits less one. */
 static int32_t scale_to_i32(int64_t a, int shift)
 {
-    if (shift < 0) {
-        if (shift < -62)
-            return 0;
-        a = (a >> -shift) + (a >> (-shift - 1) & 1);
-    } else if (bit_length(a) + shift > 31) {
+    if (shift < 0)
+        return shift < -62 ? 0 : narrow_sat(scale_down(a, -shift));
+    if (bit_length(a) + shift > 31)
         return a < 0 ? -INT32_MAX : INT32_MAX;
-    } else {
-        a = (int64_t)((uint64_t)a << shift);
-    }
-    return narrow_sat(a);
+    return narrow_sat((int64_t)((uint64_t)a << shift));
+}
+
+/* The same; mostly it shrinks, and needs no call. */
+static inline int32_t scale_inline(int64_t a, int shift)
+{
+#ifndef __OPTIMIZE_SIZE__
+    if (shift < 0 && shift >= -62)
+        return narrow_sat(scale_down(a, -shift));
+#endif
+    return scale_to_i32(a, shift);
 }
 
 /* a 2^shift in 64 bits, clamped to +-2^52 so that sums of a few stay exact. */
 static int64_t scale_to_i52(int64_t a, int shift)
 {
-    const int64_t limit = (int64_t)1 << 52;
+    const int up = clamp_i32(shift, 0, 53);
+    const int64_t limit = ((int64_t)1 << 52) >> up;
     if (shift < 0)
         a = shift < -62 ? 0 : a >> -shift;
-    else if (bit_length(a) + shift > 53)
-        return a < 0 ? -limit : limit;
-    else
-        a = (int64_t)((uint64_t)a << shift);
-    return a > limit ? limit : a < -limit ? -limit : a;
+    return (a > limit ? limit : a < -limit ? -limit : a) * ((int64_t)1 << up);
 }
 
 /* Brings the largest of nine values to 31 bits; returns the exponent: value = out 2^exponent. */
-static int normalize_block(int32_t out[3][3], int64_t in[3][3])
+static int normalize_block(int32_t block[3][3], const int64_t in[9])
 {
-    int bits = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            bits = max_i32(bits, bit_length(in[i][j]));
-    int shift = bits == 0 ? 0 : 30 - bits;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            out[i][j] = scale_to_i32(in[i][j], shift);
+    int32_t *out = &block[0][0];
+    uint64_t all = 0;
+    for (int i = 0; i < 9; i++)
+        all |= magnitude(in[i]);
+    const int bits = bit_length((int64_t)all), shift = bits == 0 ? 0 : 30 - bits;
+    if (shift < 0)
+        for (int i = 0; i < 9; i++)
+            out[i] = (int32_t)scale_down(in[i], -shift);
+    else
+        for (int i = 0; i < 9; i++)
+            out[i] = (int32_t)((uint32_t)in[i] << shift);
     return -shift;
 }
 
@@ -65,27 +76,21 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
 {
     /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 2 in
      * magnitude (smear_begin checks), so a product of q24 and q24 has 57 bits and three fit. */
-    int64_t turned[3][3], scaled[3][3];
+    int64_t turned[9], scaled[9];
     int64_t offset[3];
     for (int j = 0; j < 3; j++)
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
     for (int i = 0; i < 3; i++) {
-        int64_t place = 0;
-        for (int j = 0; j < 3; j++) {
-            int64_t sum = 0;
-            for (int k = 0; k < 3; k++)
-                sum += (int64_t)camera->basis[3 * k + i] * object->basis[3 * k + j];
-            turned[i][j] = sum;                                 /* q48 */
-            place += (int64_t)camera->basis[3 * j + i] * offset[j];     /* q40 */
-        }
-        view->origin[i] = place >> 8;                           /* q32 */
+        const int64_t x = camera->basis[i], y = camera->basis[3 + i], z = camera->basis[6 + i];
+        for (int j = 0; j < 3; j++)     /* q48 */
+            turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];
+        view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32 */
     }
     int32_t unit[3][3];
     int exponent = normalize_block(unit, turned) - 48;
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            scaled[i][j] = (int64_t)unit[i][j] * scale;
+    for (int i = 0; i < 9; i++)
+        scaled[i] = (int64_t)unit[i / 3][i % 3] * scale;
     view->basis_exp = normalize_block(view->basis, scaled) + exponent - mesh->shift;
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;
@@ -120,12 +125,12 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
 static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
                      int scale)
 {
+    const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
+    const int shift = view->basis_exp + by.exponent + scale + 16;
     for (int j = 0; j < 3; j++)
-        m[j] = scale_to_i32((int64_t)view->basis[row][j] * by.mantissa * sign,
-                            view->basis_exp + by.exponent + scale + 16) & ~3;
+        m[j] = scale_inline((int64_t)view->basis[row][j] * factor, shift) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
-    m[3] = scale_to_i32((view->origin[row] >> cut) * by.mantissa * sign,
-                        cut - 32 + by.exponent + scale);
+    m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
 
 /* Near and far plane and the factor of depth units, for the scale of `distance`. */
@@ -193,14 +198,20 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     set_distances(p, camera);
 }
 
+/* The last row of a perspective stays zero. */
+static int rows_of(const struct smear_projection *p)
+{
+    return is_orthographic(p) ? 4 : 3;
+}
+
 /* m weight 2^shift for a whole projection. */
 static void weigh(struct smear_projection *p, int32_t weight, int scale, int distance_scale)
 {
-    for (int row = 0; row < 4; row++) {
+    for (int row = 0; row < rows_of(p); row++) {
         bool is_distance = row == 3 || (row == 2 && !is_orthographic(p));
         int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
         for (int j = 0; j < 4; j++) {
-            int32_t m = scale_to_i32((int64_t)p->m[row][j] * weight, shift - 24);
+            int32_t m = scale_inline((int64_t)p->m[row][j] * weight, shift - 24);
             p->m[row][j] = j < 3 ? m & ~3 : m;
         }
     }
@@ -233,7 +244,7 @@ void smear_projection_weigh(struct smear_projection projection[], const int32_t 
 
 void smear_projection_add(struct smear_projection *a, const struct smear_projection *b)
 {
-    for (int row = 0; row < 4; row++)
+    for (int row = 0; row < rows_of(a); row++)
         for (int j = 0; j < 4; j++)
             a->m[row][j] = add_wrap(a->m[row][j], b->m[row][j]);
 }

@@ -517,7 +517,7 @@ static inline bool is_tiny(const struct setup *s, int32_t pixels)
 {
     return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0
         && draw_is_opaque(s->draw)
-        && (!segment_gouraud(s->segment) || segment_flat_depth(s->segment)
+        && (!segment_by_vertices(s->segment) || segment_flat_depth(s->segment)
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 

@@ -8,6 +8,18 @@ enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more ar
 
 #include "path.h"
 
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
+{
+    for (int i = 0; i < p->extra_count; i++) {
+        struct smear_homogeneous term;
+        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
+        h->x += term.x;
+        h->y += term.y;
+        h->w += term.w;
+        h->distance += term.distance;
+    }
+}
+
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct smear_segment *s = smear_geometry_open(a->geometry);
@@ -15,17 +27,18 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         return NULL;
     const smear_mesh *mesh = d->mesh;
     bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
-    bool per_vertex = SMEAR_WITH_GOURAUD
-                   && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
+    bool by_vertices = SMEAR_WITH_GOURAUD
+                    && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
+    bool per_vertex = by_vertices && !is_level(d);
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
     s->uv = s->color = s->motion = 0;
     if (textured)
         s->uv = (uint8_t)at++;
-    if (per_vertex) {
+    if (per_vertex)
         s->color = (uint8_t)at;
+    if (by_vertices)            /* level ones take as much room: what finds none is the same */
         at += 2;
-    }
     s->moves = SMEAR_WITH_RECONSTRUCT && a->keep_motion && !is_blend(d) ? d->moves : 0;
     if (segment_moves(s) != 0) {
         s->motion = (uint8_t)at;
@@ -37,12 +50,47 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
         s->motion = (uint8_t)at;
         at += PATH_WORDS;
     }
-    s->shade = per_vertex                                                                  ? SHADE_GOURAUD
-             : textured && !d->shading.lit && d->shading.white && mesh->face_color == NULL ? SHADE_NONE
-                                                                                           : SHADE_FLAT;
+    const bool plain = !d->shading.lit && d->shading.white && mesh->face_color == NULL && mesh->color == NULL;
+    s->shade = per_vertex ? SHADE_GOURAUD : textured && plain ? SHADE_NONE : SHADE_FLAT;
+    s->level = is_level(d);
     s->flat_depth = is_orthographic(&d->at.now);
     s->stride = (uint8_t)at;
     return s;
+}
+
+#if SMEAR_LEVELS
+static bool same_values(const uint8_t *a, const uint8_t *b, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (a[i] != b[i])
+            return false;
+    return true;
+}
+
+bool smear_record_is_level(const smear_mesh *mesh, bool lit)
+{
+    const uint8_t *normal = lit ? (const uint8_t *)mesh->normal : NULL, *color = mesh->color;
+    const uint16_t *index = mesh->index;
+    if (normal == NULL && color == NULL)
+        return false;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3)
+        for (int k = 1; k < 3; k++)
+            if (max_i32(index[0], index[k]) >= mesh->vertex_count
+                || (normal != NULL && !same_values(normal + 3 * index[0], normal + 3 * index[k], 3))
+                || (color != NULL && !same_values(color + 4 * index[0], color + 4 * index[k], 4)))
+                return false;
+    return true;
+}
+
+#endif
+
+/* Light at a vertex with a normal. */
+static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool flip)
+{
+    const int8_t *n = d->mesh->normal + 3 * index;
+    const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
+                             (int8_t)-max_i32(n[2], -127) };
+    return smear_light_normal(&d->shading, flip ? back : n);
 }
 
 void smear_record_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
@@ -50,16 +98,8 @@ void smear_record_shade(struct smear_color *color, const struct smear_assembly *
 {
     const smear_mesh *mesh = d->mesh;
     uint32_t cosine = face_cosine;
-    if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL) {
-        const int8_t *n = mesh->normal + 3 * index;
-        if (flip) {
-            const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
-                                     (int8_t)-max_i32(n[2], -127) };
-            cosine = smear_light_normal(&d->shading, back);
-        } else {
-            cosine = smear_light_normal(&d->shading, n);
-        }
-    }
+    if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL)
+        cosine = cosine_at(d, index, flip);
     smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
                 cosine);
 }
@@ -70,7 +110,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
     struct smear_color color;
-    smear_shade(&color, &d->shading, NULL, face->color, face->cosine);
+    smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
     return smear_color_pack(&color, shading_is_linear(&d->shading));
 }
 
@@ -106,12 +146,16 @@ bool smear_record_level(uint32_t *color, const struct smear_segment *s, const in
 
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
 {
-    struct smear_face face = { back, NULL, 65536u };
+    struct smear_face face = { back, NULL, NULL, 65536u };
+    const uint16_t *index = d->mesh->index + 3 * triangle;
     if (d->mesh->face_color != NULL)
         face.color = d->mesh->face_color + 4 * triangle;
-    if (d->shading.lit && d->mesh->normal == NULL) {
+    if (is_level(d) && d->mesh->color != NULL)
+        face.vertex_color = d->mesh->color + 4 * index[0];
+    if (is_level(d) && d->shading.lit && d->mesh->normal != NULL) {
+        face.cosine = cosine_at(d, index[0], back);
+    } else if (d->shading.lit && d->mesh->normal == NULL) {
         const int16_t *p = d->at.position;
-        const uint16_t *index = d->mesh->index + 3 * triangle;
         face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
                                        p + 3 * index[back ? 1 : 2]);
     }

@@ -14,9 +14,11 @@
 struct smear_cached_vertex {
     uint32_t tag;                   /* draw serial << 16 | vertex index */
     uint32_t stored;                /* its record in the pool: word + 1, or 0 */
-    struct smear_homogeneous now;
     struct smear_screen screen;
     int32_t outcode;
+#if !SMEAR_FAST_STACK               /* else made again where it is needed */
+    struct smear_homogeneous now;
+#endif
 };
 
 struct smear_assembler {
@@ -50,6 +52,7 @@ struct smear_assembly {
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool level;                         /* triangles have one colour each, though vertices have normals or colours */
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
@@ -63,28 +66,27 @@ struct smear_assembly {
     struct smear_shading shading;
 };
 
+/* Adds the further terms. */
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
+
+static inline bool is_level(const struct smear_assembly *d) { return SMEAR_LEVELS && d->level; }
+
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
                                        uint32_t index)
 {
-    smear_transform_vertex(h, &p->now, p->position + 3 * index);
-    for (int i = 0; SMEAR_WITH_DEFORM && i < p->extra_count; i++) {
-        struct smear_homogeneous term;
-        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
-        h->x += term.x;
-        h->y += term.y;
-        h->w += term.w;
-        h->distance += term.distance;
-    }
+    transform_vertex(h, &p->now, p->position + 3 * index);
+    if (SMEAR_WITH_DEFORM && p->extra_count != 0)
+        smear_placement_add(h, p, index);
 }
 
 /* A vertex in a pose of the assembly. */
 static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
                                   uint32_t index)
 {
-    smear_transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+    transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
     if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
         struct smear_homogeneous rest;
-        smear_transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
+        transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
         h->x += rest.x;
         h->y += rest.y;
         h->w += rest.w;
@@ -99,7 +101,7 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
 {
     placement_transform(h, p, index);
     if (h->distance < p->now.near_distance)
-        return OUT_NEAR | outcode_behind(h, viewport);
+        return OUT_NEAR | smear_outcode_behind(h, viewport);
     project(screen, &p->now, h, viewport);
     int code = outcode_sides(screen, viewport);
     return h->distance > p->now.far_distance ? code | OUT_FAR : code;
@@ -126,6 +128,10 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
     *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
 }
 
+/* Whether what vertices have of their own (normals where it is lit, colours) is the same within every
+ * triangle: as faces that are flat come out of modelling programs. */
+bool smear_record_is_level(const smear_mesh *mesh, bool lit);
+
 /* Starts a segment for more records of this draw; null when the table is full. */
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d);
 
@@ -143,6 +149,7 @@ bool smear_record_level(uint32_t *color, const struct smear_segment *s, const in
 struct smear_face {
     bool back;                  /* seen from behind: double-sided */
     const uint8_t *color;
+    const uint8_t *vertex_color;        /* of all three vertices, where the draw is level */
     uint32_t cosine;            /* flat light */
 };
 
@@ -210,7 +217,7 @@ static inline bool is_blend(const struct smear_assembly *d)
 /* Vertices cannot be shared when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
-    return !segment_colored(s)
+    return !segment_by_vertices(s)
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 

@@ -30,6 +30,7 @@ try() {
 
 switches=$(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_config.h | grep -v _ALL)
 try everything
+try fast-stack -DSMEAR_FAST_STACK=1
 for switch in $switches; do
     case $switch in     # what cannot be without it
     SMEAR_WITH_SUBFRAMES) try "$switch" -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 ;;

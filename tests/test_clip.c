@@ -79,6 +79,19 @@ static int codes_of(const struct smear_clip_vertex *v, const struct smear_projec
     return code;
 }
 
+/* Clips the triangle of v[0 .. 2]; returns how many corners it has then. */
+static int clip(struct smear_clip_vertex v[SMEAR_CLIP_MAX], const struct smear_projection *p, int codes)
+{
+    struct smear_clip_polygon polygon;
+    for (int i = 0; i < 3; i++)
+        polygon.vertex[i] = v[i];
+    smear_clip_start(&polygon, CLIP_POSES, true, true);
+    smear_clip_polygon(&polygon, p, codes);
+    for (int i = 0; i < polygon.count && i < SMEAR_CLIP_MAX; i++)
+        v[i] = *clip_corner(&polygon, i);
+    return polygon.count;
+}
+
 static bool same_homogeneous(const struct smear_homogeneous *a, const struct smear_homogeneous *b)
 {
     return a->x == b->x && a->y == b->y && a->w == b->w && a->distance == b->distance;
@@ -108,7 +121,7 @@ static void test_what_lies_inside_is_left_alone(void)
             int32_t w = between(NEAR_AT, FAR_AT);
             v[i] = before[i] = vertex_within(w, 200, false);
         }
-        CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_NEAR | OUT_FAR | OUT_GUARD, CLIP_POSES), 3);
+        CHECK_EQ(clip(v, &p, OUT_NEAR | OUT_FAR | OUT_GUARD), 3);
         for (int i = 0; i < 3; i++)
             if (!CHECK(same_vertex(&v[i], &before[i])))
                 return;
@@ -123,10 +136,10 @@ static void test_only_the_planes_named_by_the_codes_cut(void)
     v[0] = vertex_at(0, 0, FAR_AT * 2, false);
     v[1] = vertex_at(100, 0, NEAR_AT / 2, false);
     v[2] = vertex_at(0, 100, NEAR_AT * 2, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, 0, CLIP_POSES), 3);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM, CLIP_POSES), 3);
+    CHECK_EQ(clip(v, &p, 0), 3);
+    CHECK_EQ(clip(v, &p, OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM), 3);
     CHECK_EQ(v[0].now.distance, FAR_AT * 2);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_FAR, CLIP_POSES), 4);
+    CHECK_EQ(clip(v, &p, OUT_FAR), 4);
 }
 
 static void test_what_lies_outside_is_gone(void)
@@ -136,13 +149,13 @@ static void test_what_lies_outside_is_gone(void)
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
     for (int i = 0; i < 3; i++)
         v[i] = vertex_at(i * 100, i * i * 100, NEAR_AT - 1 - i, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_NEAR, CLIP_POSES), 0);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 0);
     for (int i = 0; i < 3; i++)
         v[i] = vertex_at(i * 100, i * i * 100, FAR_AT + 1 + i, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_FAR, CLIP_POSES), 0);
+    CHECK_EQ(clip(v, &p, OUT_FAR), 0);
     for (int i = 0; i < 3; i++)
         v[i] = vertex_at(NEAR_AT * (SMEAR_GUARD_PX + 1 + i), i * 100, NEAR_AT, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_GUARD, CLIP_POSES), 0);
+    CHECK_EQ(clip(v, &p, OUT_GUARD), 0);
 }
 
 static void test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three(void)
@@ -153,11 +166,11 @@ static void test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three(void)
     v[0] = vertex_at(0, 0, NEAR_AT / 2, false);
     v[1] = vertex_at(1000, 0, NEAR_AT * 2, false);
     v[2] = vertex_at(0, 1000, NEAR_AT * 2, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_NEAR, CLIP_POSES), 4);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 4);
     v[0] = vertex_at(0, 0, NEAR_AT / 2, false);
     v[1] = vertex_at(1000, 0, NEAR_AT / 2, false);
     v[2] = vertex_at(0, 1000, NEAR_AT * 2, false);
-    CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_NEAR, CLIP_POSES), 3);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 3);
     CHECK_EQ(v[0].now.distance == NEAR_AT ? v[1].now.distance : v[0].now.distance, NEAR_AT * 2);
 }
 
@@ -171,7 +184,7 @@ static void test_a_plane_cuts_at_its_place(void)
         v[0] = a = vertex_within(NEAR_AT / 2, 50, false);
         v[1] = b = vertex_within(3 * NEAR_AT / 2, 16, false);
         v[2] = vertex_at(0, 0, 2 * NEAR_AT, false);
-        if (!CHECK_EQ(smear_clip_polygon(v, 3, &p, OUT_NEAR, CLIP_POSES), 4))
+        if (!CHECK_EQ(clip(v, &p, OUT_NEAR), 4))
             return;
         /* Walked from vertex 0, which is out: the first new one lies between 0 and 1. */
         CHECK_EQ(v[0].now.w, NEAR_AT);
@@ -203,7 +216,7 @@ static void test_other_poses_are_cut_at_the_same_place_of_the_surface(void)
             }
             codes |= codes_of(&v[i], &p);
         }
-        int count = smear_clip_polygon(v, 3, &p, codes, CLIP_POSES);
+        int count = clip(v, &p, codes);
         for (int i = 0; i < count; i++)
             for (int pose = 0; pose < 2; pose++)
                 if (!CHECK_EQ(v[i].pose[pose].x - v[i].now.x, 1000 + pose)
@@ -230,7 +243,7 @@ static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_cl
     for (int i = 0; i < 3; i++)
         v[i] = *corner[(turn < 3 ? i + turn : 2 * i + turn) % 3];
     int codes = codes_of(&a, p) | codes_of(&b, p) | codes_of(&c, p);
-    int count = smear_clip_polygon(v, 3, p, codes, CLIP_POSES), found = 0;
+    int count = clip(v, p, codes), found = 0;
     CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX));
     for (int i = 0; i < count; i++) {
         if (v[i].pose[1].distance != 0)
@@ -291,7 +304,7 @@ static void test_nothing_is_left_outside(void)
             v[i] = random_vertex(p.orthographic);
             codes |= codes_of(&v[i], &p);
         }
-        int count = smear_clip_polygon(v, 3, &p, codes, CLIP_POSES);
+        int count = clip(v, &p, codes);
         if (!CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX)))
             return;
         most = count > most ? count : most;
@@ -322,7 +335,7 @@ static void test_attributes_stay_between_their_corners(void)
             low = low < v[i].uv[0] ? low : v[i].uv[0];
             high = high > v[i].uv[0] ? high : v[i].uv[0];
         }
-        int count = smear_clip_polygon(v, 3, &p, codes, CLIP_POSES);
+        int count = clip(v, &p, codes);
         for (int i = 0; i < count; i++) {
             if (!CHECK(v[i].uv[0] >= low && v[i].uv[0] <= high))
                 return;
@@ -348,7 +361,7 @@ static void test_a_cut_keeps_the_order_of_the_corners(void)
         }
         int64_t before = (int64_t)(v[1].now.x - v[0].now.x) * (v[2].now.y - v[0].now.y)
                        - (int64_t)(v[2].now.x - v[0].now.x) * (v[1].now.y - v[0].now.y);
-        int count = smear_clip_polygon(v, 3, &p, codes, CLIP_POSES);
+        int count = clip(v, &p, codes);
         int64_t after = 0;
         for (int i = 2; i < count; i++)
             after += (int64_t)(v[i - 1].now.x - v[0].now.x) * (v[i].now.y - v[0].now.y)

@@ -10,6 +10,8 @@
 
 void suite_light(void);
 
+static const smear_material plain = { 0 };
+
 static uint32_t random_state;
 
 static uint32_t random_u32(void)
@@ -111,7 +113,7 @@ static struct smear_shading shading_of(const double m[9])
 {
     struct smear_shading s;
     const smear_transform t = transform_of(m);
-    smear_shading_make(&s, &t, NULL, true);
+    smear_shading_make(&s, &t, &plain, true, true);
     return s;
 }
 
@@ -245,7 +247,7 @@ static void test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm(voi
         for (int i = 0; i < 9; i++)
             t.basis[i] = n < 6 ? value[n] : value[between(0, 5)];
         struct smear_shading s;
-        smear_shading_make(&s, &t, NULL, n & 1);
+        smear_shading_make(&s, &t, &plain, true, n & 1);
         CHECK(smear_light_face(&s, p[n % 4], p[n / 4 % 4], p[n / 16 % 4]) <= 65536);
         const int8_t normal[3] = { (int8_t)between(-128, 127), (int8_t)between(-128, 127), (int8_t)between(-128, 127) };
         if (!CHECK(smear_light_normal(&s, normal) <= 65536))
@@ -283,7 +285,7 @@ static void test_colours_are_products_in_linear_light(void)
         bool linear = n & 1, has_color = n & 2, has_face = n & 4;
         struct smear_shading s;
         struct smear_color out;
-        smear_shading_make(&s, &t, &material, linear);
+        smear_shading_make(&s, &t, &material, true, linear);
         uint32_t cosine = (uint32_t)between(0, 65536);
         smear_shade(&out, &s, has_color ? color : NULL, has_face ? face : NULL, cosine);
         double factor = material.unlit ? 1 : 0.30 + 0.70 * cosine / 65536;
@@ -318,7 +320,7 @@ static void test_white_stays_white_and_codes_pass_unchanged(void)
         const smear_material unlit = { .unlit = 1 };
         struct smear_shading s;
         struct smear_color out;
-        smear_shading_make(&s, &t, &unlit, linear);
+        smear_shading_make(&s, &t, &unlit, true, linear);
         smear_shade(&out, &s, NULL, NULL, 0);
         CHECK_EQ(smear_color_pack(&out, linear), 0xffffffffu);
         for (int code = 0; code < 256; code++) {
@@ -330,7 +332,7 @@ static void test_white_stays_white_and_codes_pass_unchanged(void)
             CHECK_EQ(smear_color_pack(&out, linear), want);
             const smear_material factor = { .unlit = 1, .color = { color[0], color[1], color[2], 255 } };
             struct smear_shading colored;
-            smear_shading_make(&colored, &t, &factor, linear);
+            smear_shading_make(&colored, &t, &factor, true, linear);
             smear_shade(&out, &colored, NULL, NULL, 65536);
             CHECK_EQ(smear_color_pack(&out, linear), want | 0xff000000u);
         }
@@ -342,7 +344,7 @@ static void test_ambient_light_is_three_tenths(void)
     const smear_transform t = SMEAR_IDENTITY;
     struct smear_shading s;
     struct smear_color out;
-    smear_shading_make(&s, &t, NULL, true);
+    smear_shading_make(&s, &t, &plain, true, true);
     smear_shade(&out, &s, NULL, NULL, 0);
     CHECK_NEAR(out.channel[0], 19661, 2);
     smear_shade(&out, &s, NULL, NULL, 65536);

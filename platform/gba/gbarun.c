@@ -53,11 +53,11 @@ static void take_log(struct mLogger *logger, int category, enum mLogLevel level,
     printf("%s\n", text);
 }
 
-/* --- profile: one slot per word of ROM (256 kB), fast (and its first mirror) and slow memory --- */
+/* --- profile: one slot per word of ROM (256 kB), fast (and its first mirror), slow and video memory --- */
 
-enum { BANKS = 3, SLOTS = 65536 };
+enum { BANKS = 4, SLOTS = 65536 };
 static struct { uint64_t cycles, count; } profile[BANKS][SLOTS];
-static const uint32_t bank_base[BANKS] = { 0x08000000u, 0x03000000u, 0x02000000u };
+static const uint32_t bank_base[BANKS] = { 0x08000000u, 0x03000000u, 0x02000000u, 0x06000000u };
 
 static void step_frame(struct mCore *core)
 {

@@ -23,10 +23,12 @@ extern uint8_t link_fast_end[], link_assemble_load[], link_assemble_size[], link
 
 void gba_enter_stage(int stage)
 {
+    static int entered = GBA_STAGE_DRAW;        /* start.S */
     const bool draws = stage == GBA_STAGE_DRAW;
     const uint32_t words = (uint32_t)(draws ? link_draw_size : link_assemble_size) / 4;
-    if (words == 0)
+    if (words == 0 || stage == entered)
         return;
+    entered = stage;
     GBA_DMA3_FROM = (uint32_t)(draws ? link_draw_load : link_assemble_load);
     GBA_DMA3_TO = (uint32_t)link_fast_end;
     GBA_DMA3_CONTROL = 0x84000000u | words;

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # stages.sh LIBRARY.a
-# Prints "NAME STAGE" for every function of the library, by its relocations: "assemble" where only assemble_rows() leads to
-# it, "draw" where assemble_rows() does not, "both". NAME is without what the compiler puts behind a dot; functions of one
+# Prints "NAME STAGE" for every function of the library, by its relocations: "assemble" where only functions that
+# enter that stage lead to it, or those called there, "draw" where these do not, "both". NAME is without what the compiler puts behind a dot; functions of one
 # name are one.
 set -u
 cat include/*.h | grep -o 'smear_[a-z_0-9]*(' | tr -d '(' | sort -u | sed 's/^/R /' >"$1.roots"
@@ -15,11 +15,12 @@ arm-none-eabi-objdump -r "$1" | cat "$1.roots" "$1.symbols" - | awk '
         }
         return section
     }
+    BEGIN { assembles["assemble_rows"]; assembles["find_layers"]; assembles["prepare"] }
     function walk(from, mark, seen,    stack, top, n, i, next_one) {
         stack[top = 1] = from
         while (top > 0) {
             from = stack[top--]
-            if (from in seen || (mark == "draw" && from == "assemble_rows"))
+            if (from in seen || (mark == "draw" && from in assembles))
                 continue
             seen[from] = 1
             n = edges[from]
@@ -40,7 +41,8 @@ arm-none-eabi-objdump -r "$1" | cat "$1.roots" "$1.symbols" - | awk '
         }
         for (name in home)
             all[home[name]] = 1
-        walk("assemble_rows", "assemble", in_assemble)
+        for (name in assembles)
+            walk(name, "assemble", in_assemble)
         for (name in root)
             walk(name, "draw", in_draw)
         for (name in all)

@@ -48,6 +48,10 @@ boot:
     ldr     r2, =link_draw_size
     add     r2, r2, r1
     bl      copy
+    ldr     r0, =link_warm_load
+    ldr     r1, =link_warm_start
+    ldr     r2, =link_warm_end
+    bl      copy
     ldr     r1, =link_bss_start
     ldr     r2, =link_bss_end
     mov     r3, #0
