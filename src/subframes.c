@@ -218,6 +218,19 @@ static inline struct range place(struct posed *p, int axis, int32_t u, int32_t m
     return r;
 }
 
+static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)
+{
+    const int32_t x1 = b[VERTEX_X] - a[VERTEX_X], y1 = b[VERTEX_Y] - a[VERTEX_Y];
+    const int32_t x2 = c[VERTEX_X] - a[VERTEX_X], y2 = c[VERTEX_Y] - a[VERTEX_Y];
+#if !SMEAR_HAS_MUL64
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small))
+        < 2 * small)
+        return x1 * y2 <= x2 * y1;
+#endif
+    return (int64_t)x1 * y2 <= (int64_t)x2 * y1;
+}
+
 /* False where the triangle is not seen in the tile at this time: elsewhere, or turned away. */
 static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time)
 {
@@ -245,9 +258,7 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
     p->box = (struct box){ x.low, y.low, x.high, y.high };
     if (!s->path)
         return true;
-    int32_t *a = p->record[0], *b = p->record[1], *c = p->record[2];
-    if ((int64_t)(b[VERTEX_X] - a[VERTEX_X]) * (c[VERTEX_Y] - a[VERTEX_Y])
-        <= (int64_t)(c[VERTEX_X] - a[VERTEX_X]) * (b[VERTEX_Y] - a[VERTEX_Y]))
+    if (is_turned_away(p->record[0], p->record[1], p->record[2]))
         return false;
     for (int i = 0; i < 3; i++) {
         const int32_t *v = p->v[i], *open = v + s->motion, *close = open + PATH_POSE_WORDS;
@@ -436,12 +447,17 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
     }
 #endif
-    for (; i < n; i++) {
-        uint32_t c = color[i], behind = still[i];
-        if (((c ^ behind) | all) != 0) {
+    /* Pixels have no alpha. Counted up to 0: few registers are enough. */
+    color += n;
+    still += n;
+    rb += n;
+    gn += n;
+    for (i -= n; i != 0; i++) {
+        const uint32_t c = color[i], behind = still[i];
+        if (c != behind || all) {
+            color[i] = behind;
             rb[i] += c & 0xff00ffu;
             gn[i] += (c >> 8 & 0xffu) + 0x10000u;
-            color[i] = behind;
         }
     }
 }
