@@ -237,6 +237,7 @@ SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_
                                 bool is_555, bool swapped)
 {
     struct ordered o = { in < end ? ~*in : 0, 0, 0 };
+#if defined(__ARM_ARCH_6M__)        /* with few registers, a place of its own for each step */
     for (; end - in >= ORDERED_WIDTH; in += ORDERED_WIDTH, out += ORDERED_WIDTH) {
         ordered_pixel(out, in[0], step[0], &o, is_555, swapped);
         ordered_pixel(out + 1, in[1], step[1], &o, is_555, swapped);
@@ -247,8 +248,9 @@ SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_
         ordered_pixel(out + 6, in[6], step[6], &o, is_555, swapped);
         ordered_pixel(out + 7, in[7], step[7], &o, is_555, swapped);
     }
-    for (; in < end; in++, out++, step++)
-        ordered_pixel(out, *in, *step, &o, is_555, swapped);
+#endif
+    for (uint32_t i = 0; in < end; in++, i = (i + 1) % ORDERED_WIDTH)
+        ordered_pixel(out++, *in, step[i], &o, is_555, swapped);
 }
 
 typedef void ordered_fn(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step);
