@@ -378,17 +378,70 @@ static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
         out[i] = (uint8_t)luma(in[i]);
 }
 
+static inline uint32_t grey_q16(uint32_t p, bool dithered)
+{
+    return dithered ? level_q16(luma(p), 15) : level_nearest(luma(p), 15) << 16;
+}
+
+#ifndef __OPTIMIZE_SIZE__
+/* Two pixels of a byte. */
+SMEAR_INLINE void l4_pair(uint8_t *out, const uint32_t *in, const uint32_t *step, uint32_t *last, uint32_t *grey,
+                          bool dithered)
+{
+    const uint32_t left = in[0], right = in[1];
+    if (left != *last)
+        *grey = grey_q16(left, dithered);
+    const uint32_t upper = (*grey + step[0]) >> 16 << 4;
+    if (right != left)
+        *grey = grey_q16(right, dithered);
+    *last = right;
+    *out = (uint8_t)(upper | (*grey + step[1]) >> 16);
+}
+
+/* Ordered dither, or none; x is a multiple of eight. A flat block of columns looks like the last one of its colour. */
+static SMEAR_NOINLINE void row_l4_blocks(uint8_t *out, const uint32_t *in, int32_t n, int32_t y, bool dithered)
+{
+    uint32_t step[ORDERED_WIDTH], last = ~*in, grey = 0, flat = last;
+    uint8_t block[ORDERED_WIDTH / 2] = { 0 };
+    for (int i = 0; i < ORDERED_WIDTH; i++)
+        step[i] = dithered ? (uint32_t)smear_dither_ordered[(y & 7) << 3 | i] << 8 : 0;
+    for (; n >= ORDERED_WIDTH; n -= ORDERED_WIDTH, in += ORDERED_WIDTH, out += sizeof block) {
+        const bool is_flat = is_flat_block(in);
+        if (is_flat && *in == flat) {
+            __builtin_memcpy(out, block, sizeof block);
+            continue;
+        }
+        for (int i = 0; i < ORDERED_WIDTH; i += 2)
+            l4_pair(out + i / 2, in + i, step + i, &last, &grey, dithered);
+        if (is_flat) {
+            flat = *in;
+            __builtin_memcpy(block, out, sizeof block);
+        }
+    }
+    for (int32_t i = 0; i + 1 < n; i += 2)
+        l4_pair(out + i / 2, in + i, step + i, &last, &grey, dithered);
+    if ((n & 1) != 0)
+        out[n / 2] = (uint8_t)((grey_q16(in[n - 1], dithered) + step[n - 1]) >> 16 << 4);
+}
+#endif
+
 static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
 {
     int32_t mask;
-    const uint8_t *threshold = thresholds_of(y, dither, &mask);
     const bool dithered = is_dithered(dither);
+#ifndef __OPTIMIZE_SIZE__
+    if (n > 0 && (!SMEAR_WITH_BLUE_DITHER || dither != SMEAR_DITHER_BLUE)) {
+        row_l4_blocks(row + x / 2, in, n, y, dithered);
+        return;
+    }
+#endif
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
     uint32_t last = ~*in, grey = 0, left = 0;
     uint8_t *pair = row + x / 2;
     for (int32_t i = 0; i < n; i++) {
         if (in[i] != last) {
             last = in[i];
-            grey = dithered ? level_q16(luma(last), 15) : level_nearest(luma(last), 15) << 16;
+            grey = grey_q16(last, dithered);
         }
         uint32_t level = (grey + (dithered ? (uint32_t)threshold[(x + i) & mask] << 8 : 0u)) >> 16;
         if (((x + i) & 1) != 0) {
