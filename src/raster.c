@@ -142,15 +142,41 @@ struct edge_walk {
     int32_t dy;
 };
 
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+/* divide_floor of what is known nearly. */
+static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *remainder)
+{
+    int32_t r = a - q * b;
+    for (; r < 0; r += b)
+        q--;
+    for (; r >= b; r -= b)
+        q++;
+    *remainder = r;
+    return q;
+}
+#endif
+
 /* From a down to b (b below a), starting at pixel row y, whose centre lies at or below a. */
 static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y)
 {
-    int32_t dx = b[VERTEX_X] - a[VERTEX_X];
-    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
-    e->step = divide_floor(dx * 256, e->dy, &e->step_rest);     /* |dx| <= 2^20 */
+    int32_t dx = b[VERTEX_X] - a[VERTEX_X];                     /* |dx| <= 2^20 */
     int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
     int32_t down = first * 256 + 128 - a[VERTEX_Y];             /* 0 .. 255 */
-    e->x = a[VERTEX_X] + 127 + divide_floor(dx * down, e->dy, &e->rest);
+    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
+    e->x = a[VERTEX_X] + 127;
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+    if (e->dy >= 4 && (uint32_t)abs_i32(dx) < min_u32((uint32_t)e->dy * 32u, 1u << 15)) {
+        /* 1/dy = recip 2^(zeros - 46), good to 2^-14: quotients are off by less than two */
+        const int zeros = count_leading_zeros((uint32_t)e->dy), shift = 38 - zeros;
+        const int32_t over = dx * (int32_t)(recip_norm((uint32_t)e->dy << zeros) >> 15);
+        e->step = divide_near(over >> shift, dx * 256, e->dy, &e->step_rest);
+        e->x += divide_near((over >> 8) * down >> shift, dx * down, e->dy, &e->rest);
+    } else
+#endif
+    {
+        e->step = divide_floor(dx * 256, e->dy, &e->step_rest);
+        e->x += divide_floor(dx * down, e->dy, &e->rest);
+    }
     uint32_t rows = (uint32_t)(y - first);
     if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
         uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;

@@ -595,16 +595,8 @@ TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, 
 
 /* ------------------------------------------------------------------ pieces */
 
-/* A part of a row: pixels [a, b), and depth codes 16.16 from pixel 0 on. */
-struct piece {
-    int32_t a, b;
-    uint32_t z, dz;
-};
-
-/* The next piece of a row [left, right) after pixel a: within the target's columns and one slope of the depth
- * code. False when there is none. Writes its velocities. */
-static SMEAR_NOINLINE bool piece_next(struct piece *p, const struct setup *s, const struct span_rows *r,
-                                      int32_t row, int32_t a)
+SMEAR_NOINLINE bool smear_rows_piece(struct rows_piece *p, const struct setup *s, const struct span_rows *r,
+                                     int32_t row, int32_t a)
 {
     int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
     enum depth_slope slope = s->slope;
@@ -656,14 +648,14 @@ static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i
 /* Pixels [from, end) of a row, which are a block; some may lie outside the
  * piece. False when no more are to be drawn. */
 static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
-                                             struct texel_run *run, struct piece *p, int32_t from,
+                                             struct texel_run *run, struct rows_piece *p, int32_t from,
                                              int32_t end)
 {
     for (int32_t x = from;; x = p->a) {
         run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
         if (p->b >= end)
             return true;
-        if (!piece_next(p, s, r, row, p->b))
+        if (!smear_rows_piece(p, s, r, row, p->b))
             return false;
         run->dz = p->dz;
         run->z = p->z + p->dz * (uint32_t)p->a;
@@ -671,11 +663,6 @@ static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct
 }
 
 /* ------------------------------------------------------------------ rows */
-
-static inline bool is_plain(const struct setup *s, const struct span_rows *r)
-{
-    return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
-}
 
 /* Numbers of rows. */
 struct row_list {
@@ -692,17 +679,17 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
     const enum texels kind = texels_of(s, lit);
-    const bool narrow = are_narrow(kind), plain = is_plain(s, r);
+    const bool narrow = are_narrow(kind), plain = rows_are_plain(s, r);
     const int up = t->up, log2_width = m->log2_width, log2_height = m->log2_height;
     const void *const texels = m->texels;
-    struct piece p;
+    struct rows_piece p;
     p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     for (int32_t i = 0; i < list->count; i++) {
         const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
         p.a = r->side[row].left;
         p.b = r->side[row].right;
         p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
-        if (!plain && !piece_next(&p, s, r, row, p.a))
+        if (!plain && !smear_rows_piece(&p, s, r, row, p.a))
             continue;
         do {
             int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y),
@@ -723,7 +710,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 u = add_wrap(u, t->uv[0].dx);
                 v = add_wrap(v, t->uv[1].dx);
             }
-        } while (!plain && piece_next(&p, s, r, row, p.b));
+        } while (!plain && smear_rows_piece(&p, s, r, row, p.b));
     }
 }
 
@@ -735,7 +722,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
-    const bool plain = is_plain(s, r);
+    const bool plain = rows_are_plain(s, r);
     struct track k;
     uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
@@ -745,7 +732,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
-        struct piece p;
+        struct rows_piece p;
         if (right - left <= least) {
             *next_quotient = (uint8_t)row;
             next_quotient += left < right;
@@ -755,7 +742,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         if (plain) {
             k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
         } else {
-            if (!piece_next(&p, s, r, row, left))
+            if (!smear_rows_piece(&p, s, r, row, left))
                 continue;
             x = block_start(left, right - 1, p.a, block);
             least_rest = x < p.a ? INT32_MAX : right - 1 - p.b;
@@ -840,7 +827,7 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
             dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
     uv_pair place = uv_add(uv_make(cu->at, cv->at), uv_times(dy, y));
     dy = uv_add(dy, uv_times(dyy, y + 1));
-    const bool plain = is_plain(s, r);
+    const bool plain = rows_are_plain(s, r);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                                       : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
@@ -855,8 +842,8 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
         const int32_t left = side->left, n = side->right - left, x = left - x0,
                       row = (int32_t)(side - r->side);
-        struct piece p;
-        if (n > 0 && (plain || piece_next(&p, s, r, row, left))) {
+        struct rows_piece p;
+        if (n > 0 && (plain || smear_rows_piece(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
             run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
                      uv_add(dx, uv_add(along, uv_add(along, dxx))), bend);
@@ -926,7 +913,9 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
     const struct smear_sampler *t = &s->draw->sampler;
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
-    if (s->segment->uv == 0 || s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
+    if (s->segment->uv == 0)
+        return draw_is_opaque(s->draw) && segment_gouraud(s->segment) ? smear_rows_shade : NULL;
+    if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
         || t->log2_height == 0)
         return NULL;
     if (s->segment->shade != SHADE_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {

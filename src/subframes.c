@@ -125,13 +125,17 @@ static inline int32_t work_row(const struct subframes *f, const struct box *b, i
     return (y - f->t->still.y0) * f->t->pitch + (b->x0 - f->t->still.x0);
 }
 
+/* In whole words, where tiles begin with them. */
 static void restore_depth(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    for (int32_t y = b->y0; y < b->y1; y++)
-        __builtin_memcpy(f->work.depth + work_row(f, b, y),
-                         s->depth + still_row(s, &s->window_rows, y) + b->x0,
-                         (size_t)(b->x1 - b->x0) * sizeof *s->depth);
+    struct box wide = *b;
+    wide.x0 -= (wide.x0 - s->x0) & 1;
+    wide.x1 = min_i32(wide.x1 + ((wide.x1 - s->x0) & 1), s->x1);
+    for (int32_t y = wide.y0; y < wide.y1; y++)
+        __builtin_memcpy(f->work.depth + work_row(f, &wide, y),
+                         s->depth + still_row(s, &s->window_rows, y) + wide.x0,
+                         (size_t)(wide.x1 - wide.x0) * sizeof *s->depth);
 }
 
 static void copy_color(const struct subframes *f, const struct box *b)
