@@ -443,7 +443,9 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
     const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t stride = t->window_rows.stride;
-    uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
+    const bool bends = s->slope == SLOPE_BOTH;
+    int32_t units = plane_at(&s->depth, 0, d.y);
+    uint32_t z = code_from_units(units, s->slope);
     int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
     if (slot >= t->window_rows.ring)
         slot -= t->window_rows.ring;
@@ -458,7 +460,7 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
         slot += n;
         if (slot == t->window_rows.ring)
             slot = 0;
-        for (; n > 0; n--, at += stride, z += dz_down) {
+        for (; n > 0; n--, at += stride, z += dz_down, units = add_wrap(units, s->depth.dy)) {
             int32_t a = edge_pixel(&left), b = edge_pixel(&right);
             edge_step(&left);
             edge_step(&right);
@@ -468,10 +470,19 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
             }
             if (a >= b)
                 continue;
-            if (s->slope == SLOPE_BOTH)
-                row_flat_bent(s, y - n, at, a, b);
-            else
-                run_flat_at(t, at + a, b - a, z + dz * (uint32_t)a, dz, color);
+            uint32_t first = z + dz * (uint32_t)a, step = dz;
+            if (bends) {
+                const int32_t here = add_wrap(units, mul_wrap(s->depth.dx, a)),
+                              last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
+                const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+                if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
+                    row_flat_bent(s, y - n, at, a, b);
+                    continue;
+                }
+                first = code_from_units(here, slope);
+                step = (uint32_t)step_from_units(s->depth.dx, slope);
+            }
+            run_flat_at(t, at + a, b - a, first, step, color);
         }
         d.left = left;
         d.right = right;
@@ -712,16 +723,11 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
                                          const struct smear_segment *segment, uint32_t color,
-                                         uint32_t triangle, const int32_t *const v[3], bool *moved)
+                                         uint32_t triangle, const int32_t *const v[3],
+                                         const struct bounds *box, bool *moved)
 {
-    const struct bounds box = {
-        min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-        min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
-        max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-        max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]))
-    };
-    const int32_t left = (box.x0 + 127) >> 8, right = (box.x1 + 127) >> 8;
-    int32_t top = (box.y0 + 127) >> 8, bottom = (box.y1 + 127) >> 8;
+    const int32_t left = (box->x0 + 127) >> 8, right = (box->x1 + 127) >> 8;
+    int32_t top = (box->y0 + 127) >> 8, bottom = (box->y1 + 127) >> 8;
     const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
@@ -749,7 +755,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         s->color = color;
         for (int i = 0; i < 3; i++)
             s->v[i] = v[i];
-        s->bounds = box;
+        s->bounds = *box;
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
     s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
@@ -809,13 +815,20 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
-        draw_triangle(frame, target, segment, t->color, number, v, &moved);
+        const struct bounds bounds = {
+            min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+            min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
+            max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+            max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]))
+        };
+        draw_triangle(frame, target, segment, t->color, number, v, &bounds, &moved);
     }
 }
 
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
+                           const struct bounds *bounds)
 {
     bool moved = false;
-    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, &moved);
+    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
 }

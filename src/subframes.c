@@ -187,6 +187,7 @@ struct posed {
     const struct smear_segment *segment;
     uint32_t color;
     const int32_t *v[3];
+    struct bounds bounds;       /* of the vertices */
     struct box box;             /* within the tile */
     int32_t record[3][RECORD_WORDS];
 };
@@ -216,10 +217,11 @@ static inline struct range place(struct posed *p, int axis, int32_t u, int32_t m
         p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS],
                                              u);
     struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
-    if (r.low < middle - guard || r.high > middle + guard)
-        for (int i = 0; i < 3; i++)
-            p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
-    return r;
+    if (r.low >= middle - guard && r.high <= middle + guard)
+        return r;
+    for (int i = 0; i < 3; i++)
+        p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
+    return range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
 }
 
 static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)
@@ -249,17 +251,18 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
     for (int i = 0; i < 3; i++)
         p->v[i] = geometry_vertex(frame->geometry, s, t->vertex[i]);
     const int32_t u = path_phase(time);
-    struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
-                             : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
-    x = pixels_of(x, tile->x0, tile->x1);
-    if (x.low >= x.high)
+    const struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
+                                   : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
+    const struct range columns = pixels_of(x, tile->x0, tile->x1);
+    if (columns.low >= columns.high)
         return false;
-    struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
-                             : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
-    y = pixels_of(y, tile->y0, tile->y1);
-    if (y.low >= y.high)
+    const struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
+                                   : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    const struct range rows = pixels_of(y, tile->y0, tile->y1);
+    if (rows.low >= rows.high)
         return false;
-    p->box = (struct box){ x.low, y.low, x.high, y.high };
+    p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+    p->box = (struct box){ columns.low, rows.low, columns.high, rows.high };
     if (!s->path)
         return true;
     if (is_turned_away(p->record[0], p->record[1], p->record[2]))
@@ -278,7 +281,7 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
 static inline void draw(const struct posed *p, const struct subframes *f,
                         const struct smear_raster_target *target)
 {
-    smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v);
+    smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v, &p->bounds);
 }
 
 /* ------------------------------------------------------------------ lists of the tile */
