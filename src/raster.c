@@ -433,8 +433,9 @@ static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32
 }
 
 /* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth
- * of opaque draws lie in the window's rows alike. `cut`: the target's columns cut rows off. */
-SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
+ * of opaque draws lie in the window's rows alike. `cut`: the target's columns may cut rows off;
+ * `bends`: depth codes may bend. */
+SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool bends)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
@@ -443,7 +444,6 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
     const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t stride = t->window_rows.stride;
-    const bool bends = s->slope == SLOPE_BOTH;
     int32_t units = plane_at(&s->depth, 0, d.y);
     uint32_t z = code_from_units(units, s->slope);
     int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
@@ -460,19 +460,23 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
         slot += n;
         if (slot == t->window_rows.ring)
             slot = 0;
-        for (; n > 0; n--, at += stride, z += dz_down, units = add_wrap(units, s->depth.dy)) {
+        for (; n > 0; n--, at += stride) {
             int32_t a = edge_pixel(&left), b = edge_pixel(&right);
+            const int32_t row_units = units;
+            const uint32_t row_z = z;
             edge_step(&left);
             edge_step(&right);
+            units = add_wrap(units, s->depth.dy);
+            z += dz_down;
             if (cut) {
                 a = max_i32(a, t->x0);
                 b = min_i32(b, t->x1);
             }
             if (a >= b)
                 continue;
-            uint32_t first = z + dz * (uint32_t)a, step = dz;
+            uint32_t first = row_z + dz * (uint32_t)a, step = dz;
             if (bends) {
-                const int32_t here = add_wrap(units, mul_wrap(s->depth.dx, a)),
+                const int32_t here = add_wrap(row_units, mul_wrap(s->depth.dx, a)),
                               last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
                 const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
                 if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
@@ -491,12 +495,17 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
 
 static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 {
-    cover_flat(s, false);
+    cover_flat(s, false, false);
 }
 
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
-    cover_flat(s, true);
+    cover_flat(s, true, false);
+}
+
+static SMEAR_NOINLINE void cover_flat_bent(const struct setup *s)
+{
+    cover_flat(s, true, true);
 }
 #endif
 
@@ -691,7 +700,9 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
 #if SMEAR_SPAN_ROWS
     const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
-        if (left < target->x0 || right > target->x1)
+        if (s->slope == SLOPE_BOTH)
+            cover_flat_bent(s);
+        else if (left < target->x0 || right > target->x1)
             cover_flat_cut(s);
         else
             cover_flat_whole(s);
@@ -719,15 +730,23 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
         cover_large(s, write);
 }
 
-/* Triangle number `triangle` of the list's geometry, or none. */
+/* Triangle number `triangle` of the list's geometry, or none; its box where that is known. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
                                          const struct smear_segment *segment, uint32_t color,
                                          uint32_t triangle, const int32_t *const v[3],
-                                         const struct bounds *box, bool *moved)
+                                         const struct bounds *given, bool *moved)
 {
-    const int32_t left = (box->x0 + 127) >> 8, right = (box->x1 + 127) >> 8;
-    int32_t top = (box->y0 + 127) >> 8, bottom = (box->y1 + 127) >> 8;
+    struct bounds box;
+    if (given != NULL)
+        box = *given;
+    else
+        box = (struct bounds){ min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+                               min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
+                               max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+                               max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
+    const int32_t left = (box.x0 + 127) >> 8, right = (box.x1 + 127) >> 8;
+    int32_t top = (box.y0 + 127) >> 8, bottom = (box.y1 + 127) >> 8;
     const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
@@ -755,7 +774,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         s->color = color;
         for (int i = 0; i < 3; i++)
             s->v[i] = v[i];
-        s->bounds = *box;
+        s->bounds = box;
     }
     /* The planes start with that of the background: still triangles need to write it only over others. */
     s->writes_velocity = SMEAR_WITH_RECONSTRUCT && (target->velocity8 != NULL || target->velocity16 != NULL)
@@ -815,13 +834,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
-        const struct bounds bounds = {
-            min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-            min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
-            max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-            max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]))
-        };
-        draw_triangle(frame, target, segment, t->color, number, v, &bounds, &moved);
+        draw_triangle(frame, target, segment, t->color, number, v, NULL, &moved);
     }
 }
 
