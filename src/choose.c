@@ -24,14 +24,13 @@ enum {
 static const struct preset *preset_of(int32_t target)
 {
     static const struct preset preset[] = {
-        { 512, 2, 640, 512, 32, 8, 2, 768, 2 },
-        { SMEAR_DRAFT, 2, 400, 400, 32, 8, 2, 768, 2 },
-        { 128, 3, 352, 288, 32, 32, 7, 512, 3 },
-        { SMEAR_BALANCED, 3, 320, 256, 32, 32, 7, 512, 3 },
-        { 64, 5, 192, 128, 40, 32, 7, 512, 3 },
+        { SMEAR_DRAFT, 2, 288, 512, 32, 8, 2, 768, 2 },
+        { 128, 3, 352, 448, 32, 32, 7, 512, 3 },
+        { SMEAR_BALANCED, 3, 320, 400, 32, 32, 7, 512, 3 },
+        { 64, 5, 192, 144, 40, 32, 7, 512, 3 },
         { SMEAR_FINE, 9, 96, 56, 48, 32, 8, 256, 6 },
-        { 20, 13, 64, 36, 48, 32, 8, 256, 6 },
-        { 0, 17, 48, 24, 64, 32, 8, 256, 6 }
+        { 20, 13, 64, 36, 1000, 32, 8, 256, 6 },
+        { 0, 20, 40, 20, 1000, 32, 8, 256, 6 }
     };
     const struct preset *p = preset;
     while (target < p->target)
@@ -89,10 +88,8 @@ void smear_choose_step(struct smear_step *step, const struct smear_chooser *choo
     *step = (struct smear_step){ 0, 0 };
     if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load))
         return;
-    if (spread_of(load) > 2 * preset_of(chooser->target)->spread * instants)
-        return;
-    step->x = (int16_t)((load->x0 + load->x1) / (2 * instants));
-    step->y = (int16_t)((load->y0 + load->y1) / (2 * instants));
+    step->x = (int16_t)(load->x / (load->weight * instants));
+    step->y = (int16_t)(load->y / (load->weight * instants));
 }
 
 static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t bend, int32_t edge, int32_t tap,
@@ -124,7 +121,7 @@ static int32_t auto_instants(const struct preset *p, const struct smear_chooser 
     /* What passes through the near plane is in pieces: the mask draws them all, an instant one of them. How they go is
      * not known, as clipping moves their ends. */
     if ((load->flags & PATH_PIECE) != 0)
-        instants = max_i32(min_i32(instants, p->most), max_i32(8, p->least + 3));
+        instants = max_i32(min_i32(instants, p->most), clamp_i32(p->least + 3, 6, 16));
     return instants;
 }
 

@@ -12,6 +12,7 @@ enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
 struct smear_tile_load {
     int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where
                                  * x0 > x1 */
+    int32_t x, y, weight;       /* sums of ways, longer ones weighing more, and of weights */
     uint16_t bend;              /* largest, 1/16 px */
     uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED */
     uint8_t method;             /* smear_tile_method it got in the end */
@@ -43,7 +44,8 @@ struct smear_chooser {
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);
 
-/* How a tile's movers go on between `instants` that it shares; none where they do not go alike. */
+/* How a tile's movers go on between `instants` that it shares: in the mean, but for those that hardly move, as
+ * gaps between long streaks are seen more than slow things smeared a little. */
 void smear_choose_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
                        int32_t instants);
 

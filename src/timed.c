@@ -33,7 +33,9 @@ struct way {
 enum {
     WAY_PX = 24,                    /* smaller triangles lie in few tiles */
     WAY_ALIKE = 8 * 16,             /* ways that need not be told apart */
-    WAY_BITS = 14                   /* of weights */
+    WAY_BITS = 14,                  /* of weights */
+    WEIGHT_MAX = 255,               /* of a way in a tile's mean, px: */
+    WEIGHTS_MAX = 1 << 15           /* ways have 16 bits, sums 31 */
 };
 
 /* Of two depths, q8, within 1/16 .. 16. */
@@ -112,7 +114,8 @@ struct local_way {
     int32_t x, y, bend;
 };
 
-/* At a pixel of the triangle, or near one. */
+/* At a pixel of the triangle, or near one. Beyond those of the vertices, too: where a camera turns, what is
+ * straight ahead goes less far than what is aside. */
 static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
 {
     int32_t e[3], at[2][2], middle[2] = { x, y };
@@ -134,14 +137,23 @@ static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
     }
     const int32_t bend = max_i32(abs_i32(at[0][0] + at[1][0] - 16 * middle[0]),
                                  abs_i32(at[0][1] + at[1][1] - 16 * middle[1]));
-    return (struct local_way){ clamp_i32(2 * (at[1][0] - at[0][0]), w->x0, w->x1),
-                               clamp_i32(2 * (at[1][1] - at[0][1]), w->y0, w->y1),
-                               min_i32(8 * bend, w->bend) };
+    return (struct local_way){ 2 * (at[1][0] - at[0][0]), 2 * (at[1][1] - at[0][1]), min_i32(8 * bend, w->bend) };
 }
 
 static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
                      int32_t bend)
 {
+    const int32_t x = clamp_i32((x0 + x1) >> 1, INT16_MIN, INT16_MAX);
+    const int32_t y = clamp_i32((y0 + y1) >> 1, INT16_MIN, INT16_MAX);
+    const int32_t weight = min_i32((max_i32(abs_i32(x), abs_i32(y)) >> 4) + 1, WEIGHT_MAX);
+    if (load->weight >= WEIGHTS_MAX) {
+        load->x >>= 1;
+        load->y >>= 1;
+        load->weight >>= 1;
+    }
+    load->x += x * weight;
+    load->y += y * weight;
+    load->weight += weight;
     load->bend = (uint16_t)max_i32(load->bend, bend);
     load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
     load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);

@@ -465,7 +465,7 @@ const struct fail_row fail_time_rows[] = {
     {20, "jitter noise", jitter, {
         {"deviation in flat columns", "codes", 1.0, .known = {[PLAIN] = 7.3, [MENDED] = 7.6, [AUTO] = 1.3, [FINE] = 1.3}},
         {"change of the error from frame to frame", "codes", 2.0,
-         .known = {[NONE] = 29, [PLAIN] = 8, [MENDED] = 5.2, [AUTO] = 3.5}},
+         .known = {[NONE] = 29, [PLAIN] = 8, [MENDED] = 5.2}},
     }, "truth of 64 instants for 16 px"},
     {21, "low or varying frame rate", rate, {
         {"length of a streak of 1/60 s", "%", 5.0,
@@ -492,7 +492,7 @@ const struct fail_row fail_time_rows[] = {
     }, NULL},
     {35, "accumulation ghosts", ghosts, {
         {"largest step of the ramp, of 5 bits", "codes", 1.0,
-         .known = {[NONE] = 35, [PLAIN] = 6.9, [MENDED] = 4.9, [AUTO] = 6.9, [FINE] = 2.4}},
+         .known = {[NONE] = 35, [PLAIN] = 6.9, [MENDED] = 4.9, [FINE] = 2.4}},
         {"largest step times instants, 4 to 32", "", 1.0,
          .only = ONLY(ACCUMULATE), .otherwise = "not a number of instants"},
     }, "encoded light, so that steps are even"},
