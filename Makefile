@@ -30,7 +30,7 @@ include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
 LAYERS := base vector fixed noise tables fixmath pixel arena matrix arc reproject transform light clip geometry path shutter record \
-          tiny assemble assemble_path texture target mover setup course span rows velocity raster subframes timemask_cover \
+          tiny assemble assemble_path texture target mover setup course span rows rows_shade velocity raster subframes timemask_cover \
           timemask_shade timemask_slots timemask_spread timemask choose layer object layered window camera half tilemax blur \
           blur_uniform blur_reconstruct \
           blur_weights pingpong convert jobs context \

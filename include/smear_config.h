@@ -167,4 +167,14 @@
 #endif
 #endif
 
+/* 1 when the core divides in an instruction. 0 takes reciprocals where two quotients have one
+ * divisor; the bits are the same. */
+#ifndef SMEAR_HAS_DIVIDE
+#if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_4T__)
+#define SMEAR_HAS_DIVIDE 0
+#else
+#define SMEAR_HAS_DIVIDE 1
+#endif
+#endif
+
 #endif

@@ -207,35 +207,50 @@ static void dither_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x
  * of two channels fit into a word, where one sum adds k to both. A column's step is k at both places. */
 enum { ORDERED_HIGH = 20, ORDERED_LOW = 9, ORDERED_LEVEL = ORDERED_LOW + 6, ORDERED_WIDTH = 8 };
 
-/* The step of a pixel's column: steps lie by where pixels lie. */
-static inline uint32_t step_of(const uint32_t step[ORDERED_WIDTH], const uint32_t *pixel)
+/* The last colour of a row, ready for steps. */
+struct ordered {
+    uint32_t last, red_blue, green;
+};
+
+/* c levels / 255 in q8 is c levels + ((c + (c >> 7)) levels >> 8), as level_dithered() has it. */
+SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t add, struct ordered *o, bool is_555,
+                                bool swapped)
 {
-    return step[(uintptr_t)pixel / 4u % ORDERED_WIDTH];
+    if (p != o->last) {
+        __asm__ volatile ("");      /* one branch: nothing of this is done for nothing */
+        const uint32_t levels = is_555 ? 31 : 63, g = pixel_green(p);
+        o->last = p;
+        uint32_t both = is_555 ? pixel_blue(p) << 16 | pixel_red(p) : p & 0xff00ffu;
+        both = both * 31u + ((both + (both >> 7 & 0x10001u)) * 31u >> 8 & 0x1f001fu) + 0x20002u;
+        o->red_blue = (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
+        o->green = (g * levels + ((g + (g >> 7)) * levels >> 8) + 2u) >> 2 << ORDERED_HIGH;
+    }
+    const uint32_t both = o->red_blue + add;
+    const uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)
+                                    : both >> ORDERED_LEVEL & 0xf81fu)
+                          | (o->green + add) >> (ORDERED_HIGH + 6) << 5;
+    *out = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
 }
 
-/* Pixels [in, end). c levels / 255 in q8 is c levels + ((c + (c >> 7))
- * levels >> 8), as level_dithered() has it. */
+/* Pixels [in, end). Steps are those of the columns from the first pixel on, ORDERED_WIDTH of them. */
 SMEAR_INLINE void ordered_16bit(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step,
                                 bool is_555, bool swapped)
 {
-    uint32_t last = in < end ? ~*in : 0, red_blue = 0, green = 0;
-    for (; in < end; in++) {
-        const uint32_t p = *in, add = step_of(step, in);
-        if (p != last) {
-            __asm__ volatile ("");      /* one branch: nothing of this is done for nothing */
-            const uint32_t levels = is_555 ? 31 : 63, g = pixel_green(p);
-            last = p;
-            uint32_t both = is_555 ? pixel_blue(p) << 16 | pixel_red(p) : p & 0xff00ffu;
-            both = both * 31u + ((both + (both >> 7 & 0x10001u)) * 31u >> 8 & 0x1f001fu) + 0x20002u;
-            red_blue = (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
-            green = (g * levels + ((g + (g >> 7)) * levels >> 8) + 2u) >> 2 << ORDERED_HIGH;
-        }
-        uint32_t both = red_blue + add;
-        uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)
-                                  : both >> ORDERED_LEVEL & 0xf81fu)
-                        | (green + add) >> (ORDERED_HIGH + 6) << 5;
-        *out++ = swapped ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
+    struct ordered o = { in < end ? ~*in : 0, 0, 0 };
+#if defined(__ARM_ARCH_6M__)        /* with few registers, a place of its own for each step */
+    for (; end - in >= ORDERED_WIDTH; in += ORDERED_WIDTH, out += ORDERED_WIDTH) {
+        ordered_pixel(out, in[0], step[0], &o, is_555, swapped);
+        ordered_pixel(out + 1, in[1], step[1], &o, is_555, swapped);
+        ordered_pixel(out + 2, in[2], step[2], &o, is_555, swapped);
+        ordered_pixel(out + 3, in[3], step[3], &o, is_555, swapped);
+        ordered_pixel(out + 4, in[4], step[4], &o, is_555, swapped);
+        ordered_pixel(out + 5, in[5], step[5], &o, is_555, swapped);
+        ordered_pixel(out + 6, in[6], step[6], &o, is_555, swapped);
+        ordered_pixel(out + 7, in[7], step[7], &o, is_555, swapped);
     }
+#endif
+    for (uint32_t i = 0; in < end; in++, i = (i + 1) % ORDERED_WIDTH)
+        ordered_pixel(out++, *in, step[i], &o, is_555, swapped);
 }
 
 typedef void ordered_fn(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step);
@@ -279,13 +294,12 @@ static inline void copy_block(uint16_t *out, const uint16_t *from)
 static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                                        ordered_fn *fn)
 {
-    uint32_t step[ORDERED_WIDTH];
+    uint32_t steps[2 * ORDERED_WIDTH], *step = steps + (x & (ORDERED_WIDTH - 1));
     const uint8_t *threshold = smear_dither_ordered + ((y & 7) << 3);
     const int32_t head = -x & (ORDERED_WIDTH - 1);
-    const uint32_t phase = (uint32_t)((uintptr_t)(in + head) / 4u);
     for (uint32_t i = 0; i < ORDERED_WIDTH; i++)
-        step[(phase + i) % ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2)
-                                          * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
+        steps[i] = steps[i + ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2)
+                                            * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
     const uint32_t *rest = in, *end = in + n;       /* from `rest` on nothing is done */
     if (((uintptr_t)(out + head) & 3u) == 0) {
         const uint16_t *kept = out;
@@ -301,6 +315,7 @@ static SMEAR_NOINLINE void row_ordered(uint16_t *out, const uint32_t *in, int32_
             if (rest != in)
                 fn(out - (in - rest), rest, in, step);
             rest = in + ORDERED_WIDTH;
+            step = steps;
             copy_block(out, kept);
         }
     }
@@ -363,17 +378,70 @@ static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
         out[i] = (uint8_t)luma(in[i]);
 }
 
+static inline uint32_t grey_q16(uint32_t p, bool dithered)
+{
+    return dithered ? level_q16(luma(p), 15) : level_nearest(luma(p), 15) << 16;
+}
+
+#ifndef __OPTIMIZE_SIZE__
+/* Two pixels of a byte. */
+SMEAR_INLINE void l4_pair(uint8_t *out, const uint32_t *in, const uint32_t *step, uint32_t *last, uint32_t *grey,
+                          bool dithered)
+{
+    const uint32_t left = in[0], right = in[1];
+    if (left != *last)
+        *grey = grey_q16(left, dithered);
+    const uint32_t upper = (*grey + step[0]) >> 16 << 4;
+    if (right != left)
+        *grey = grey_q16(right, dithered);
+    *last = right;
+    *out = (uint8_t)(upper | (*grey + step[1]) >> 16);
+}
+
+/* Ordered dither, or none; x is a multiple of eight. A flat block of columns looks like the last one of its colour. */
+static SMEAR_NOINLINE void row_l4_blocks(uint8_t *out, const uint32_t *in, int32_t n, int32_t y, bool dithered)
+{
+    uint32_t step[ORDERED_WIDTH], last = ~*in, grey = 0, flat = last;
+    uint8_t block[ORDERED_WIDTH / 2] = { 0 };
+    for (int i = 0; i < ORDERED_WIDTH; i++)
+        step[i] = dithered ? (uint32_t)smear_dither_ordered[(y & 7) << 3 | i] << 8 : 0;
+    for (; n >= ORDERED_WIDTH; n -= ORDERED_WIDTH, in += ORDERED_WIDTH, out += sizeof block) {
+        const bool is_flat = is_flat_block(in);
+        if (is_flat && *in == flat) {
+            __builtin_memcpy(out, block, sizeof block);
+            continue;
+        }
+        for (int i = 0; i < ORDERED_WIDTH; i += 2)
+            l4_pair(out + i / 2, in + i, step + i, &last, &grey, dithered);
+        if (is_flat) {
+            flat = *in;
+            __builtin_memcpy(block, out, sizeof block);
+        }
+    }
+    for (int32_t i = 0; i + 1 < n; i += 2)
+        l4_pair(out + i / 2, in + i, step + i, &last, &grey, dithered);
+    if ((n & 1) != 0)
+        out[n / 2] = (uint8_t)((grey_q16(in[n - 1], dithered) + step[n - 1]) >> 16 << 4);
+}
+#endif
+
 static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
 {
     int32_t mask;
-    const uint8_t *threshold = thresholds_of(y, dither, &mask);
     const bool dithered = is_dithered(dither);
+#ifndef __OPTIMIZE_SIZE__
+    if (n > 0 && (!SMEAR_WITH_BLUE_DITHER || dither != SMEAR_DITHER_BLUE)) {
+        row_l4_blocks(row + x / 2, in, n, y, dithered);
+        return;
+    }
+#endif
+    const uint8_t *threshold = thresholds_of(y, dither, &mask);
     uint32_t last = ~*in, grey = 0, left = 0;
     uint8_t *pair = row + x / 2;
     for (int32_t i = 0; i < n; i++) {
         if (in[i] != last) {
             last = in[i];
-            grey = dithered ? level_q16(luma(last), 15) : level_nearest(luma(last), 15) << 16;
+            grey = grey_q16(last, dithered);
         }
         uint32_t level = (grey + (dithered ? (uint32_t)threshold[(x + i) & mask] << 8 : 0u)) >> 16;
         if (((x + i) & 1) != 0) {

@@ -109,6 +109,12 @@ static inline struct course course_curved(const struct texture_setup *t, const s
     return (struct course){ word[0][0], word[1][0], word[0][1], word[1][1], word[0][2], word[1][2] };
 }
 
+/* Value of a channel whose plane is value / w, q16. */
+static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
+{
+    return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
+}
+
 SMEAR_INLINE struct smear_texture_run course_packed(struct course c)
 {
     return (struct smear_texture_run){ packed_uv(c.u, c.v), packed_step(c.du, c.dv),

@@ -31,20 +31,32 @@ static inline int32_t path_phase(int32_t time)
     return (time - SHUTTER_CLOSE / 2) * 32768;
 }
 
+/* floor(a u / 2^32) of a phase, of which only the upper 17 bits are set: two products of 16 bits
+ * where there are no wide ones. */
+static inline int32_t phase_times(int32_t a, int32_t u)
+{
+#if SMEAR_HAS_MUL64
+    return mulh_i32(a, u);
+#else
+    const int32_t part = u >> 15;
+    return ((a >> 16) * part + ((int32_t)((uint32_t)a & 0xffffu) * part >> 16)) >> 1;
+#endif
+}
+
 /* A coordinate on its way: middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to
  * nearest: a floor would move all edges up and left by half a step. Places lie within the guard
  * band, so differences have 21 bits; sums in q6. */
 static inline int32_t path_coordinate(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t slope = close - open, bend = open + close - 2 * middle;
-    return middle + ((mulh_i32((slope * 64 + mulh_i32(bend * 256, u)) * 8, u) + 128) >> 8);
+    return middle + ((phase_times((slope * 64 + phase_times(bend * 256, u)) * 8, u) + 128) >> 8);
 }
 
 /* The same for a depth, q11 units below 2^30.1, good to 8 steps. */
 static inline int32_t path_depth(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t bend = (int32_t)(((uint32_t)open + (uint32_t)close) >> 1) - middle;         /* halved */
-    return middle + mulh_i32((((close - open) >> 3) + mulh_i32(bend, u)) * 4, u) * 4;
+    return middle + phase_times((((close - open) >> 3) + phase_times(bend, u)) * 4, u) * 4;
 }
 
 /* The vertex at a time of the exposure: x, y, depth. */

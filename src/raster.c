@@ -142,15 +142,41 @@ struct edge_walk {
     int32_t dy;
 };
 
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+/* divide_floor of what is known nearly. */
+static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *remainder)
+{
+    int32_t r = a - q * b;
+    for (; r < 0; r += b)
+        q--;
+    for (; r >= b; r -= b)
+        q++;
+    *remainder = r;
+    return q;
+}
+#endif
+
 /* From a down to b (b below a), starting at pixel row y, whose centre lies at or below a. */
 static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y)
 {
-    int32_t dx = b[VERTEX_X] - a[VERTEX_X];
-    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
-    e->step = divide_floor(dx * 256, e->dy, &e->step_rest);     /* |dx| <= 2^20 */
+    int32_t dx = b[VERTEX_X] - a[VERTEX_X];                     /* |dx| <= 2^20 */
     int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
     int32_t down = first * 256 + 128 - a[VERTEX_Y];             /* 0 .. 255 */
-    e->x = a[VERTEX_X] + 127 + divide_floor(dx * down, e->dy, &e->rest);
+    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
+    e->x = a[VERTEX_X] + 127;
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+    if (e->dy >= 4 && (uint32_t)abs_i32(dx) < min_u32((uint32_t)e->dy * 32u, 1u << 15)) {
+        /* 1/dy = recip 2^(zeros - 46), good to 2^-14: quotients are off by less than two */
+        const int zeros = count_leading_zeros((uint32_t)e->dy), shift = 38 - zeros;
+        const int32_t over = dx * (int32_t)(recip_norm((uint32_t)e->dy << zeros) >> 15);
+        e->step = divide_near(over >> shift, dx * 256, e->dy, &e->step_rest);
+        e->x += divide_near((over >> 8) * down >> shift, dx * down, e->dy, &e->rest);
+    } else
+#endif
+    {
+        e->step = divide_floor(dx * 256, e->dy, &e->step_rest);
+        e->x += divide_floor(dx * down, e->dy, &e->rest);
+    }
     uint32_t rows = (uint32_t)(y - first);
     if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
         uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
@@ -163,12 +189,12 @@ static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, 
     }
 }
 
-static inline int32_t edge_pixel(const struct edge_walk *e)
+static inline __attribute__((always_inline)) int32_t edge_pixel(const struct edge_walk *e)
 {
     return e->x >> 8;
 }
 
-static inline void edge_step(struct edge_walk *e)
+static inline __attribute__((always_inline)) void edge_step(struct edge_walk *e)
 {
     e->x += e->step;
     e->rest += e->step_rest;
@@ -407,8 +433,9 @@ static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32
 }
 
 /* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth
- * of opaque draws lie in the window's rows alike. `cut`: the target's columns cut rows off. */
-SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
+ * of opaque draws lie in the window's rows alike. `cut`: the target's columns may cut rows off;
+ * `bends`: depth codes may bend. */
+SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool bends)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
@@ -417,7 +444,8 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
     const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const int32_t stride = t->window_rows.stride;
-    uint32_t z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope);
+    int32_t units = plane_at(&s->depth, 0, d.y);
+    uint32_t z = code_from_units(units, s->slope);
     int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
     if (slot >= t->window_rows.ring)
         slot -= t->window_rows.ring;
@@ -432,20 +460,33 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
         slot += n;
         if (slot == t->window_rows.ring)
             slot = 0;
-        for (; n > 0; n--, at += stride, z += dz_down) {
+        for (; n > 0; n--, at += stride) {
             int32_t a = edge_pixel(&left), b = edge_pixel(&right);
+            const int32_t row_units = units;
+            const uint32_t row_z = z;
             edge_step(&left);
             edge_step(&right);
+            units = add_wrap(units, s->depth.dy);
+            z += dz_down;
             if (cut) {
                 a = max_i32(a, t->x0);
                 b = min_i32(b, t->x1);
             }
             if (a >= b)
                 continue;
-            if (s->slope == SLOPE_BOTH)
-                row_flat_bent(s, y - n, at, a, b);
-            else
-                run_flat_at(t, at + a, b - a, z + dz * (uint32_t)a, dz, color);
+            uint32_t first = row_z + dz * (uint32_t)a, step = dz;
+            if (bends) {
+                const int32_t here = add_wrap(row_units, mul_wrap(s->depth.dx, a)),
+                              last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
+                const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+                if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
+                    row_flat_bent(s, y - n, at, a, b);
+                    continue;
+                }
+                first = code_from_units(here, slope);
+                step = (uint32_t)step_from_units(s->depth.dx, slope);
+            }
+            run_flat_at(t, at + a, b - a, first, step, color);
         }
         d.left = left;
         d.right = right;
@@ -454,12 +495,17 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut)
 
 static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 {
-    cover_flat(s, false);
+    cover_flat(s, false, false);
 }
 
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
-    cover_flat(s, true);
+    cover_flat(s, true, false);
+}
+
+static SMEAR_NOINLINE void cover_flat_bent(const struct setup *s)
+{
+    cover_flat(s, true, true);
 }
 #endif
 
@@ -654,7 +700,9 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
 #if SMEAR_SPAN_ROWS
     const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
-        if (left < target->x0 || right > target->x1)
+        if (s->slope == SLOPE_BOTH)
+            cover_flat_bent(s);
+        else if (left < target->x0 || right > target->x1)
             cover_flat_cut(s);
         else
             cover_flat_whole(s);
@@ -682,18 +730,21 @@ static void cover(struct setup *s, int32_t left, int32_t right, int32_t top, int
         cover_large(s, write);
 }
 
-/* Triangle number `triangle` of the list's geometry, or none. */
+/* Triangle number `triangle` of the list's geometry, or none; its box where that is known. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
                                          const struct smear_raster_target *target,
                                          const struct smear_segment *segment, uint32_t color,
-                                         uint32_t triangle, const int32_t *const v[3], bool *moved)
+                                         uint32_t triangle, const int32_t *const v[3],
+                                         const struct bounds *given, bool *moved)
 {
-    const struct bounds box = {
-        min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-        min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
-        max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-        max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y]))
-    };
+    struct bounds box;
+    if (given != NULL)
+        box = *given;
+    else
+        box = (struct bounds){ min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+                               min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
+                               max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
+                               max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
     const int32_t left = (box.x0 + 127) >> 8, right = (box.x1 + 127) >> 8;
     int32_t top = (box.y0 + 127) >> 8, bottom = (box.y1 + 127) >> 8;
     const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
@@ -783,13 +834,14 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = geometry_vertex(frame->geometry, segment, t->vertex[i]);
-        draw_triangle(frame, target, segment, t->color, number, v, &moved);
+        draw_triangle(frame, target, segment, t->color, number, v, NULL, &moved);
     }
 }
 
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
+                           const struct bounds *bounds)
 {
     bool moved = false;
-    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, &moved);
+    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
 }

@@ -14,9 +14,10 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);
 
-/* Draws one triangle whose vertices are given: records laid out as in the segment, clockwise on the screen,
- * of positive area and within the guard band. No velocities. */
+/* Draws one triangle whose vertices are given, and their box: records laid out as in the segment, clockwise
+ * on the screen, of positive area and within the guard band. No velocities. */
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3]);
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
+                           const struct bounds *bounds);
 
 #endif

@@ -36,4 +36,24 @@ struct span_rows {
 typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
 smear_rows_fn *smear_rows_choose(const struct setup *s);
 
+/* Interpolated colours without a texture, opaque: rows_shade.c. */
+smear_rows_fn smear_rows_shade;
+
+/* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
+static inline bool rows_are_plain(const struct setup *s, const struct span_rows *r)
+{
+    return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
+}
+
+/* A part of a row: pixels [a, b), and depth codes 16.16 from pixel 0 on. */
+struct rows_piece {
+    int32_t a, b;
+    uint32_t z, dz;
+};
+
+/* The next piece of a row after pixel a: within the target's columns and one slope of the depth
+ * code. False when there is none. Writes its velocities. */
+bool smear_rows_piece(struct rows_piece *p, const struct setup *s, const struct span_rows *r, int32_t row,
+                      int32_t a);
+
 #endif

@@ -62,11 +62,6 @@ struct texture_setup {
 /* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
 enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
-/* The box of a triangle's vertices, q8. */
-struct bounds {
-    int32_t x0, y0, x1, y1;
-};
-
 struct setup {
     const struct smear_raster_frame *frame;
     const struct smear_raster_target *target;

@@ -97,12 +97,6 @@ static int32_t walk_first(struct walk *w, const struct setup *s, const struct sp
     return walk_next(w, s);
 }
 
-/* Value of a channel whose plane is value / w, q16. */
-static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
-{
-    return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
-}
-
 /* A block of a span: where it begins and ends in the triangle's row, and where drawing begins. Values are
  * exact at its ends, which no cut of the frame moves. */
 struct block {

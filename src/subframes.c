@@ -125,13 +125,17 @@ static inline int32_t work_row(const struct subframes *f, const struct box *b, i
     return (y - f->t->still.y0) * f->t->pitch + (b->x0 - f->t->still.x0);
 }
 
+/* In whole words, where tiles begin with them. */
 static void restore_depth(const struct subframes *f, const struct box *b)
 {
     const struct smear_raster_target *s = &f->t->still;
-    for (int32_t y = b->y0; y < b->y1; y++)
-        __builtin_memcpy(f->work.depth + work_row(f, b, y),
-                         s->depth + still_row(s, &s->window_rows, y) + b->x0,
-                         (size_t)(b->x1 - b->x0) * sizeof *s->depth);
+    struct box wide = *b;
+    wide.x0 -= (wide.x0 - s->x0) & 1;
+    wide.x1 = min_i32(wide.x1 + ((wide.x1 - s->x0) & 1), s->x1);
+    for (int32_t y = wide.y0; y < wide.y1; y++)
+        __builtin_memcpy(f->work.depth + work_row(f, &wide, y),
+                         s->depth + still_row(s, &s->window_rows, y) + wide.x0,
+                         (size_t)(wide.x1 - wide.x0) * sizeof *s->depth);
 }
 
 static void copy_color(const struct subframes *f, const struct box *b)
@@ -183,6 +187,7 @@ struct posed {
     const struct smear_segment *segment;
     uint32_t color;
     const int32_t *v[3];
+    struct bounds bounds;       /* of the vertices */
     struct box box;             /* within the tile */
     int32_t record[3][RECORD_WORDS];
 };
@@ -212,10 +217,24 @@ static inline struct range place(struct posed *p, int axis, int32_t u, int32_t m
         p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS],
                                              u);
     struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
-    if (r.low < middle - guard || r.high > middle + guard)
-        for (int i = 0; i < 3; i++)
-            p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
-    return r;
+    if (r.low >= middle - guard && r.high <= middle + guard)
+        return r;
+    for (int i = 0; i < 3; i++)
+        p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
+    return range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+}
+
+static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)
+{
+    const int32_t x1 = b[VERTEX_X] - a[VERTEX_X], y1 = b[VERTEX_Y] - a[VERTEX_Y];
+    const int32_t x2 = c[VERTEX_X] - a[VERTEX_X], y2 = c[VERTEX_Y] - a[VERTEX_Y];
+#if !SMEAR_HAS_MUL64
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small))
+        < 2 * small)
+        return x1 * y2 <= x2 * y1;
+#endif
+    return (int64_t)x1 * y2 <= (int64_t)x2 * y1;
 }
 
 /* False where the triangle is not seen in the tile at this time: elsewhere, or turned away. */
@@ -232,22 +251,21 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
     for (int i = 0; i < 3; i++)
         p->v[i] = geometry_vertex(frame->geometry, s, t->vertex[i]);
     const int32_t u = path_phase(time);
-    struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
-                             : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
-    x = pixels_of(x, tile->x0, tile->x1);
-    if (x.low >= x.high)
+    const struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
+                                   : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
+    const struct range columns = pixels_of(x, tile->x0, tile->x1);
+    if (columns.low >= columns.high)
         return false;
-    struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
-                             : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
-    y = pixels_of(y, tile->y0, tile->y1);
-    if (y.low >= y.high)
+    const struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
+                                   : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    const struct range rows = pixels_of(y, tile->y0, tile->y1);
+    if (rows.low >= rows.high)
         return false;
-    p->box = (struct box){ x.low, y.low, x.high, y.high };
+    p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+    p->box = (struct box){ columns.low, rows.low, columns.high, rows.high };
     if (!s->path)
         return true;
-    int32_t *a = p->record[0], *b = p->record[1], *c = p->record[2];
-    if ((int64_t)(b[VERTEX_X] - a[VERTEX_X]) * (c[VERTEX_Y] - a[VERTEX_Y])
-        <= (int64_t)(c[VERTEX_X] - a[VERTEX_X]) * (b[VERTEX_Y] - a[VERTEX_Y]))
+    if (is_turned_away(p->record[0], p->record[1], p->record[2]))
         return false;
     for (int i = 0; i < 3; i++) {
         const int32_t *v = p->v[i], *open = v + s->motion, *close = open + PATH_POSE_WORDS;
@@ -263,7 +281,7 @@ static bool pose(struct posed *p, const struct subframes *f, uint32_t triangle, 
 static inline void draw(const struct posed *p, const struct subframes *f,
                         const struct smear_raster_target *target)
 {
-    smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v);
+    smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v, &p->bounds);
 }
 
 /* ------------------------------------------------------------------ lists of the tile */
@@ -436,12 +454,17 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
     }
 #endif
-    for (; i < n; i++) {
-        uint32_t c = color[i], behind = still[i];
-        if (((c ^ behind) | all) != 0) {
+    /* Pixels have no alpha. Counted up to 0: few registers are enough. */
+    color += n;
+    still += n;
+    rb += n;
+    gn += n;
+    for (i -= n; i != 0; i++) {
+        const uint32_t c = color[i], behind = still[i];
+        if (c != behind || all) {
+            color[i] = behind;
             rb[i] += c & 0xff00ffu;
             gn[i] += (c >> 8 & 0xffu) + 0x10000u;
-            color[i] = behind;
         }
     }
 }

@@ -97,6 +97,11 @@ static inline int32_t target_row(const struct smear_plane_rows *rows, const stru
     return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
 }
 
+/* The box of a triangle's vertices, q8. */
+struct bounds {
+    int32_t x0, y0, x1, y1;
+};
+
 /* What stays the same for the frame. */
 struct smear_raster_draw {          /* one per draw, indexed by smear_segment.draw */
     struct smear_sampler sampler;

@@ -50,20 +50,9 @@ int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t rat
     return shift >= 0 ? shl_wrap(t, shift) : t >> -shift;
 }
 
-SMEAR_INLINE uint32_t fetch_as(const struct smear_sampler *s, uint32_t at, int format)
-{
-    if (format == SMEAR_TEXEL_8888)
-        return ((const uint32_t *)s->texels)[at];
-    if (format == SMEAR_TEXEL_PALETTE8)
-        return s->palette[((const uint8_t *)s->texels)[at]];
-    uint32_t c = ((const uint16_t *)s->texels)[at];
-    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
-    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
-}
-
 static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
 {
-    return fetch_as(s, at, s->format);
+    return sampler_fetch(s, at, s->format);
 }
 
 /* Any integer texel coordinate into 0 .. size - 1. */
@@ -113,7 +102,7 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
 SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
 {
     if (turns)
-        return fetch_as(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
+        return sampler_fetch(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
     if (SMEAR_WITH_BILINEAR && s->bilinear)
         return sample_bilinear(s, (int32_t)at, (int32_t)(at >> 32));
     return texel(s, (int32_t)at >> 16, (int32_t)(at >> 32) >> 16);

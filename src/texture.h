@@ -6,6 +6,7 @@
 #include "smear.h"
 
 #include "fixed.h"
+#include "pixel.h"
 
 /* A texture as the raster reads it. */
 struct smear_sampler {
@@ -63,6 +64,18 @@ static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, 
 {
     /* Shifts by 32 would not do: sizes of one. */
     return (v >> 1 >> (31 - s->log2_height)) << s->log2_width | u >> 1 >> (31 - s->log2_width);
+}
+
+/* Texel number `at` in memory, as 0xAARRGGBB; of the sampler's format. */
+SMEAR_INLINE uint32_t sampler_fetch(const struct smear_sampler *s, uint32_t at, int format)
+{
+    if (format == SMEAR_TEXEL_8888)
+        return ((const uint32_t *)s->texels)[at];
+    if (format == SMEAR_TEXEL_PALETTE8)
+        return s->palette[((const uint8_t *)s->texels)[at]];
+    uint32_t c = ((const uint16_t *)s->texels)[at];
+    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
+    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
 }
 
 /* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */

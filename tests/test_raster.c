@@ -1522,47 +1522,105 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
-/* Plain texels have loops of their own, which must say what the general one says: that one draws them when they are
- * multiplied by white. Sizes with loops of their own and others, velocities, bends of the depth code, all blocks. */
-static void test_plain_texels_are_those_of_the_general_loop(void)
+/* Triangles with loops of their own, of any size and near any bend of the depth code. */
+static void random_kind(int level, int far)
+{
+    const uint16_t light[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
+    for (int k = 0; k < 6 && list_has_room(); k++) {
+        int32_t extent = 256 << between(2, 7), x = between(0, W * 256), y = between(0, H * 256), p[3][2];
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-extent, extent);
+            p[i][1] = y + between(-extent, extent);
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            int32_t depth = SMEAR_DEPTH_MAX >> far;
+            v[i] = add_vertex(0, p[i][0], p[i][1], max_i32(SMEAR_DEPTH_MIN, depth - between(0, depth >> level)));
+            if (segment[0].uv != 0) {
+                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
+                set_uv(0, v[i], s, t);
+            }
+            if (segment[0].color != 0) {
+                uint16_t other[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
+                set_color(0, v[i], segment[0].uv != 0 ? light : other);
+            }
+            for (int pose = 0; pose < segment[0].moves; pose++) {
+                int32_t dx = between(-4096, 4096), dy = between(-4096, 4096);
+                set_motion(0, v[i], pose, dx, dy, between(1 << 19, 1 << 21));
+            }
+        }
+        add_triangle(0, v[0], v[1], v[2], random_u32() | 0xff000000u);
+    }
+}
+
+static uint16_t direct[2][W * H];
+
+/* Draws the list as what is opaque and as what is cut out nowhere, which is
+ * the general loop's: into working pixels, and into finished ones. */
+static bool check_general(void)
+{
+    planes_clear(&full);
+    draw_list(&full);
+    draw[0].alpha = SMEAR_CUTOUT;
+    draw[0].cutoff = 0;
+    planes_clear(&cut);
+    draw_list(&cut);
+    if (!same_planes(&full, &cut))
+        return false;
+    if (!SMEAR_DIRECT)
+        return true;
+    bool same = true;
+    for (int i = 0; i < 2; i++) {
+        struct planes *p = i == 0 ? &full : &cut;
+        planes_clear(p);
+        struct smear_raster_target t = target_of(p);
+        t.direct = direct[i];
+        t.velocity8 = NULL;
+        t.inspect = NULL;
+        for (int k = 0; k < W * H; k++)
+            direct[i][k] = 0;
+        draw[0].alpha = i == 0 ? SMEAR_OPAQUE : SMEAR_CUTOUT;
+        smear_raster_list(&frame, &t, 0);
+    }
+    for (int k = 0; k < W * H; k++)
+        same = same && direct[0][k] == direct[1][k] && full.depth[k] == cut.depth[k];
+    return CHECK(same);
+}
+
+/* Texels have loops of their own, which must say what the general one says. Formats, lights, sizes with loops of their
+ * own and others, velocities, bends of the depth code, all blocks. */
+static void test_texels_in_rows_are_those_of_the_general_loop(void)
 {
     static const uint8_t size[][2] = { { 64, 64 }, { 32, 32 }, { 64, 32 }, { 2, 64 } };
+    static const enum smear_shade_mode shade[] = { SHADE_NONE, SHADE_FLAT, SHADE_GOURAUD };
     random_state = 47;
     for (uint32_t i = 0; i < TEXELS; i++)
         texels[i] = random_u32() & 0xffffffu;     /* working pixels need no alpha */
+    for (int n = 0; n < 270; n++) {
+        const enum smear_shade_mode mode = shade[n / 3 % 3];
+        list_begin();
+        set_layout(0, true, mode == SHADE_GOURAUD, n % 3, mode);
+        const smear_texture texture = { .texels = texels, .palette = texels, .width = size[n % 4][0],
+                                        .height = size[n % 4][1], .format = (uint8_t)(n / 9 % 3) };
+        smear_sampler_make(&draw[0].sampler, &texture, between(9, 15), false, false);
+        random_kind(between(0, 8), between(0, 3) * 4);
+        if (!check_general())
+            return;
+    }
+}
+
+/* And so have colours between vertices. */
+static void test_colors_in_rows_are_those_of_the_general_loop(void)
+{
+    random_state = 53;
     for (int n = 0; n < 160; n++) {
         list_begin();
-        set_layout(0, true, false, n % 3, SHADE_NONE);
-        const smear_texture texture = { .texels = texels, .width = size[n % 4][0], .height = size[n % 4][1] };
-        smear_sampler_make(&draw[0].sampler, &texture, between(9, 15), false, false);
-        int32_t level = between(0, 8), far = between(0, 3) * 4;
-        for (int k = 0; k < 6 && list_has_room(); k++) {
-            int32_t extent = 256 << between(2, 7), x = between(0, W * 256), y = between(0, H * 256), p[3][2];
-            uint16_t v[3];
-            for (int i = 0; i < 3; i++) {
-                p[i][0] = x + between(-extent, extent);
-                p[i][1] = y + between(-extent, extent);
-            }
-            if (area_of(p) == 0)
-                continue;
-            for (int i = 0; i < 3; i++) {
-                int32_t depth = SMEAR_DEPTH_MAX >> far;
-                v[i] = add_vertex(0, p[i][0], p[i][1], max_i32(SMEAR_DEPTH_MIN, depth - between(0, depth >> level)));
-                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
-                set_uv(0, v[i], s, t);
-                for (int pose = 0; pose < segment[0].moves; pose++) {
-                    int32_t dx = between(-4096, 4096), dy = between(-4096, 4096);
-                    set_motion(0, v[i], pose, dx, dy, between(1 << 19, 1 << 21));
-                }
-            }
-            add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        }
-        planes_clear(&full);
-        draw_list(&full);
-        segment[0].shade = SHADE_FLAT;
-        planes_clear(&cut);
-        draw_list(&cut);
-        if (!same_planes(&full, &cut))
+        set_layout(0, false, true, 1 + n % 2, SHADE_GOURAUD);      /* what moves is never tiny */
+        frame.linear = SMEAR_WITH_LINEAR && n / 2 % 2 == 1;
+        random_kind(between(0, 8), between(0, 3) * 4);
+        if (!check_general())
             return;
     }
 }
@@ -1723,7 +1781,8 @@ void suite_raster(void)
     RUN(test_cutouts_leave_what_lies_behind_their_holes);
     RUN(test_blended_triangles_only_change_colour);
     RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
-    RUN(test_plain_texels_are_those_of_the_general_loop);
+    RUN(test_texels_in_rows_are_those_of_the_general_loop);
+    RUN(test_colors_in_rows_are_those_of_the_general_loop);
     RUN(test_rings_of_rows_change_nothing);
     RUN(test_blending_into_tiles_of_their_own_changes_nothing);
     RUN(test_wide_velocities_are_the_narrow_ones_where_those_suffice);

@@ -555,8 +555,12 @@ static void test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them(v
                 v[k] = geometry_vertex(&geometry, s, t->vertex[k]);
             int64_t area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1])
                          - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
+            struct bounds box = { v[0][0], v[0][1], v[0][0], v[0][1] };
+            for (int k = 1; k < 3; k++)
+                box = (struct bounds){ min_i32(box.x0, v[k][0]), min_i32(box.y0, v[k][1]), max_i32(box.x1, v[k][0]),
+                                       max_i32(box.y1, v[k][1]) };
             if (area > 0)
-                smear_raster_triangle(&frame, &target, s, t->color, v);
+                smear_raster_triangle(&frame, &target, s, t->color, v, &box);
         }
         int32_t unequal = 0;
         for (int i = 0; i < W * H; i++)

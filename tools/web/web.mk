@@ -17,7 +17,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
 
 # Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
 WEB_FAST := $(filter src/blur% src/camera.c src/convert.c src/half.c src/layer% src/light.c src/object.c src/pingpong.c \
-    src/raster.c src/reproject.c src/span.c src/subframes.c src/texture.c src/rows.c src/timemask% src/tilemax.c src/setup.c \
+    src/raster.c src/reproject.c src/span.c src/subframes.c src/texture.c src/rows% src/timemask% src/tilemax.c src/setup.c \
     src/band.c src/timed.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
