@@ -534,7 +534,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 
 /* `corner` as the mesh has them: counter-clockwise in front. */
 static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
-                                       uint32_t triangle, uint32_t codes, bool back)
+                                            uint32_t triangle, uint32_t codes, bool back)
 {
     const struct smear_assembly *d = b->d;
     struct smear_clip_vertex corner[3];
