@@ -893,10 +893,19 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
 #define ANY_WIDTH  s->draw->sampler.log2_width
 #define ANY_HEIGHT s->draw->sampler.log2_height
 
+/* Loops of their own for pictures of 32 bits a texel; not for cores whose flash has no room for such. */
+#ifdef __ARM_ARCH_6M__
+#define WIDE_SIZES 0
+#else
+#define WIDE_SIZES 1
+#endif
+
 ROWS(wide_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_WIDE)
+#if WIDE_SIZES
 ROWS(wide_64, 6, 6, TEXELS_WIDE)
 ROWS(wide_128, 7, 7, TEXELS_WIDE)
 ROWS(wide_256, 8, 8, TEXELS_WIDE)
+#endif
 ROWS(lit, ANY_WIDTH, ANY_HEIGHT, TEXELS_LIT)
 #if SMEAR_DIRECT
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
@@ -931,6 +940,10 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
 #endif
+#if WIDE_SIZES
     return is_curved ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
+#else
+    return is_curved ? curves_wide_any : rows_wide_any;
+#endif
 }
 #endif
