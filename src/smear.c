@@ -179,7 +179,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     }
     c->strip = d->strip;
     if (has_window(d) || is_timed(d))
-        c->scratch = arena_take(a, (size_t)d->workers * SMEAR_STRIP_COLUMNS((size_t)c->strip) * (size_t)d->band_rows, 4);
+        c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->band_rows
+                                       * (size_t)(is_timed(d) ? SMEAR_STRIP_COLUMNS(c->strip) : c->strip), 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
