@@ -97,12 +97,12 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
     if (outside == 0)
         return;
     uint8_t order[SMEAR_CLIP_ROOM];
-    int result = 0, free = SMEAR_CLIP_ROOM, fresh = count;
+    int result = 0, unused = SMEAR_CLIP_ROOM, fresh = count;
     for (int i = 0; i < count; i++) {
         const int next = i + 1 == count ? 0 : i + 1;
         const bool is_out = outside >> i & 1u;
         if (is_out)
-            order[--free] = polygon->order[i];
+            order[--unused] = polygon->order[i];
         else
             order[result++] = polygon->order[i];
         if (is_out == (outside >> next & 1u) || result == SMEAR_CLIP_MAX || fresh == SMEAR_CLIP_ROOM)
@@ -113,7 +113,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
         order[result++] = (uint8_t)slot;
     }
     while (fresh < SMEAR_CLIP_ROOM)
-        order[--free] = polygon->order[fresh++];
+        order[--unused] = polygon->order[fresh++];
     for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
         polygon->order[i] = order[i];
     polygon->count = result < 3 ? 0 : result;

@@ -210,10 +210,8 @@ SMEAR_INLINE void run_step(struct texel_run *r)
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as
- * a power of two, where the next one is, two. */
-#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
-    __asm__ volatile( \
+/* Keeps the run, at r0, and fills the registers of its steps. */
+#define STEPS_BY_HAND \
         ".syntax unified\n\t" \
         "push {r0}\n\t" \
         "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
@@ -221,7 +219,13 @@ SMEAR_INLINE void run_step(struct texel_run *r)
         "mov r9, r2\n\t" \
         "mov r10, r3\n\t" \
         "mov r11, r4\n\t" \
-        "mov r12, r5\n\t" \
+        "mov r12, r5\n\t"
+
+/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as
+ * a power of two, where the next one is, two. */
+#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
+    __asm__ volatile( \
+        STEPS_BY_HAND \
         "mov lr, r6\n\t" \
         "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
         "1:\n\t" \
@@ -295,14 +299,7 @@ SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_he
 
 #define LIT_PAIRS_BY_HAND(STORE, NEXT, STEP) \
     __asm__ volatile( \
-        ".syntax unified\n\t" \
-        "push {r0}\n\t" \
-        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
-        "mov r8, r1\n\t" \
-        "mov r9, r2\n\t" \
-        "mov r10, r3\n\t" \
-        "mov r11, r4\n\t" \
-        "mov r12, r5\n\t" \
+        STEPS_BY_HAND \
         "ldr r7, [r0, #28]\n\t" \
         "push {r6, r7}\n\t" \
         "ldm r7!, {r1, r2, r3, r4, r5}\n\t" \

@@ -514,7 +514,7 @@ static bool row_is_still(const struct smear_context *c)
 static int finish_row(struct smear_context *c, int row)
 {
     uint32_t start = stage_start(c);
-    struct finish finish = { .row = { c, row, smear_band_begin(c) } };
+    struct finish finish = { .row = { .c = c, .row = row, .band = smear_band_begin(c) } };
     smear_row_target(c, row, &finish.still);
     list_blended(c, row);
     if (c->jobs.workers == 1 && row_is_still(c))
