@@ -48,7 +48,7 @@ VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c) $(MODEL_SRC) \
-    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c palette.c png_read.c \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c palette.c png_read.c \
         png_write.c ppm.c) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
         present_surface.c scene.c stage.c)

@@ -2,6 +2,7 @@
 /* main.c - the program `smear`: finds the command and hands over. */
 #include "commands.h"
 
+#include "../image/file.h"
 #include "arguments.h"
 #include "say.h"
 
@@ -30,6 +31,7 @@ int main(int argc, char **argv)
 {
     if (argc < 2)
         return say_bad_usage("no command", "render, view, convert, compare, info or help (smear help)");
+    output_catch_signals();
     int status = run_command(argv[1], argc - 2, argv + 2);
     if (fflush(stdout) != 0 && status == STATUS_OK) {
         struct failure f = { "" };
