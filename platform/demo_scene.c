@@ -16,21 +16,28 @@ enum {
 
 /* ------------------------------------------------------------------ angles */
 
+/* floor(a b / 2^30) of unsigned factors. */
+static uint32_t times_q30(uint32_t a, uint32_t b)
+{
+    return (uint32_t)((uint64_t)a * b >> 30);
+}
+
 /* Sine of an angle, q24. On the first quadrant x - x^3/3! + ... - x^11/11!, by Horner's rule in
  * q30; the error stays within two steps of q24. */
 static int32_t sine(int32_t angle)
 {
-    static const int32_t inverse[5] = {     /* q30: 1/(2*3), 1/(4*5), 1/(6*7), 1/(8*9), 1/(10*11) */
+    static const uint32_t inverse[5] = {    /* q30: 1/(2*3), 1/(4*5), 1/(6*7), 1/(8*9), 1/(10*11) */
         178956971, 53687091, 25565282, 14913081, 9761289
     };
     uint32_t turn = (uint32_t)angle & 0xffffu, in = turn & 0x3fffu;
     if (turn & 0x4000u)
         in = 0x4000u - in;
-    int64_t x = (int64_t)in * 421657428 >> 12;      /* pi/2 in q28 / 2^14, then q30 */
-    int64_t square = x * x >> 30, sum = 1 << 30;
+    const uint32_t x = (uint32_t)((uint64_t)in * 421657428 >> 12);      /* pi/2 in q28 / 2^14, then q30 */
+    const uint32_t square = times_q30(x, x);
+    uint32_t sum = 1u << 30;
     for (int i = 4; i >= 0; i--)
-        sum = (1 << 30) - ((square * inverse[i] >> 30) * sum >> 30);
-    int32_t result = (int32_t)((x * sum >> 30) + 32) >> 6;
+        sum = (1u << 30) - times_q30(times_q30(square, inverse[i]), sum);
+    const int32_t result = (int32_t)((times_q30(x, sum) + 32) >> 6);
     return turn & 0x8000u ? -result : result;
 }
 

@@ -59,26 +59,36 @@ struct smear_segment *smear_record_segment(struct smear_assembler *a, const stru
 }
 
 #if SMEAR_LEVELS
-static bool same_values(const uint8_t *a, const uint8_t *b, int count)
+/* Looked at for all triangles of all draws of each frame: without loops or branches of its own. */
+static inline bool same_normal(const uint8_t *a, const uint8_t *b)
 {
-    for (int i = 0; i < count; i++)
-        if (a[i] != b[i])
-            return false;
-    return true;
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
+static inline bool same_color(const uint8_t *a, const uint8_t *b)
+{
+    uint32_t first, second;
+    __builtin_memcpy(&first, a, sizeof first);
+    __builtin_memcpy(&second, b, sizeof second);
+    return first == second;
 }
 
 bool smear_record_is_level(const smear_mesh *mesh, bool lit)
 {
     const uint8_t *normal = lit ? (const uint8_t *)mesh->normal : NULL, *color = mesh->color;
-    const uint16_t *index = mesh->index;
+    const uint16_t *index = mesh->index, *const end = index + 3 * mesh->triangle_count;
     if (normal == NULL && color == NULL)
         return false;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3)
-        for (int k = 1; k < 3; k++)
-            if (max_i32(index[0], index[k]) >= mesh->vertex_count
-                || (normal != NULL && !same_values(normal + 3 * index[0], normal + 3 * index[k], 3))
-                || (color != NULL && !same_values(color + 4 * index[0], color + 4 * index[k], 4)))
-                return false;
+    for (; index < end; index += 3) {
+        const uint32_t a = index[0], b = index[1], c = index[2];
+        if (max_u32(a, max_u32(b, c)) >= mesh->vertex_count)
+            return false;
+        if (normal != NULL
+            && !(same_normal(normal + 3 * a, normal + 3 * b) && same_normal(normal + 3 * a, normal + 3 * c)))
+            return false;
+        if (color != NULL && !(same_color(color + 4 * a, color + 4 * b) && same_color(color + 4 * a, color + 4 * c)))
+            return false;
+    }
     return true;
 }
 

@@ -174,11 +174,12 @@ static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t c
 static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, const struct way *way,
                       int32_t top, int shift)
 {
-    enum { APART = 2 };
+    enum { APART_PX = 32 };
+    const int32_t apart = max_i32(APART_PX >> shift, 2);
     int32_t left[SIDE_VALUES], right[SIDE_VALUES];
     way_at_side(left, way, first, top, shift);
     for (int32_t column = first; column <= last;) {
-        const int32_t n = min_i32(last + 1 - column, APART), part = 256 / n;
+        const int32_t n = min_i32(last + 1 - column, apart), part = 256 / n;
         int32_t from[SIDE_VALUES], to[SIDE_VALUES], step[SIDE_VALUES];
         way_at_side(right, way, column + n, top, shift);
         for (int i = 0; i < SIDE_VALUES; i++) {

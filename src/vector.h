@@ -79,6 +79,41 @@ static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
 #endif
 }
 
+static inline void v8i_store(uint16_t *p, smear_v8i v)
+{
+    __builtin_memcpy(p, &v, sizeof v);
+}
+
+/* The upper halves of words of a, then of b. */
+static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_packs_epi32(_mm_srai_epi32((__m128i)a, 16), _mm_srai_epi32((__m128i)b, 16));
+#else
+    const smear_v8i x = (smear_v8i)a, y = (smear_v8i)b;
+    return (smear_v8i){ x[1], x[3], x[5], x[7], y[1], y[3], y[5], y[7] };
+#endif
+}
+
+/* Each of elements 0 .. 3 twice, and each of 4 .. 7. */
+static inline smear_v4u v4u_twice_low(smear_v8i a)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_unpacklo_epi16((__m128i)a, (__m128i)a);
+#else
+    return (smear_v4u)(smear_v8i){ a[0], a[0], a[1], a[1], a[2], a[2], a[3], a[3] };
+#endif
+}
+
+static inline smear_v4u v4u_twice_high(smear_v8i a)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_unpackhi_epi16((__m128i)a, (__m128i)a);
+#else
+    return (smear_v4u)(smear_v8i){ a[4], a[4], a[5], a[5], a[6], a[6], a[7], a[7] };
+#endif
+}
+
 /* Of 16-bit halves: a b, and a b / 2^16. */
 static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b)
 {
