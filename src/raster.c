@@ -389,9 +389,9 @@ SMEAR_INLINE void put_eight(void *pixel, uint16_t *depth, smear_v4u z, smear_v4u
         return;
     }
     uint32_t *out = (uint32_t *)pixel;
-    const smear_v4u all = { color, color, color, color }, low = v4u_twice_low(nearer), high = v4u_twice_high(nearer);
-    v4u_store(out, (all & low) | (v4u_load(out) & ~low));
-    v4u_store(out + 4, (all & high) | (v4u_load(out + 4) & ~high));
+    const smear_v4u all = { color, color, color, color };
+    v4u_store(out, v4u_choose(v4i_twice_low(nearer), all, v4u_load(out)));
+    v4u_store(out + 4, v4u_choose(v4i_twice_high(nearer), all, v4u_load(out + 4)));
 }
 #endif
 
