@@ -78,7 +78,7 @@ $(LIB): $(call objects,$(LIB_SRC))
 $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-## motion-blurred pictures of real models, in build/demo
+## motion-blurred pictures and loops, in build/demo
 demo:
 	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
