@@ -661,6 +661,9 @@ done
 
 # ------------------------------------------------------------------ bad usage
 
+claim "the version" works --version
+claim "is that of the packages" out_has "^smear $(cd "$here" && sh tools/dist/version.sh)\$"
+usage more --version more
 usage "no command"
 usage frobnicate frobnicate
 usage --frob chart --frob
@@ -865,6 +868,8 @@ input "$base/in/card.mtl" render "$base/in/card.obj" --stats "$base/in/card.mtl"
 input "$plate" render "$plate" --stats "$plate"
 input "$base/in/link.json" render "$plate" --stats "$base/in/link.json"
 input "$plate" view "$plate" --out null --frames 1 --record "$plate"
+input "$plate" view "$plate" --out null --frames 1 --check "$plate" --update
+claim "keeps no picture" missing "$plate.0000.png"
 for picture in picture other; do
     input "$base/in/$picture.ppm" compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/$picture.ppm"
     claim "it is as it was" same out.ppm "$base/in/$picture.ppm"

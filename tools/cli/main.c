@@ -5,9 +5,19 @@
 #include "../image/file.h"
 #include "arguments.h"
 #include "say.h"
+#include "smear.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
+
+static int command_version(int count, char **text)
+{
+    if (count > 0)
+        return say_bad_usage(text[0], "one argument too many");
+    printf("smear %d.%d.%d\n", SMEAR_VERSION_MAJOR, SMEAR_VERSION_MINOR, SMEAR_VERSION_PATCH);
+    return STATUS_OK;
+}
 
 static const struct {
     const char *name;
@@ -17,6 +27,7 @@ static const struct {
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
     { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
+    { "--version", command_version },
 };
 
 static int run_command(const char *name, int count, char **text)
