@@ -242,6 +242,11 @@ test-readme: $(LIB)
 	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme.ppm
+	sed -e "s/SMEAR_MEMORY_SIZE([^)]*)/$$(grep -o 'SMEAR_MEMORY_SIZE_TIMED([0-9, ]*)' README.md)/" \
+	    -e 's/\.reach = 6,/.timed = 1, .sharp = 1,/' $(BUILD)/readme.c > $(BUILD)/readme_timed.c
+	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme_timed.c $(LIB)
+	$(BUILD)/readme > $(BUILD)/readme_timed.ppm
+	! cmp -s $(BUILD)/readme.ppm $(BUILD)/readme_timed.ppm
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
 	    grep -q "RUN($$name);" tests/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 
