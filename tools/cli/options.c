@@ -112,30 +112,25 @@ static const char *read_poses(void *to, const char *value)
     return NULL;
 }
 
-/* Every method of the contract; those that are not built have no value. */
 static const struct {
     const char *name;
-    bool is_built;
     smear_method method;
 } methods[] = {
-    { "auto", true, SMEAR_AUTO },               { "none", true, SMEAR_NONE },
-    { "accumulate", true, SMEAR_ACCUMULATE },   { "reconstruct", true, SMEAR_RECONSTRUCT },
-    { "subframes", true, SMEAR_SUBFRAMES },     { "timemask", true, SMEAR_TIMEMASK },
-    { "camera", true, SMEAR_CAMERA },           { "pingpong", true, SMEAR_PINGPONG },
-    { "half", true, SMEAR_HALF },
-    { "object", true, SMEAR_OBJECT },           { "layered", true, SMEAR_LAYERED },
+    { "auto", SMEAR_AUTO },                 { "none", SMEAR_NONE },
+    { "accumulate", SMEAR_ACCUMULATE },     { "reconstruct", SMEAR_RECONSTRUCT },
+    { "subframes", SMEAR_SUBFRAMES },       { "timemask", SMEAR_TIMEMASK },
+    { "camera", SMEAR_CAMERA },             { "pingpong", SMEAR_PINGPONG },
+    { "half", SMEAR_HALF },                 { "object", SMEAR_OBJECT },
+    { "layered", SMEAR_LAYERED },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
 const char *options_method(int index, smear_method *method)
 {
-    for (int i = 0; i < METHODS; i++) {
-        if (methods[i].is_built && index-- == 0) {
-            *method = methods[i].method;
-            return methods[i].name;
-        }
-    }
-    return NULL;
+    if (index < 0 || index >= METHODS)
+        return NULL;
+    *method = methods[index].method;
+    return methods[index].name;
 }
 
 static const char *read_method(void *to, const char *value)
@@ -144,7 +139,7 @@ static const char *read_method(void *to, const char *value)
         if (strcmp(methods[i].name, value) != 0)
             continue;
         ((struct render_options *)to)->method = methods[i].method;
-        return methods[i].is_built ? NULL : "not built yet";
+        return NULL;
     }
     return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong, half, object "
            "or layered";
