@@ -26,6 +26,9 @@ CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
 EXR_LIBS := -lOpenEXRCore
 endif
 
+ifeq ($(wildcard platform/$(TARGET)/target.mk),)
+$(error no TARGET=$(TARGET): make help lists them)
+endif
 include platform/$(TARGET)/target.mk
 
 # The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
