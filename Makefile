@@ -37,7 +37,7 @@ LAYERS := base vector fixed noise tables fixmath pixel arena matrix arc reprojec
           timemask_shade timemask_slots timemask_spread timemask choose layer object layered window camera half tilemax blur \
           blur_uniform blur_reconstruct \
           blur_weights pingpong convert jobs context \
-          band timed layers frame smear
+          band still timed layers frame smear
 # The optional module that opens and plays models; a firmware that does not call it does not link it.
 LAYERS += blob model skin anim
 LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))

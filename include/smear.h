@@ -328,6 +328,8 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras;
                                  * null: one layer of all that moves */
     uint8_t layer_count;
+    uint8_t refresh;            /* with desc.keep_still: 1: vertices, colours or texels that draws standing still
+                                 * point to have changed in place since the last frame */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */
@@ -395,6 +397,10 @@ typedef struct smear_desc {
                                  * all tiles on its way, and as many tile rows more are kept.
                                  * Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
+    uint8_t keep_still;         /* 1: what does not move is kept from frame to frame, and drawn again only
+                                 * where camera, background or a draw that stands still is another: the same
+                                 * pictures, for 6 bytes per pixel of the whole frame. With timed and sharp,
+                                 * for SMEAR_SUBFRAMES, _TIMEMASK and _AUTO; see smear_frame.refresh */
     int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means
                                  * tile. With `sharp`: as many are drawn at once. With a window and
                                  * without timed, layers and half it may divide the tile: a smaller
@@ -429,6 +435,8 @@ typedef struct smear_stats {
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib (XRGB8888: R, G, B);
                                          * 0 without desc.crc */
     uint32_t arena_bytes;               /* memory in use */
+    uint32_t still_kept;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
+                                         * desc.keep_still */
 } smear_stats;
 
 typedef struct smear_context smear_context;
@@ -544,6 +552,12 @@ static inline uint32_t smear_depth_units(uint16_t code)
      + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
+
+/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: the whole frame, and what was drawn. */
+#define SMEAR_STILL_DRAW_BYTES 200u
+#define SMEAR_KEEP_STILL_BYTES(width, height, draws, tile) \
+    ((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u \
+     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_STILL_DRAW_BYTES) + 160u)
 
 /* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes
  * per pixel; what groups leave for others they pass through, 6 bytes per pixel of a tile row;

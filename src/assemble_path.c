@@ -145,12 +145,13 @@ static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex
     return word;
 }
 
-/* The list of a triangle: what does not move by a 32nd of a pixel is still. */
+/* The list of a triangle: what does not move by a step of its vertices (q8 px) is still. */
 static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
 {
     struct smear_geometry *g = b->a->geometry;
-    uint32_t *list = is_blend(b->d) ? g->blend_last
-                   : bounds->travel + bounds->bend == 0 ? g->opaque_last : g->mover_last;
+    const bool is_still = bounds->travel + bounds->bend == 0;
+    uint32_t *list = is_blend(b->d) ? g->blend_last : is_still ? g->opaque_last : g->mover_last;
+    b->a->path_still_count += is_still;
     return &list[geometry_row(g, bounds->y0)];
 }
 

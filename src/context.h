@@ -57,6 +57,26 @@ struct smear_row_movers {
     struct smear_tile_load *load;               /* per tile */
 };
 
+/* What stands still in the frame, and where: as much of a draw as its picture depends on. */
+struct smear_still_draw {
+    smear_mesh mesh;
+    smear_material material;
+    smear_texture texture;
+    smear_transform now;
+    uint8_t billboard;
+};
+
+/* With desc.keep_still: what the window, which then has all rows of the frame, shows. */
+struct smear_still {
+    struct smear_still_draw *draw;
+    uint32_t count;
+    smear_camera camera;
+    uint32_t clear;
+    uint8_t light;
+    bool is_whole;                  /* all rows show it */
+    bool holds;                     /* and it is what this frame wants */
+};
+
 /* What filters need beyond the window. */
 struct smear_filtering {
     struct smear_reprojection reprojection;             /* where raster.velocity_from_depth */
@@ -111,6 +131,7 @@ struct smear_context {
     int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
+    struct smear_still *still;          /* null without desc.keep_still */
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
@@ -132,6 +153,12 @@ struct smear_context {
 static inline bool has_layers(const struct smear_context *c)
 {
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
+}
+
+/* Draws that stand still need not be drawn: the window shows them. */
+static inline bool still_holds(const struct smear_context *c)
+{
+    return SMEAR_WITH_SUBFRAMES && c->still != NULL && c->still->holds;
 }
 
 extern const smear_transform smear_identity;      /* frame.c */

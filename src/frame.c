@@ -10,6 +10,7 @@
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
 #include "layers.h"
+#include "still.h"
 #include "timed.h"
 
 #include "convert.h"
@@ -380,6 +381,8 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
         uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
+        if (still_holds(c) && draw_stands_still(c, i))
+            continue;
         const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
                                         ? &c->layers->group[c->layers->group_of[i]] : NULL;
         if (has_layers(c))
@@ -410,6 +413,7 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct i
     const bool done = assemble_draws(c, &as, instant, drop);
     c->geometry = geometry;
     c->assembler.path_count = as.path_count;
+    c->assembler.path_still_count = as.path_still_count;
     c->assembler.triangles_drawn = as.triangles_drawn;
     c->assembler.triangles_dropped = as.triangles_dropped;
     return done;
@@ -439,6 +443,12 @@ static void cache_free_pool(struct smear_context *c)
     c->cache = smear_raster_cache_make(g->pool + first, bytes, c->jobs.workers);
 }
 
+/* What moves by less than a step of its vertices is drawn among what stands still, and in order with it. */
+static bool still_is_disturbed(const struct smear_context *c)
+{
+    return still_holds(c) && c->assembler.path_still_count != 0;
+}
+
 /* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included
  * for what is finished a row late: from *top on, at most from `least` on where room is short. When that
  * is too much, triangles are dropped and counted. */
@@ -449,11 +459,15 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     for (;;) {
         uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        bool last = end - first <= 1 && *top == least;
-        if (assemble_rows(c, *top, end, instant, last))
+        bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, last);
+        if (done && !still_is_disturbed(c))
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
+        if (done) {
+            smear_still_forget(c);
+            continue;
+        }
         if (end - first > 1)
             end = first + (end - first) / 2;
         else
@@ -943,7 +957,11 @@ static int render_filter(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = middle_of(c);
-    return render_parts(c, &middle, smear_timed_rows);
+    smear_still_begin(c);
+    int result = render_parts(c, &middle, smear_timed_rows);
+    if (result == SMEAR_OK)
+        smear_still_end(c);
+    return result;
 }
 
 /* Which draws are blurred, and how they move. */
@@ -1128,6 +1146,7 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
 
     c->blends = false;
     c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE
+             && (!SMEAR_WITH_SUBFRAMES || c->still == NULL)
              && c->desc.dither == SMEAR_DITHER_NONE
              && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
@@ -1167,6 +1186,8 @@ int smear_frame_render(struct smear_context *c)
 {
     uint32_t start = stage_start(c);
     prepare(c);
+    if (SMEAR_WITH_SUBFRAMES && !smear_method_is_timed(c->frame.method))
+        smear_still_forget(c);
     /* What was not compiled in has been refused by smear_begin. */
     int result;
     if (SMEAR_WITH_ACCUMULATE && c->frame.method == SMEAR_ACCUMULATE)

@@ -33,6 +33,7 @@ struct smear_assembler {
     bool keep_paths;                /* the method looks at several instants */
     uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
     uint32_t triangles_drawn, triangles_dropped;
+    uint32_t path_still_count;      /* triangles with paths of no length: listed among those that stand still */
 };
 
 /* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)

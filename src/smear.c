@@ -30,6 +30,7 @@ static bool has_method(int method)
 
 static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
+static inline bool keeps_still(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->keep_still; }
 static inline bool has_half(const smear_desc *d) { return SMEAR_WITH_FILTERS && d->half; }
 static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
 
@@ -73,6 +74,8 @@ static bool resolve(smear_desc *d)
     if (has_tiles(d) && d->band_rows != d->tile
         && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
+    if (SMEAR_WITH_SUBFRAMES && (d->keep_still > 1 || (d->keep_still && (!d->timed || !d->sharp))))
+        return false;
     if (d->bands == 0)
         d->bands = 1;
     if (d->workers == 0)
@@ -109,6 +112,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_
 SMEAR_STATIC_ASSERT(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_still_draw) <= SMEAR_STILL_DRAW_BYTES, "SMEAR_STILL_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
@@ -147,7 +151,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + row_px(d) - 1) / row_px(d);
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
+    w->ring = has_window(d)     ? (w->lag + 1) * d->tile + d->reach
+            : keeps_still(d) ? d->height
+                             : min_i32(row_px(d), d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);
@@ -190,6 +196,12 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
+    }
+    if (keeps_still(d)) {
+        struct smear_still_draw *draw = arena_take(a, d->max_draws, sizeof *draw);
+        c->still = arena_take(a, 1, sizeof *c->still);
+        if (c->still != NULL)       /* not only measured */
+            *c->still = (struct smear_still){ .draw = draw };
     }
     if (is_layered(d)) {
         struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);

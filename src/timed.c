@@ -533,7 +533,8 @@ int smear_timed_rows(struct smear_context *c, int first, int end)
         uint32_t start = stage_start(c);
         struct row_job job = { .c = c, .row = row };
         c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
-        smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
+        if (!still_holds(c))
+            smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
         list_movers(c, row);
         stage_end(c, &c->stats.time_raster, start);
         int result = finish_row(c, row);

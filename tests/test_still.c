@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT */
+/* test_still.c - smear_desc.keep_still: the pictures are those of a context that draws everything in every frame, to
+ * the bit, and what stands still is drawn only where it must be. Host only. */
+#include "rig.h"
+#include "test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void suite_still(void);
+
+enum { WIDTH = 70, HEIGHT = 52, FLOOR = 0, POST, PANE, MOVER, DRAWS, BYTES = WIDTH * HEIGHT * 4 };
+
+/* A floor and a post, which stand still, as does a pane of glass before them; a cube that goes by between them. */
+struct set {
+    smear_transform pose[DRAWS];
+    smear_material material[DRAWS];
+    smear_mesh mesh[DRAWS];
+    smear_texture texture;
+    smear_draw draw[DRAWS];
+    smear_camera camera;
+    smear_frame frame;
+    int count;
+};
+
+static void set_up(struct set *s, uint8_t method)
+{
+    make_checker();
+    *s = (struct set){
+        .pose = { pose_at(0, -1.2, -6, 0, -1.5), pose_at(-0.8, 0, -6, 0.5, 0), pose_at(0.6, 0.3, -3, 0, 0), { { 0 } } },
+        .material = { { .texture = &s->texture }, { .color = { 90, 200, 60, 255 } },
+                      { .color = { 255, 40, 40, 120 }, .alpha = SMEAR_BLEND, .unlit = 1 },
+                      { .color = { 240, 220, 40, 255 } } },
+        .mesh = { square, cube, square, cube }, .texture = checker_texture,
+        .camera = camera_at(0, 0.2, 0, 0), .count = DRAWS
+    };
+    for (int i = 0; i < DRAWS; i++)
+        s->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &s->mesh[i], .material = &s->material[i],
+                                   .now = &s->pose[i] };
+    s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x305080 };
+}
+
+static void move_on(struct set *s, int frame)
+{
+    s->pose[MOVER] = pose_at(-2 + 0.4 * frame, 0.1, -4.5, 0.3 * frame, 0);
+}
+
+static smear_desc desc_of(uint32_t triangles)
+{
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .timed = 1, .sharp = 1, .tile = 16,
+                         .layers = 1, .accumulate = 1, .max_triangles = triangles };
+}
+
+/* The same frames in a context that keeps and in one that does not. */
+struct pair {
+    struct rig keeps, draws;
+};
+
+static bool pair_begin(struct pair *p, smear_desc desc)
+{
+    bool ok = rig_begin(&p->draws, &desc, false);
+    desc.keep_still = 1;
+    return rig_begin(&p->keeps, &desc, false) && ok;
+}
+
+static void pair_end(struct pair *p)
+{
+    CHECK(guards_intact(&p->keeps));
+    rig_end(&p->keeps);
+    rig_end(&p->draws);
+}
+
+/* True when what stands still was kept. Pictures must be the same. */
+static bool kept(struct pair *p, const struct set *s)
+{
+    smear_stats stats, full;
+    uint8_t *want = rig_copy(&p->draws, &s->frame, s->draw, s->count);
+    rig_forget_output(&p->keeps);
+    CHECK_EQ(rig_frame(&p->keeps, &s->frame, s->draw, s->count), SMEAR_OK);
+    CHECK(want != NULL && same_picture(&p->keeps, want));
+    free(want);
+    smear_get_stats(p->keeps.ctx, &stats);
+    smear_get_stats(p->draws.ctx, &full);
+    CHECK_EQ(full.still_kept, 0);
+    CHECK_EQ(stats.triangles_in, full.triangles_in);
+    CHECK(stats.triangles_split != 0
+          || (stats.still_kept ? stats.triangles_drawn <= full.triangles_drawn
+                               : stats.triangles_drawn == full.triangles_drawn));
+    return stats.still_kept != 0;
+}
+
+static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
+{
+    static const uint8_t methods[] = { SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
+    for (unsigned m = 0; m < sizeof methods; m++)
+        for (uint32_t triangles = 16; triangles <= 400; triangles += 384) {       /* in parts; at once */
+            struct pair p;
+            struct set s;
+            set_up(&s, methods[m]);
+            if (pair_begin(&p, desc_of(triangles)))
+                for (int i = 0; i < 8; i++) {
+                    move_on(&s, i);
+                    CHECK_EQ(kept(&p, &s), i >= 2);     /* the cube stands still where it is first seen */
+                }
+            pair_end(&p);
+        }
+}
+
+/* Everything that the still layer depends on: after each change it is drawn once, and then kept. */
+static void test_a_change_of_anything_that_stands_still_draws_it_again(void)
+{
+    static uint32_t other_texels[8 * 8];
+    static uint8_t color[4 * 8];
+    struct pair p;
+    struct set s;
+    memset(color, 130, sizeof color);
+    set_up(&s, SMEAR_AUTO);
+    enum { CHANGES = 17 };
+    if (pair_begin(&p, desc_of(400)))
+        for (int change = 0, frame = 0; change <= CHANGES; change++) {
+            switch (change) {
+            case 1: s.camera.focal += 2000; s.frame.cut = 1; break;
+            case 2: s.camera.near_plane += 3000; break;
+            case 3: s.camera.pose.origin[0] += 9000; s.frame.cut = 1; break;
+            case 4: s.frame.clear = 0x305081; break;
+            case 5: s.frame.light = SMEAR_LIGHT_ENCODED; break;
+            case 6: s.material[POST].color[1]++; break;
+            case 7: s.material[POST].unlit = 1; break;
+            case 8: s.pose[POST].origin[1] += 5000; s.draw[POST].cut = 1; break;
+            case 9: s.draw[POST].material = NULL; break;
+            case 10: s.texture.texels = other_texels; break;
+            case 11: s.texture.wrap_u = SMEAR_MIRROR; break;
+            case 12: s.material[FLOOR].bilinear = 1; break;
+            case 13: s.mesh[POST].color = color; break;
+            case 14: s.mesh[POST].scale = 2; break;
+            case 15: color[5] = 7; s.frame.refresh = 1; break;
+            case 16: s.draw[POST] = s.draw[PANE]; s.count = 3; s.draw[PANE] = s.draw[MOVER]; break;    /* one draw less */
+            case 17: s.draw[FLOOR].now = NULL; s.draw[FLOOR].cut = 1; break;
+            }
+            for (int i = 0; i < 3; i++) {
+                move_on(&s, frame++);
+                const bool is_kept = kept(&p, &s);
+                if (i == 0)
+                    CHECK(!is_kept);
+                /* a cut makes the cube stand still, too: a frame later it does no more */
+                CHECK(i != 2 || is_kept || CHECK_EQ(change, -1));
+                s.frame.cut = s.frame.refresh = s.draw[POST].cut = s.draw[FLOOR].cut = 0;
+            }
+        }
+    pair_end(&p);
+}
+
+static void test_what_stops_and_starts_joins_and_leaves(void)
+{
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    move_on(&s, 3);
+    if (pair_begin(&p, desc_of(400))) {
+        CHECK(!kept(&p, &s));
+        CHECK(kept(&p, &s));            /* nothing moves */
+        CHECK(kept(&p, &s));
+        move_on(&s, 4);
+        CHECK(!kept(&p, &s));           /* it leaves */
+        move_on(&s, 5);
+        CHECK(kept(&p, &s));
+        CHECK(!kept(&p, &s));           /* it has stopped */
+        CHECK(kept(&p, &s));
+    }
+    pair_end(&p);
+}
+
+/* What does not move by a step of a 256th of a pixel is drawn among what stands still. */
+static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
+{
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    if (pair_begin(&p, desc_of(400)))
+        for (int i = 0; i < 12; i++) {
+            s.pose[MOVER] = i > 6 ? pose_at(0.3 * i, 0.1, -4.5, 0.2, 0) : pose_at(2, 0.1, -12, 0.2, 0);
+            s.pose[MOVER].origin[0] += i;
+            const bool is_kept = kept(&p, &s);
+            if (i < 7)
+                CHECK(!is_kept);
+            else if (i > 9)
+                CHECK(is_kept);
+        }
+    pair_end(&p);
+}
+
+static void test_other_methods_and_failures_between_do_no_harm(void)
+{
+    static const uint8_t between[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    if (pair_begin(&p, desc_of(400)))
+        for (int i = 0; i < 16; i++) {
+            move_on(&s, i);
+            s.frame.method = i % 4 == 3 ? between[i / 4] : (uint8_t)SMEAR_AUTO;
+            CHECK_EQ(kept(&p, &s), i % 4 == 2 || (i % 4 == 1 && i > 4));
+        }
+    s.frame.method = SMEAR_AUTO;
+    for (int row = 0; row < 4; row++) {
+        p.keeps.fail_at = row;
+        p.keeps.fail_with = -9;
+        s.frame.clear++;
+        rig_forget_output(&p.keeps);
+        CHECK_EQ(rig_frame(&p.keeps, &s.frame, s.draw, s.count), -9);
+        p.keeps.fail_at = -1;
+        CHECK(!kept(&p, &s));
+        CHECK(kept(&p, &s));
+    }
+    pair_end(&p);
+}
+
+static void test_memory_is_as_the_macro_says_and_only_timed_contexts_keep(void)
+{
+    static const int sizes[][3] = { { 70, 52, 16 }, { 240, 240, 32 }, { 24, 8, 8 }, { 16, 8, 32 } };
+    for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const int *size = sizes[i];
+        smear_desc desc = { .width = (int16_t)size[0], .height = (int16_t)size[1], .tile = (int16_t)size[2],
+                            .strip = 128, .timed = 1, .sharp = 1, .max_draws = 20, .max_triangles = 300,
+                            .flush = take_band };
+        const size_t without = smear_memory_size(&desc);
+        desc.keep_still = 1;
+        const size_t with = smear_memory_size(&desc), room = SMEAR_KEEP_STILL_BYTES(size[0], size[1], 20, size[2]);
+        CHECK(with > without && with - without <= room && with - without + 2400 >= room);
+    }
+    smear_desc desc = desc_of(400);
+    desc.flush = take_band;
+    for (int i = 0; i < 3; i++) {
+        smear_desc wrong = desc;
+        wrong.keep_still = i == 0 ? 2 : 1;
+        wrong.timed = i != 1;
+        wrong.sharp = i != 2;
+        CHECK(smear_memory_size(&wrong) == 0);
+    }
+}
+
+void suite_still(void)
+{
+    RUN(test_pictures_are_the_same_and_the_still_layer_is_drawn_once);
+    RUN(test_a_change_of_anything_that_stands_still_draws_it_again);
+    RUN(test_what_stops_and_starts_joins_and_leaves);
+    RUN(test_motion_too_small_to_be_seen_is_drawn_in_order);
+    RUN(test_other_methods_and_failures_between_do_no_harm);
+    RUN(test_memory_is_as_the_macro_says_and_only_timed_contexts_keep);
+}
