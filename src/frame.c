@@ -464,7 +464,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        if (done) {
+        if (SMEAR_WITH_SUBFRAMES && done) {
             smear_still_forget(c);
             continue;
         }
