@@ -58,13 +58,19 @@ struct mean {
 struct narrow_mean {
     uint32_t n, half, factor;
     int shift;
+    uint32_t factor24;          /* the factor times 2^(8 - shift): the mean is in a product's top byte */
+};
+
+/* Packed sums of a pixel: red and blue, in 16 bits each; green, and how many. */
+struct sums {
+    uint32_t rb, gn;
 };
 
 struct subframes {
     const struct smear_moving_tile *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
-    /* Planes of sums of what is not still. Packed: red and blue, then
-     * green and how many. Else: red, green, blue. */
+    /* Planes of sums of what is not still: red, green, blue. Packed, as in struct sums: two planes where there
+     * are vectors, else one of pairs. */
     uint32_t *sum[3];
     uint32_t *times;            /* how many */
     bool packed;
@@ -102,12 +108,8 @@ static inline uint32_t mean_of(const struct mean *m, uint32_t sum)
 static struct narrow_mean narrow_mean_make(uint32_t n)
 {
     int shift = 31 - count_leading_zeros(n - 1);
-    return (struct narrow_mean){ n, n >> 1, ((1u << (16 + shift)) + n - 1) / n, shift };
-}
-
-static inline uint32_t narrow_mean_of(const struct narrow_mean *m, uint32_t sum)
-{
-    return ((sum + m->half) * m->factor >> 16) >> m->shift;
+    uint32_t factor = ((1u << (16 + shift)) + n - 1) / n;
+    return (struct narrow_mean){ n, n >> 1, factor, shift, factor << (8 - shift) };
 }
 
 /* ------------------------------------------------------------------ what is still */
@@ -437,13 +439,30 @@ static inline uint32_t value_of(uint32_t code, bool linear)
     return linear ? smear_srgb_decode[code] : code;
 }
 
+#if SMEAR_VECTORS
+static inline struct sums sums_at(const struct subframes *f, int32_t at)
+{
+    return (struct sums){ f->sum[0][at], f->sum[1][at] };
+}
+#else
+static inline struct sums *pair_at(const struct subframes *f, int32_t at)
+{
+    return (struct sums *)(void *)f->sum[0] + at;
+}
+
+static inline struct sums sums_at(const struct subframes *f, int32_t at)
+{
+    return *pair_at(f, at);
+}
+#endif
+
 /* Adds n pixels and makes them still again. What looks still need not be counted: it is what the rest of the
  * mean is made of. `all`: everything counts. */
+#if SMEAR_VECTORS
 static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uint32_t *gn, int32_t n,
                        bool all)
 {
     int32_t i = 0;
-#if SMEAR_VECTORS
     const smear_v4u every = { 0u - all, 0u - all, 0u - all, 0u - all };
     for (; i + 4 <= n; i += 4) {
         smear_v4u c = v4u_load(color + i), behind = v4u_load(still + i),
@@ -453,13 +472,7 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         v4u_store(rb + i, v4u_load(rb + i) + (c & 0xff00ffu));
         v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
     }
-#endif
-    /* Pixels have no alpha. Counted up to 0: few registers are enough. */
-    color += n;
-    still += n;
-    rb += n;
-    gn += n;
-    for (i -= n; i != 0; i++) {
+    for (; i < n; i++) {
         const uint32_t c = color[i], behind = still[i];
         if (c != behind || all) {
             color[i] = behind;
@@ -468,6 +481,19 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         }
     }
 }
+#else
+static void add_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n, bool all)
+{
+    for (const uint32_t *end = still + n; still != end; color++, sums++) {
+        const uint32_t c = *color, behind = *still++;
+        if (c != behind || all) {
+            *color = behind;
+            sums->rb += c & 0xff00ffu;
+            sums->gn += (uint8_t)(c >> 8) + 0x10000u;
+        }
+    }
+}
+#endif
 
 static void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
 {
@@ -494,7 +520,11 @@ static void add(const struct subframes *f, const struct box *b)
         const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
         int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
         if (f->packed)
+#if SMEAR_VECTORS
             add_packed(f->work.color + at, still, f->sum[0] + at, f->sum[1] + at, n, f->blends);
+#else
+            add_packed(f->work.color + at, still, pair_at(f, at), n, f->blends);
+#endif
         else
             add_wide(f, at, still, n);
     }
@@ -577,15 +607,10 @@ static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
     return i + 1 == gap->pairs ? gap->last : gap->unit;
 }
 
-static inline uint32_t times_at(const struct subframes *f, int32_t at)
-{
-    return f->packed ? f->sum[1][at] >> 16 : f->times[at];
-}
-
 /* What is still hides all movers there. */
-static inline bool stays_still(const struct subframes *f, int32_t at)
+static inline bool stays_still(const struct subframes *f, int32_t at, uint32_t times)
 {
-    return f->work.depth[at] > f->nearest && times_at(f, at) == 0;
+    return f->work.depth[at] > f->nearest && times == 0;
 }
 
 /* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there
@@ -595,15 +620,15 @@ static inline bool stays_still(const struct subframes *f, int32_t at)
 static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap,
                       int32_t pairs)
 {
-    const uint32_t depth = f->work.depth[at], times = times_at(f, at);
+    const uint32_t depth = f->work.depth[at], times = f->times[at];
     bool hides = depth > f->nearest;
     for (int32_t i = 0; i < 2 * pairs; i++) {
         const int32_t p = i & 1 ? at + gap->offset[i >> 1] : at - gap->offset[i >> 1];
         const uint32_t depth_there = f->work.depth[p];
         tap[i] = p;
-        if (depth_there > depth && (depth_there > f->nearest || times_at(f, p) + 1 < times))
+        if (depth_there > depth && (depth_there > f->nearest || f->times[p] + 1 < times))
             tap[i] = at;
-        else if (depth_there < depth && times + 1 < times_at(f, p))
+        else if (depth_there < depth && times + 1 < f->times[p])
             hides = true;
     }
     for (int32_t i = 0; hides && i < 2 * pairs; i++)
@@ -622,13 +647,63 @@ static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap
     return all;
 }
 
-static inline uint32_t mixed_packed(uint32_t rb, uint32_t gn, const struct narrow_mean *m, uint32_t still)
+/* Adds what is at a tap and opposite, `weight` times. */
+static inline void sums_add(struct sums *all, struct sums a, struct sums b, uint32_t weight)
 {
-    const uint32_t rest = m->n - (gn >> 16);
-    rb += (still & 0xff00ffu) * rest;
-    return pixel_make(0, narrow_mean_of(m, rb >> 16),
-                      narrow_mean_of(m, (gn & 0xffffu) + pixel_green(still) * rest),
-                      narrow_mean_of(m, rb & 0xffffu));
+    all->rb += (a.rb + b.rb) * weight;
+    all->gn += (a.gn + b.gn) * weight;
+}
+
+/* Packed sums over the gap. Nothing hides movers there. */
+static inline struct sums gap_sums(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    struct sums all = sums_at(f, at);
+    const int32_t *offset = gap->offset;
+    for (int32_t i = 1; i < pairs; i++, offset++)
+        sums_add(&all, sums_at(f, at - *offset), sums_at(f, at + *offset), 1);
+    all.rb <<= gap->unit_log2;
+    all.gn <<= gap->unit_log2;
+    if (pairs > 0)
+        sums_add(&all, sums_at(f, at - *offset), sums_at(f, at + *offset), pair_weight(gap, pairs - 1));
+    return all;
+}
+
+/* What find_taps and gap_sum do, for packed sums. */
+static struct sums gap_sums_seen(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const struct sums here = sums_at(f, at);
+    const uint32_t depth = f->work.depth[at], times = here.gn >> 16;
+    struct sums all = { here.rb * gap->unit, here.gn * gap->unit };
+    bool hides = depth > f->nearest;
+    for (int32_t i = 0; i < pairs && !hides; i++) {
+        struct sums pair = { 0, 0 };
+        for (int side = 0; side < 2; side++) {
+            const int32_t p = side ? at + gap->offset[i] : at - gap->offset[i];
+            const uint32_t depth_there = f->work.depth[p];
+            struct sums there = sums_at(f, p);
+            if (depth_there > depth && (depth_there > f->nearest || (there.gn >> 16) + 1 < times))
+                there = here;
+            else if (depth_there < depth && times + 1 < there.gn >> 16)
+                hides = true;
+            pair.rb += there.rb;
+            pair.gn += there.gn;
+        }
+        all.rb += pair.rb * pair_weight(gap, i);
+        all.gn += pair.gn * pair_weight(gap, i);
+    }
+    if (hides) {
+        const uint32_t whole = gap->weight[pairs] / f->instants;
+        all = (struct sums){ here.rb * whole, here.gn * whole };
+    }
+    return all;
+}
+
+static inline uint32_t mixed_packed(struct sums sums, const struct narrow_mean *m, uint32_t still)
+{
+    const uint32_t rest = m->n - (sums.gn >> 16);
+    const uint32_t rb = sums.rb + (still & 0xff00ffu) * rest + m->half * 0x10001u;
+    const uint32_t g = (uint16_t)sums.gn + pixel_green(still) * rest + m->half;
+    return (rb >> 16) * m->factor24 >> 24 << 16 | g * m->factor24 >> 24 << 8 | (uint16_t)rb * m->factor24 >> 24;
 }
 
 #if SMEAR_VECTORS
@@ -704,24 +779,13 @@ static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t
 }
 #endif
 
-static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs,
-                               const int32_t *tap)
-{
-    uint32_t *out = &f->work.color[at];
-    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap),
-                        &gap->mean[pairs], *out);
-}
-
 static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
                             int32_t pairs)
 {
-    int32_t tap[2 * PAIRS_MAX];
-    for (int32_t i = at; i < at + n; i++) {
-        if (stays_still(f, i))
-            continue;
-        find_taps(tap, f, i, gap, pairs);
-        average_one(f, i, gap, pairs, tap);
-    }
+    uint32_t *out = f->work.color;
+    for (int32_t i = at; i < at + n; i++)
+        if (!stays_still(f, i, sums_at(f, i).gn >> 16))
+            out[i] = mixed_packed(gap_sums_seen(f, i, gap, pairs), &gap->mean[pairs], out[i]);
 }
 
 static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap,
@@ -729,9 +793,9 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
 {
     int32_t i = s->at;
     const int32_t end = s->at + s->n;
-#if SMEAR_VECTORS
     const struct narrow_mean *m = &gap->mean[s->pairs];
     uint32_t *out = f->work.color;
+#if SMEAR_VECTORS
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
     for (; i + 4 <= end; i += 4) {
         if ((cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))
@@ -748,7 +812,7 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
         average_covered(f, i, end - i, gap, s->pairs);
     else
         for (; i < end; i++)
-            average_one(f, i, gap, s->pairs, NULL);
+            out[i] = mixed_packed(gap_sums(f, i, gap, s->pairs), m, out[i]);
 }
 
 static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
@@ -760,7 +824,7 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
     const int32_t *taps = cover != COVER_NONE ? tap : NULL;
     for (int32_t at = s->at; at < s->at + s->n; at++) {
         if (cover != COVER_NONE) {
-            if (stays_still(f, at))
+            if (stays_still(f, at, f->times[at]))
                 continue;
             find_taps(tap, f, at, gap, s->pairs);
         }
@@ -839,6 +903,12 @@ static void clear_sums(const struct subframes *f)
     for (int32_t y = b.y0; y < b.y1; y++) {
         const int32_t at = work_row(f, &b, y);
         const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
+#if !SMEAR_VECTORS
+        if (f->packed) {
+            __builtin_memset(pair_at(f, at), 0, 2 * bytes);
+            continue;
+        }
+#endif
         for (int i = 0; i < (f->packed ? 2 : 3); i++)
             __builtin_memset(f->sum[i] + at, 0, bytes);
         if (!f->packed)
