@@ -56,9 +56,9 @@ struct mean {
 /* The same in 16 bits, for sums of n codes, 2 <= n <= PACKED_MAX: times 2^(16 + shift) / n, rounded up: a
  * mean that is whole stays so, and others go up from 1/2 - 1/128 on. */
 struct narrow_mean {
-    uint32_t n, half, factor;
+    uint32_t n, halves, factor;     /* halves: n / 2 in 16 bits, twice */
     int shift;
-    uint32_t factor24;          /* the factor times 2^(8 - shift): the mean is in a product's top byte */
+    uint32_t factor24;              /* the factor times 2^(8 - shift): the mean is in a product's top byte */
 };
 
 /* Packed sums of a pixel: red and blue, in 16 bits each; green, and how many. */
@@ -109,7 +109,7 @@ static struct narrow_mean narrow_mean_make(uint32_t n)
 {
     int shift = 31 - count_leading_zeros(n - 1);
     uint32_t factor = ((1u << (16 + shift)) + n - 1) / n;
-    return (struct narrow_mean){ n, n >> 1, factor, shift, factor << (8 - shift) };
+    return (struct narrow_mean){ n, (n >> 1) * 0x10001u, factor, shift, factor << (8 - shift) };
 }
 
 /* ------------------------------------------------------------------ what is still */
@@ -315,7 +315,7 @@ static void note(struct subframes *f, const struct smear_mover *m)
 }
 
 /* Lists what may be seen. True when something moves. */
-static bool list(struct subframes *f)
+static SMEAR_NOINLINE bool list(struct subframes *f)
 {
     const struct smear_moving_tile *t = f->t;
     const struct smear_geometry *g = t->frame->geometry;
@@ -395,7 +395,7 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
         draw(&p, f, target);
 }
 
-static void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
+static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
                   const struct smear_raster_target *target, struct box *all)
 {
     for (uint32_t i = f->movers_listed; i < f->all_listed; i++)
@@ -438,6 +438,13 @@ static inline uint32_t value_of(uint32_t code, bool linear)
 {
     return linear ? smear_srgb_decode[code] : code;
 }
+
+/* Compilers keep half of what these loops need on the stack: 17 instructions a pixel, not 24. */
+#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#define SUMS_BY_HAND 1
+#else
+#define SUMS_BY_HAND 0
+#endif
 
 #if SMEAR_VECTORS
 static inline struct sums sums_at(const struct subframes *f, int32_t at)
@@ -482,8 +489,43 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
     }
 }
 #else
-static void add_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n, bool all)
+static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n, bool all)
 {
+#if SUMS_BY_HAND
+    if (!all) {
+        const uint32_t *end = still + n;
+        __asm__ volatile(
+            ".syntax unified\n"
+            "1:\n\t"
+            "ldr r4, [%[color]]\n\t"
+            "ldm %[still]!, {r5}\n\t"
+            "stm %[color]!, {r5}\n\t"
+            "cmp r4, r5\n\t"
+            "beq 2f\n\t"
+            "mov r5, %[mask]\n\t"
+            "ands r5, r4\n\t"
+            "lsrs r4, r4, #8\n\t"
+            "uxtb r4, r4\n\t"
+            "ldr r6, [%[sums]]\n\t"
+            "ldr r7, [%[sums], #4]\n\t"
+            "adds r6, r6, r5\n\t"
+            "adds r7, r7, r4\n\t"
+            "add r7, %[one]\n\t"
+            "stm %[sums]!, {r6, r7}\n\t"
+            "cmp %[still], %[end]\n\t"
+            "bne 1b\n\t"
+            "b 3f\n"
+            "2:\n\t"
+            "adds %[sums], #8\n\t"
+            "cmp %[still], %[end]\n\t"
+            "bne 1b\n"
+            "3:"
+            : [color] "+l"(color), [still] "+l"(still), [sums] "+l"(sums)
+            : [end] "h"(end), [mask] "h"(0xff00ffu), [one] "h"(0x10000u)
+            : "r4", "r5", "r6", "r7", "cc", "memory");
+        return;
+    }
+#endif
     for (const uint32_t *end = still + n; still != end; color++, sums++) {
         const uint32_t c = *color, behind = *still++;
         if (c != behind || all) {
@@ -495,7 +537,7 @@ static void add_packed(uint32_t *color, const uint32_t *still, struct sums *sums
 }
 #endif
 
-static void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
+static SMEAR_RARE void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
 {
     const bool linear = frame_is_linear(f->t->frame);
     const uint32_t all = f->blends;
@@ -553,7 +595,7 @@ static int32_t nearest_pixel(int32_t numerator, int32_t over)
     return (2 * numerator + (numerator < 0 ? -over : over)) / (2 * over);
 }
 
-static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
+static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
     /* 1/16 px */
@@ -608,9 +650,9 @@ static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
 }
 
 /* What is still hides all movers there. */
-static inline bool stays_still(const struct subframes *f, int32_t at, uint32_t times)
+static inline bool stays_still(const struct subframes *f, int32_t at)
 {
-    return f->work.depth[at] > f->nearest && times == 0;
+    return f->work.depth[at] > f->nearest && f->times[at] == 0;
 }
 
 /* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there
@@ -647,29 +689,39 @@ static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap
     return all;
 }
 
-/* Adds what is at a tap and opposite, `weight` times. */
-static inline void sums_add(struct sums *all, struct sums a, struct sums b, uint32_t weight)
+/* Packed sums over the gaps of n pixels from `at` on. Nothing hides movers there. */
+static void gap_sums(struct sums *out, const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
+                     int32_t pairs)
 {
-    all->rb += (a.rb + b.rb) * weight;
-    all->gn += (a.gn + b.gn) * weight;
-}
-
-/* Packed sums over the gap. Nothing hides movers there. */
-static inline struct sums gap_sums(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
-{
-    struct sums all = sums_at(f, at);
     const int32_t *offset = gap->offset;
-    for (int32_t i = 1; i < pairs; i++, offset++)
-        sums_add(&all, sums_at(f, at - *offset), sums_at(f, at + *offset), 1);
-    all.rb <<= gap->unit_log2;
-    all.gn <<= gap->unit_log2;
-    if (pairs > 0)
-        sums_add(&all, sums_at(f, at - *offset), sums_at(f, at + *offset), pair_weight(gap, pairs - 1));
-    return all;
+    const int unit_log2 = gap->unit_log2;
+    if (pairs <= 1)
+        for (int32_t i = 0; i < n; i++) {
+            const struct sums here = sums_at(f, at + i);
+            out[i] = (struct sums){ here.rb << unit_log2, here.gn << unit_log2 };
+        }
+    else
+        for (int32_t i = 0; i < n; i++) {
+            struct sums all = sums_at(f, at + i);
+            for (int32_t k = 0; k < pairs - 1; k++) {
+                const struct sums a = sums_at(f, at + i - offset[k]), b = sums_at(f, at + i + offset[k]);
+                all.rb += a.rb + b.rb;
+                all.gn += a.gn + b.gn;
+            }
+            out[i] = (struct sums){ all.rb << unit_log2, all.gn << unit_log2 };
+        }
+    if (pairs == 0)
+        return;
+    const uint32_t weight = pair_weight(gap, pairs - 1);
+    for (int32_t i = 0, p = at - offset[pairs - 1], q = at + offset[pairs - 1]; i < n; i++) {
+        const struct sums a = sums_at(f, p + i), b = sums_at(f, q + i);
+        out[i].rb += (a.rb + b.rb) * weight;
+        out[i].gn += (a.gn + b.gn) * weight;
+    }
 }
 
-/* What find_taps and gap_sum do, for packed sums. */
-static struct sums gap_sums_seen(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+/* The same of one pixel, as find_taps says. */
+static inline struct sums gap_sums_seen(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
 {
     const struct sums here = sums_at(f, at);
     const uint32_t depth = f->work.depth[at], times = here.gn >> 16;
@@ -691,19 +743,71 @@ static struct sums gap_sums_seen(const struct subframes *f, int32_t at, const st
         all.rb += pair.rb * pair_weight(gap, i);
         all.gn += pair.gn * pair_weight(gap, i);
     }
-    if (hides) {
+    if (hides) {    /* none where what is still stays so */
         const uint32_t whole = gap->weight[pairs] / f->instants;
         all = (struct sums){ here.rb * whole, here.gn * whole };
     }
     return all;
 }
 
-static inline uint32_t mixed_packed(struct sums sums, const struct narrow_mean *m, uint32_t still)
+/* Means of n pixels, in place of what is still, which gets the weight of the instants that are left. */
+static SMEAR_NOINLINE void mix_packed(uint32_t *color, const struct sums *sums, int32_t n, const struct narrow_mean *m)
 {
-    const uint32_t rest = m->n - (sums.gn >> 16);
-    const uint32_t rb = sums.rb + (still & 0xff00ffu) * rest + m->half * 0x10001u;
-    const uint32_t g = (uint16_t)sums.gn + pixel_green(still) * rest + m->half;
-    return (rb >> 16) * m->factor24 >> 24 << 16 | g * m->factor24 >> 24 << 8 | (uint16_t)rb * m->factor24 >> 24;
+#if SUMS_BY_HAND
+    __asm__ volatile(
+        ".syntax unified\n"
+        "1:\n\t"
+        "ldm %[sums]!, {r4, r5}\n\t"
+        "lsrs r6, r5, #16\n\t"
+        "beq 2f\n\t"
+        "ldr r3, [%[color]]\n\t"
+        "rsbs r6, r6, #0\n\t"
+        "add r6, %[n]\n\t"
+        "mov r7, %[mask]\n\t"
+        "ands r7, r3\n\t"
+        "muls r7, r6\n\t"
+        "adds r4, r4, r7\n\t"
+        "add r4, %[halves]\n\t"
+        "lsrs r3, r3, #8\n\t"
+        "uxtb r3, r3\n\t"
+        "muls r3, r6\n\t"
+        "adds r5, r5, r3\n\t"
+        "add r5, %[halves]\n\t"
+        "uxth r5, r5\n\t"
+        "mov r6, %[factor]\n\t"
+        "muls r5, r6\n\t"
+        "lsrs r5, r5, #24\n\t"
+        "lsls r5, r5, #8\n\t"
+        "uxth r7, r4\n\t"
+        "muls r7, r6\n\t"
+        "lsrs r7, r7, #24\n\t"
+        "orrs r5, r7\n\t"
+        "lsrs r4, r4, #16\n\t"
+        "muls r4, r6\n\t"
+        "lsrs r4, r4, #24\n\t"
+        "lsls r4, r4, #16\n\t"
+        "orrs r5, r4\n\t"
+        "str r5, [%[color]]\n"
+        "2:\n\t"
+        "adds %[color], #4\n\t"
+        "cmp %[sums], %[end]\n\t"
+        "bne 1b"
+        : [color] "+l"(color), [sums] "+l"(sums)
+        : [end] "h"(sums + n), [mask] "h"(0xff00ffu), [n] "h"(m->n), [halves] "h"(m->halves), [factor] "h"(m->factor24)
+        : "r3", "r4", "r5", "r6", "r7", "cc", "memory");
+#else
+    const struct narrow_mean mean = *m;
+    for (const struct sums *end = sums + n; sums != end; sums++, color++) {
+        const uint32_t times = sums->gn >> 16;
+        if (times == 0)
+            continue;
+        const uint32_t still = *color, rest = mean.n - times;
+        const uint32_t rb = sums->rb + (still & 0xff00ffu) * rest + mean.halves;
+        const uint32_t g = (uint16_t)(sums->gn + pixel_green(still) * rest + mean.halves);
+        *color = (rb >> 16) * mean.factor24 >> 24 << 16 | g * mean.factor24 >> 24 << 8
+               | (uint16_t)rb * mean.factor24 >> 24;
+    }
+#endif
 }
 
 #if SMEAR_VECTORS
@@ -732,7 +836,7 @@ static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t
 
 static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_mean *m, smear_v4u still)
 {
-    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->half * 0x10001u,
+    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->halves,
                     factor = zero + m->factor * 0x10001u;
     const smear_v4u rest = (zero + m->n) - (gn >> 16);
     rb += v4u_mul16(still & 0xff00ffu, rest | rest << 16);
@@ -779,13 +883,21 @@ static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t
 }
 #endif
 
-static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
-                            int32_t pairs)
+static SMEAR_NOINLINE void average_some(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
+                                        int32_t pairs, enum cover cover)
 {
-    uint32_t *out = f->work.color;
-    for (int32_t i = at; i < at + n; i++)
-        if (!stays_still(f, i, sums_at(f, i).gn >> 16))
-            out[i] = mixed_packed(gap_sums_seen(f, i, gap, pairs), &gap->mean[pairs], out[i]);
+    struct sums sums[16];
+    while (n > 0) {
+        const int32_t count = min_i32(n, 16);
+        if (cover == COVER_NONE)
+            gap_sums(sums, f, at, count, gap, pairs);
+        else
+            for (int32_t i = 0; i < count; i++)
+                sums[i] = gap_sums_seen(f, at + i, gap, pairs);
+        mix_packed(f->work.color + at, sums, count, &gap->mean[pairs]);
+        at += count;
+        n -= count;
+    }
 }
 
 static void average_packed(const struct subframes *f, const struct stretch *s, const struct gap *gap,
@@ -793,14 +905,14 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
 {
     int32_t i = s->at;
     const int32_t end = s->at + s->n;
+#if SMEAR_VECTORS
     const struct narrow_mean *m = &gap->mean[s->pairs];
     uint32_t *out = f->work.color;
-#if SMEAR_VECTORS
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
     for (; i + 4 <= end; i += 4) {
         if ((cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))
             || (cover != COVER_NONE && is_uneven4(gn + i, gap, s->pairs))) {
-            average_covered(f, i, 4, gap, s->pairs);
+            average_some(f, i, 4, gap, s->pairs, cover);
             continue;
         }
         smear_v4u sum[2];
@@ -808,14 +920,10 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
         v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
     }
 #endif
-    if (cover != COVER_NONE)
-        average_covered(f, i, end - i, gap, s->pairs);
-    else
-        for (; i < end; i++)
-            out[i] = mixed_packed(gap_sums(f, i, gap, s->pairs), m, out[i]);
+    average_some(f, i, end - i, gap, s->pairs, cover);
 }
 
-static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
+static SMEAR_RARE void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
                          enum cover cover)
 {
     const struct mean m = mean_make(gap->weight[s->pairs]);
@@ -824,7 +932,7 @@ static void average_wide(const struct subframes *f, const struct stretch *s, con
     const int32_t *taps = cover != COVER_NONE ? tap : NULL;
     for (int32_t at = s->at; at < s->at + s->n; at++) {
         if (cover != COVER_NONE) {
-            if (stays_still(f, at, f->times[at]))
+            if (stays_still(f, at))
                 continue;
             find_taps(tap, f, at, gap, s->pairs);
         }
@@ -894,7 +1002,7 @@ static void average(const struct subframes *f, const struct box *all, const stru
 
 /* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond
  * what was drawn, and reads as far beyond that. */
-static void clear_sums(const struct subframes *f)
+static SMEAR_NOINLINE void clear_sums(const struct subframes *f)
 {
     const struct smear_raster_target *s = &f->t->still;
     const int32_t reach = 2 * PAIRS_MAX;
