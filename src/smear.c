@@ -284,7 +284,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
 
     struct smear_arena a = { (uint8_t *)memory, 0 };
     struct smear_context *c = arena_take(&a, 1, sizeof *c);
-    *c = (struct smear_context){ 0 };
+    __builtin_memset(c, 0, sizeof *c);
     layout(c, &a, &d);
     c->desc = d;
     c->stats.arena_bytes = (uint32_t)a.used;

@@ -865,11 +865,17 @@ static inline bool is_hidden4(const struct subframes *f, int32_t at, const struc
         most = v8i_max(most, v8i_max(v4_of_8i_load(depth - gap->offset[i]) ^ sign,
                                      v4_of_8i_load(depth + gap->offset[i]) ^ sign));
     const smear_v4u beyond = (smear_v4u)(v8i_max(most, limit) ^ limit);
-    return (beyond[0] | beyond[1]) != 0;
+    return v4u_any(beyond);
 }
 
-/* Whether movers are seen at a tap of one of four pixels at two instants more than at another. */
-static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t pairs)
+/* How often movers are seen at four pixels and at their taps. */
+enum seen {
+    SEEN_NOWHERE,
+    SEEN_EVENLY,
+    SEEN_UNEVENLY       /* somewhere at two instants more than elsewhere */
+};
+
+static inline enum seen seen4(const uint32_t *gn, const struct gap *gap, int32_t pairs)
 {
     smear_v8i least = (smear_v8i)v4u_load(gn), most = least;
     for (int32_t i = 0; i < pairs; i++) {
@@ -878,8 +884,58 @@ static inline bool is_uneven4(const uint32_t *gn, const struct gap *gap, int32_t
         least = v8i_min(least, v8i_min(a, b));
         most = v8i_max(most, v8i_max(a, b));
     }
-    const smear_v4u more = ((smear_v4u)most >> 16) - ((smear_v4u)least >> 16);
-    return ((more[0] | more[1] | more[2] | more[3]) & ~1u) != 0;
+    if (!v4u_any((smear_v4u)most >> 16))
+        return SEEN_NOWHERE;
+    return v4u_any((((smear_v4u)most >> 16) - ((smear_v4u)least >> 16)) & ~1u) ? SEEN_UNEVENLY : SEEN_EVENLY;
+}
+
+/* What counts of a tap, for four pixels: what is there, or at the pixel (find_taps). */
+struct tap4 {
+    smear_v4u rb, gn;
+};
+
+struct covered4 {
+    struct tap4 own;
+    smear_v4i depth, times, nearest;
+    smear_v4i hides;
+};
+
+static inline struct tap4 tap4_at(struct covered4 *c, const struct subframes *f, int32_t p)
+{
+    const struct tap4 there = { v4u_load(f->sum[0] + p), v4u_load(f->sum[1] + p) };
+    const smear_v4i depth = v4i_of_u16(f->work.depth + p), times = (smear_v4i)(there.gn >> 16);
+    const smear_v4i covers = (smear_v4i)(depth > c->depth)
+                           & ((smear_v4i)(depth > c->nearest) | (smear_v4i)(c->times > times + 1));
+    c->hides |= (smear_v4i)(c->depth > depth) & (smear_v4i)(times > c->times + 1);
+    return (struct tap4){ v4u_choose(covers, c->own.rb, there.rb), v4u_choose(covers, c->own.gn, there.gn) };
+}
+
+static inline smear_v4u weighted(smear_v4u sum, uint32_t weight)
+{
+    return v4u_mul16(sum, (smear_v4u){ 0, 0, 0, 0 } + weight * 0x10001u);
+}
+
+/* gap_sums_seen of four pixels, and their means: those that stay still have sums of 0. */
+static void average_seen4(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const smear_v4i zero = { 0, 0, 0, 0 };
+    struct covered4 c = { .own = { v4u_load(f->sum[0] + at), v4u_load(f->sum[1] + at) },
+                          .depth = v4i_of_u16(f->work.depth + at), .nearest = zero + (int32_t)f->nearest };
+    c.times = (smear_v4i)(c.own.gn >> 16);
+    c.hides = (smear_v4i)(c.depth > c.nearest);
+    smear_v4u rb = weighted(c.own.rb, gap->unit), gn = weighted(c.own.gn, gap->unit);
+    uint32_t all = gap->unit;
+    for (int32_t i = 0; i < pairs; i++) {
+        const uint32_t weight = pair_weight(gap, i);
+        const struct tap4 before = tap4_at(&c, f, at - gap->offset[i]), after = tap4_at(&c, f, at + gap->offset[i]);
+        rb += weighted(before.rb + after.rb, weight);
+        gn += weighted(before.gn + after.gn, weight);
+        all += 2 * weight;
+    }
+    rb = v4u_choose(c.hides, weighted(c.own.rb, all), rb);
+    gn = v4u_choose(c.hides, weighted(c.own.gn, all), gn);
+    uint32_t *out = &f->work.color[at];
+    v4u_store(out, mixed4(rb, gn, &gap->mean[pairs], v4u_load(out)));
 }
 #endif
 
@@ -910,10 +966,14 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
     uint32_t *out = f->work.color;
     const uint32_t *rb = f->sum[0], *gn = f->sum[1];
     for (; i + 4 <= end; i += 4) {
-        if ((cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))
-            || (cover != COVER_NONE && is_uneven4(gn + i, gap, s->pairs))) {
-            average_some(f, i, 4, gap, s->pairs, cover);
-            continue;
+        if (cover != COVER_NONE) {
+            const enum seen seen = seen4(gn + i, gap, s->pairs);
+            if (seen == SEEN_NOWHERE)
+                continue;
+            if (seen == SEEN_UNEVENLY || (cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))) {
+                average_seen4(f, i, gap, s->pairs);
+                continue;
+            }
         }
         smear_v4u sum[2];
         gap_sum4(sum, rb + i, gn + i, gap, s->pairs);

@@ -33,6 +33,7 @@ static inline void v4u_store(uint32_t *p, smear_v4u v)
     __builtin_memcpy(p, &v, sizeof v);
 }
 
+typedef int32_t smear_v4i __attribute__((vector_size(16)));
 typedef int16_t smear_v8i __attribute__((vector_size(16)));
 
 static inline smear_v8i v8i_load(const uint16_t *p)
@@ -48,6 +49,28 @@ static inline smear_v8i v4_of_8i_load(const uint16_t *p)
     smear_v8i v = { 0, 0, 0, 0, 0, 0, 0, 0 };
     __builtin_memcpy(&v, p, sizeof v / 2);
     return v;
+}
+
+static inline bool v4u_any(smear_v4u a)
+{
+    typedef uint64_t v2u __attribute__((vector_size(16)));
+    const v2u half = (v2u)a;
+    return (half[0] | half[1]) != 0;
+}
+
+static inline smear_v4i v4i_of_u16(const uint16_t *p)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_unpacklo_epi16((__m128i)v4_of_8i_load(p), _mm_setzero_si128());
+#else
+    return (smear_v4i){ p[0], p[1], p[2], p[3] };
+#endif
+}
+
+/* Per element: a where `which` is all ones, b where it is 0. */
+static inline smear_v4u v4u_choose(smear_v4i which, smear_v4u a, smear_v4u b)
+{
+    return (a & (smear_v4u)which) | (b & ~(smear_v4u)which);
 }
 
 static inline smear_v8i v8i_all(int16_t a)
@@ -76,6 +99,41 @@ static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
     return (smear_v8i)_mm_max_epi16((__m128i)a, (__m128i)b);
 #else
     return v8i_choose((smear_v8i)(a < b), b, a);
+#endif
+}
+
+static inline void v8i_store(uint16_t *p, smear_v8i v)
+{
+    __builtin_memcpy(p, &v, sizeof v);
+}
+
+/* The upper halves of words of a, then of b. */
+static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_packs_epi32(_mm_srai_epi32((__m128i)a, 16), _mm_srai_epi32((__m128i)b, 16));
+#else
+    const smear_v8i x = (smear_v8i)a, y = (smear_v8i)b;
+    return (smear_v8i){ x[1], x[3], x[5], x[7], y[1], y[3], y[5], y[7] };
+#endif
+}
+
+/* Each of elements 0 .. 3 twice, and each of 4 .. 7. */
+static inline smear_v4i v4i_twice_low(smear_v8i a)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_unpacklo_epi16((__m128i)a, (__m128i)a);
+#else
+    return (smear_v4i)(smear_v8i){ a[0], a[0], a[1], a[1], a[2], a[2], a[3], a[3] };
+#endif
+}
+
+static inline smear_v4i v4i_twice_high(smear_v8i a)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_unpackhi_epi16((__m128i)a, (__m128i)a);
+#else
+    return (smear_v4i)(smear_v8i){ a[4], a[4], a[5], a[5], a[6], a[6], a[7], a[7] };
 #endif
 }
 
