@@ -230,8 +230,8 @@ SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t add, struct 
         o->red_blue = (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
         green = (green * 31u + ((green + (green >> 7)) * 31u >> 8) + 2u) >> 2 << ORDERED_HIGH;
 #endif
-        /* 63 levels are one product, for all codes: what is below ORDERED_HIGH does not matter */
-        o->green = is_555 ? green : pixel_green(p) * 16579962u + 508400u;
+        /* of 63, one product has it for all codes */
+        o->green = is_555 ? green : (pixel_green(p) * 16579962u + 508400u) >> ORDERED_HIGH << ORDERED_HIGH;
     }
     const uint32_t both = o->red_blue + add;
     const uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)

@@ -526,12 +526,16 @@ static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, st
         return;
     }
 #endif
+    const uint32_t mask = all ? UINT32_MAX : 0;
     for (const uint32_t *end = still + n; still != end; color++, sums++) {
         const uint32_t c = *color, behind = *still++;
-        if (c != behind || all) {
+        if (((c ^ behind) | mask) != 0) {
+            __asm__ volatile ("");      /* nothing of this in advance */
+            struct sums s = *sums;
             *color = behind;
-            sums->rb += c & 0xff00ffu;
-            sums->gn += (uint8_t)(c >> 8) + 0x10000u;
+            s.rb += c & 0xff00ffu;
+            s.gn += (c >> 8 & 0xffu) + 0x10000u;
+            *sums = s;
         }
     }
 }
@@ -587,11 +591,17 @@ struct gap {
                                              * two), but the last pair's */
     int unit_log2;
     uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
-    struct narrow_mean mean[PAIRS_MAX + 1];
+    struct narrow_mean mean[PAIRS_MAX + 1]; /* made where they are needed: n is 0 before */
 };
 
-static int32_t nearest_pixel(int32_t numerator, int32_t over)
+/* Of part / over along an axis; where that is a whole number, no division. */
+static int32_t nearest_pixel(int32_t part, int32_t over, int32_t times)
 {
+    if (part == 0 || part == over)
+        return part == 0 ? 0 : times;
+    if (part == -over)
+        return -times;
+    const int32_t numerator = part * times;
     return (2 * numerator + (numerator < 0 ? -over : over)) / (2 * over);
 }
 
@@ -615,8 +625,8 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->x[i] = (int8_t)nearest_pixel(x, (int32_t)length, i + 1);
+        gap->y[i] = (int8_t)nearest_pixel(y, (int32_t)length, i + 1);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -626,8 +636,7 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
         gap->weight[pairs] = f->instants
                            * (pairs == gap->pairs && pairs != 0 ? whole
                                                                 : gap->unit * (2 * (uint32_t)pairs + 1));
-        if (f->packed)
-            gap->mean[pairs] = narrow_mean_make(gap->weight[pairs]);
+        gap->mean[pairs].n = 0;
     }
 }
 
@@ -1021,7 +1030,7 @@ static bool hides(const struct subframes *f, const struct box *b)
 }
 
 /* Columns [x0, x1) of the box, which lie in one tile: rows, cut where fewer pairs count. */
-static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
+static void average_tile(const struct subframes *f, const struct box *b, struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->still;
     const enum cover cover = f->highest == f->lowest ? COVER_NONE
@@ -1034,10 +1043,13 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
             const int32_t near = min_i32(x - s->x0, s->x1 - 1 - x);
             stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
             stretch.pairs = pairs_within(row_pairs, gap->x, near);
-            if (f->packed)
-                average_packed(f, &stretch, gap, cover);
-            else
+            if (!f->packed) {
                 average_wide(f, &stretch, gap, cover);
+                continue;
+            }
+            if (gap->mean[stretch.pairs].n == 0)
+                gap->mean[stretch.pairs] = narrow_mean_make(gap->weight[stretch.pairs]);
+            average_packed(f, &stretch, gap, cover);
         }
     }
 }
