@@ -24,6 +24,7 @@ enum {
     PACKED_MAX = SMEAR_PACKED_INSTANTS,     /* weights of codes that add up in 16
                                              * bits, with half of themselves */
     SUM_PLANES = SMEAR_WITH_LINEAR ? 4 : 2,     /* of codes alone all sums are packed */
+    PAIRS_MAX = 8,          /* of taps of a gap */
     RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
 
@@ -440,11 +441,14 @@ static inline uint32_t value_of(uint32_t code, bool linear)
 }
 
 /* Compilers keep half of what these loops need on the stack: 17 instructions a pixel, not 24. */
-#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #define SUMS_BY_HAND 1
 #else
 #define SUMS_BY_HAND 0
 #endif
+
+/* Sums are set at first, not emptied before: a gain where memory is slow. */
+#define SETS_PACKED (!SMEAR_VECTORS && !SUMS_BY_HAND)
 
 #if SMEAR_VECTORS
 static inline struct sums sums_at(const struct subframes *f, int32_t at)
@@ -495,14 +499,21 @@ static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, st
     if (!all) {
         const uint32_t *end = still + n;
         __asm__ volatile(
-            ".syntax unified\n"
+            ".syntax unified\n\t"
+            "movs r4, #255\n\t"
+            "lsls r5, r4, #16\n\t"
+            "orrs r4, r5\n\t"
+            "mov r8, r4\n\t"
+            "movs r4, #1\n\t"
+            "lsls r4, r4, #16\n\t"
+            "mov r9, r4\n"
             "1:\n\t"
             "ldr r4, [%[color]]\n\t"
             "ldm %[still]!, {r5}\n\t"
             "stm %[color]!, {r5}\n\t"
             "cmp r4, r5\n\t"
             "beq 2f\n\t"
-            "mov r5, %[mask]\n\t"
+            "mov r5, r8\n\t"
             "ands r5, r4\n\t"
             "lsrs r4, r4, #8\n\t"
             "uxtb r4, r4\n\t"
@@ -510,7 +521,7 @@ static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, st
             "ldr r7, [%[sums], #4]\n\t"
             "adds r6, r6, r5\n\t"
             "adds r7, r7, r4\n\t"
-            "add r7, %[one]\n\t"
+            "add r7, r9\n\t"
             "stm %[sums]!, {r6, r7}\n\t"
             "cmp %[still], %[end]\n\t"
             "bne 1b\n\t"
@@ -521,8 +532,8 @@ static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, st
             "bne 1b\n"
             "3:"
             : [color] "+l"(color), [still] "+l"(still), [sums] "+l"(sums)
-            : [end] "h"(end), [mask] "h"(0xff00ffu), [one] "h"(0x10000u)
-            : "r4", "r5", "r6", "r7", "cc", "memory");
+            : [end] "r"(end)
+            : "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
         return;
     }
 #endif
@@ -537,6 +548,22 @@ static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, st
             s.gn += (c >> 8 & 0xffu) + 0x10000u;
             *sums = s;
         }
+    }
+}
+#endif
+
+#if SETS_PACKED
+/* The same where the sums are not yet begun. */
+static SMEAR_NOINLINE void set_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n)
+{
+    for (const uint32_t *end = still + n; still != end; color++, sums++) {
+        const uint32_t c = *color, behind = *still++;
+        struct sums s = { 0, 0 };
+        if (c != behind) {
+            *color = behind;
+            s = (struct sums){ c & 0xff00ffu, (c >> 8 & 0xffu) + 0x10000u };
+        }
+        *sums = s;
     }
 }
 #endif
@@ -559,12 +586,55 @@ static SMEAR_RARE void add_wide(const struct subframes *f, int32_t at, const uin
     }
 }
 
-static void add(const struct subframes *f, const struct box *b)
+static void clear_row(const struct subframes *f, int32_t at, int32_t n)
+{
+    const size_t bytes = (size_t)n * sizeof *f->times;
+    if (f->packed && !SMEAR_VECTORS) {
+        __builtin_memset(f->sum[0] + 2 * at, 0, 2 * bytes);
+        return;
+    }
+    for (int i = 0; i < (f->packed ? 2 : 3); i++)
+        __builtin_memset(f->sum[i] + at, 0, bytes);
+    if (!f->packed)
+        __builtin_memset(f->times + at, 0, bytes);
+}
+
+/* Empties the sums where they will be read, but for what is `drawn`: a gap's mean is taken PAIRS_MAX
+ * beyond what was drawn, and reads as far beyond that. */
+static SMEAR_NOINLINE void clear_around(const struct subframes *f, const struct box *drawn)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const int32_t reach = 2 * PAIRS_MAX;
+    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    for (int32_t y = b.y0; y < b.y1; y++) {
+        const int32_t at = work_row(f, &b, y);
+        if (y < drawn->y0 || y >= drawn->y1) {
+            clear_row(f, at, b.x1 - b.x0);
+            continue;
+        }
+        if (drawn->x0 > b.x0)
+            clear_row(f, at, drawn->x0 - b.x0);
+        if (drawn->x1 < b.x1)
+            clear_row(f, at + drawn->x1 - b.x0, b.x1 - drawn->x1);
+    }
+}
+
+/* `first`: the sums begin here, which were not emptied. */
+static void add(const struct subframes *f, const struct box *b, bool first)
 {
     const struct smear_raster_target *s = &f->t->still;
     for (int32_t y = b->y0; y < b->y1; y++) {
         const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
         int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
+#if SETS_PACKED
+        if (first) {
+            set_packed(f->work.color + at, still, pair_at(f, at), n);
+            continue;
+        }
+#else
+        (void)first;
+#endif
         if (f->packed)
 #if SMEAR_VECTORS
             add_packed(f->work.color + at, still, f->sum[0] + at, f->sum[1] + at, n, f->blends);
@@ -581,8 +651,6 @@ static void add(const struct subframes *f, const struct box *b)
 /* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what
  * is left. Taps are in pairs, which count only together: where one lies outside the tiles the
  * gap is closed by less, but nothing is shifted. */
-enum { PAIRS_MAX = 8 };
-
 struct gap {
     int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
@@ -762,9 +830,14 @@ static inline struct sums gap_sums_seen(const struct subframes *f, int32_t at, c
 /* Means of n pixels, in place of what is still, which gets the weight of the instants that are left. */
 static SMEAR_NOINLINE void mix_packed(uint32_t *color, const struct sums *sums, int32_t n, const struct narrow_mean *m)
 {
+    const struct sums *end = sums + n;
 #if SUMS_BY_HAND
     __asm__ volatile(
-        ".syntax unified\n"
+        ".syntax unified\n\t"
+        "movs r4, #255\n\t"
+        "lsls r5, r4, #16\n\t"
+        "orrs r4, r5\n\t"
+        "mov r8, r4\n"
         "1:\n\t"
         "ldm %[sums]!, {r4, r5}\n\t"
         "lsrs r6, r5, #16\n\t"
@@ -772,7 +845,7 @@ static SMEAR_NOINLINE void mix_packed(uint32_t *color, const struct sums *sums, 
         "ldr r3, [%[color]]\n\t"
         "rsbs r6, r6, #0\n\t"
         "add r6, %[n]\n\t"
-        "mov r7, %[mask]\n\t"
+        "mov r7, r8\n\t"
         "ands r7, r3\n\t"
         "muls r7, r6\n\t"
         "adds r4, r4, r7\n\t"
@@ -802,11 +875,11 @@ static SMEAR_NOINLINE void mix_packed(uint32_t *color, const struct sums *sums, 
         "cmp %[sums], %[end]\n\t"
         "bne 1b"
         : [color] "+l"(color), [sums] "+l"(sums)
-        : [end] "h"(sums + n), [mask] "h"(0xff00ffu), [n] "h"(m->n), [halves] "h"(m->halves), [factor] "h"(m->factor24)
-        : "r3", "r4", "r5", "r6", "r7", "cc", "memory");
+        : [end] "r"(end), [n] "r"(m->n), [halves] "r"(m->halves), [factor] "r"(m->factor24)
+        : "r3", "r4", "r5", "r6", "r7", "r8", "cc", "memory");
 #else
     const struct narrow_mean mean = *m;
-    for (const struct sums *end = sums + n; sums != end; sums++, color++) {
+    for (; sums != end; sums++, color++) {
         const uint32_t times = sums->gn >> 16;
         if (times == 0)
             continue;
@@ -1072,30 +1145,6 @@ static void average(const struct subframes *f, const struct box *all, const stru
     }
 }
 
-/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond
- * what was drawn, and reads as far beyond that. */
-static SMEAR_NOINLINE void clear_sums(const struct subframes *f)
-{
-    const struct smear_raster_target *s = &f->t->still;
-    const int32_t reach = 2 * PAIRS_MAX;
-    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
-                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
-    for (int32_t y = b.y0; y < b.y1; y++) {
-        const int32_t at = work_row(f, &b, y);
-        const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
-#if !SMEAR_VECTORS
-        if (f->packed) {
-            __builtin_memset(pair_at(f, at), 0, 2 * bytes);
-            continue;
-        }
-#endif
-        for (int i = 0; i < (f->packed ? 2 : 3); i++)
-            __builtin_memset(f->sum[i] + at, 0, bytes);
-        if (!f->packed)
-            __builtin_memset(f->times + at, 0, bytes);
-    }
-}
-
 uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants,
                                const struct smear_step *step)
 {
@@ -1124,12 +1173,14 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        clear_sums(&f);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))
                 continue;
-            add(&f, &box);
+            const bool first = samples == 0, sets = SETS_PACKED && f.packed && !f.blends;
+            if (first)
+                clear_around(&f, sets ? &box : &no_box);
+            add(&f, &box, first && sets);
             restore_depth(&f, &box);
             samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
             box_add(&all, &box);
