@@ -48,7 +48,7 @@ VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c) $(MODEL_SRC) \
-    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c palette.c png_read.c \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c palette.c png_read.c \
         png_write.c ppm.c) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
         present_surface.c scene.c stage.c)
@@ -78,7 +78,7 @@ $(LIB): $(call objects,$(LIB_SRC))
 $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-## motion-blurred pictures of real models, in build/demo
+## motion-blurred pictures and loops, in build/demo
 demo:
 	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
@@ -242,6 +242,11 @@ test-readme: $(LIB)
 	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme.ppm
+	sed -e "s/SMEAR_MEMORY_SIZE([^)]*)/$$(grep -o 'SMEAR_MEMORY_SIZE_TIMED([0-9, ]*)' README.md)/" \
+	    -e 's/\.reach = 6,/.timed = 1, .sharp = 1,/' $(BUILD)/readme.c > $(BUILD)/readme_timed.c
+	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme_timed.c $(LIB)
+	$(BUILD)/readme > $(BUILD)/readme_timed.ppm
+	! cmp -s $(BUILD)/readme.ppm $(BUILD)/readme_timed.ppm
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
 	    grep -q "RUN($$name);" tests/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 

@@ -73,9 +73,9 @@ typedef struct smear_mesh {
     const int16_t *uv;          /* u v of each vertex, in 1/2^uv_shift of the texture; null: none */
     const uint8_t *color;       /* r g b a of each vertex, r g b sRGB-encoded; null: white */
     const uint8_t *face_color;  /* r g b a of each triangle, likewise, times color; null: white */
-    const uint16_t *index;      /* three vertices per triangle, counter-clockwise seen from the front */
+    const uint16_t *index;      /* three vertices per triangle, counter-clockwise seen from the front; required */
     uint32_t triangle_count;
-    uint16_t vertex_count;      /* every index is below it (checked where a triangle is read) */
+    uint16_t vertex_count;      /* indices are below it; triangles with others are left out, and counted as dropped */
     int8_t   shift;             /* -32..62 */
     uint8_t  uv_shift;          /* 0..15; 0 means 15 */
     int32_t  scale;             /* > 0; 0 means 1 */
@@ -106,8 +106,9 @@ typedef enum smear_alpha {
     SMEAR_OPAQUE,
     SMEAR_CUTOUT,               /* drawn where alpha >= cutoff; the rest keeps
                                  * what lies behind, velocity too */
-    SMEAR_BLEND                 /* drawn over everything opaque, after the blur, in submission order;
-                                 * tests depth, writes neither depth nor velocity */
+    SMEAR_BLEND                 /* drawn over everything opaque in submission order; tests depth, writes neither
+                                 * depth nor velocity. Filters, SMEAR_OBJECT and SMEAR_LAYERED draw it sharp after
+                                 * the blur; the other methods blur it */
 } smear_alpha;
 
 /* color x vertex color x texel; color alpha 0 means "white, opaque". */
@@ -121,10 +122,10 @@ typedef struct smear_material {
     uint8_t bilinear;           /* 1: bilinear texels; 0: nearest */
 } smear_material;
 
-/* `pose` takes camera space to world space and must be a rotation and an origin. */
+/* `pose` takes camera space to world space and must be a rotation and an origin (entries beyond +-2 are refused). */
 typedef struct smear_camera {
     smear_transform pose;
-    int32_t focal;              /* Q16.16: 1 / tan(vertical field of view / 2); perspective */
+    int32_t focal;              /* Q16.16 > 0: 1 / tan(vertical field of view / 2); perspective */
     int32_t half_height;        /* Q16.16 world units: > 0 makes the camera orthographic, focal is ignored */
     int32_t near_plane;         /* Q16.16 > 0 */
     int32_t far_plane;          /* Q16.16 > near_plane; 0: none (perspective only) */
@@ -299,7 +300,7 @@ typedef struct smear_frame {
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
     uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
     uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and
-                                 * _TIMEMASK */
+                                 * _TIMEMASK. Without SMEAR_WITH_LINEAR at most 256 instants */
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
     uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats
                                  * SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5 */
@@ -366,10 +367,10 @@ typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const ui
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
     int16_t reach;              /* longest blur radius of a filter in pixels,
-                                 * 1..64; 0 means 5 % of the height */
-    int16_t tile;               /* 8, 16, 32 or 64, not below reach; 0 means the smallest such; with timed and
-                                 * sharp, where nothing has a reach, 32. Without timed, layers, scatter and
-                                 * half also 4: the least memory, a little slower */
+                                 * 1..64; 0 means 5 % of the height, 64 at most */
+    int16_t tile;               /* 8, 16, 32 or 64, not below reach (but with scatter); 0 means the smallest
+                                 * such; with timed and sharp, where nothing has a reach, 32. Without timed,
+                                 * layers, scatter and half also 4: the least memory, a little slower */
     uint8_t format;             /* smear_format */
     uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2,
@@ -382,7 +383,7 @@ typedef struct smear_desc {
                                  * bytes without SMEAR_WITH_LINEAR */
     uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK
                                  * and SMEAR_AUTO; needs no window */
-    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 16
+    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 64
                                  * tiles; 0 means SMEAR_STRIP, or one tile where that is wider. Wider is
                                  * faster, up to a point, and takes 22 bytes per pixel for each worker. The
                                  * picture depends on it, a little */
@@ -394,14 +395,14 @@ typedef struct smear_desc {
                                  * all tiles on its way, and as many tile rows more are kept.
                                  * Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    int16_t band_rows;          /* rows flushed at once (a multiple of 8 for SMEAR_L1_PAGES); 0 means
+    int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means
                                  * tile. With `sharp`: as many are drawn at once. With a window and
                                  * without timed, layers and half it may divide the tile: a smaller
                                  * band buffer, the same picture */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is
                                  * memory for, SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with
-                                 * `timed`; more are drawn in parts; 0 means 1024 */
+                                 * `timed`; more are drawn in parts; at most 2^24; 0 means 1024 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_flush_fn *flush;      /* required */
     smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
@@ -425,7 +426,8 @@ typedef struct smear_stats {
                                          * (but with camera_step) the camera did */
     uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
-    uint32_t crc32;                     /* of the display bytes in row order, as in zlib */
+    uint32_t crc32;                     /* of the display bytes in row order, as in zlib (XRGB8888: R, G, B);
+                                         * 0 without desc.crc */
     uint32_t arena_bytes;               /* memory in use */
 } smear_stats;
 
@@ -442,37 +444,42 @@ size_t smear_memory_size(const smear_desc *desc);
         ((reach) <= 8 ? 8 : (reach) <= 16 ? 16 : (reach) <= 32 ? 32 : 64))
 
 /* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The
- * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. */
+ * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. SMEAR_ERR_ARG
+ * (the desc is not valid, or asks for what smear_config.h left out) or SMEAR_ERR_MEMORY. */
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
 
 /* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered,
- * but its poses count as the past of this one. */
+ * but its poses count as the past of this one. SMEAR_ERR_ARG also where the desc has no room for the method. */
 int smear_begin(smear_context *ctx, const smear_frame *frame);
 
-/* Adds a draw. The struct is copied, what it points to is not. */
+/* Adds a draw. The struct is copied, what it points to is not. SMEAR_ERR_ARG, SMEAR_ERR_ORDER (no frame has
+ * been begun) or SMEAR_ERR_FULL: the frame goes on without it. */
 int smear_submit(smear_context *ctx, const smear_draw *draw);
 
 /* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and
  * pixels. A full triangle list is no error: the frame is drawn in parts (stats.triangles_split counts them).
- * Returns SMEAR_OK, or what flush returned if negative. */
+ * Returns SMEAR_OK, what flush returned if negative, or SMEAR_ERR_ORDER (no frame has been begun). */
 int smear_render(smear_context *ctx);
 
 /* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another
  * core. Bands finish in the order in which they were handed out. */
 void smear_band_done(smear_context *ctx);
 
-/* With desc.workers > 1: the other cores call this, each with its own index 1..workers-1, once per frame,
- * while core 0 is in smear_render. Returns when the frame is done. smear_render waits for all of them. */
+/* With desc.workers > 1: the other cores call this, each with its own index 1..workers-1, once per frame, or in
+ * a loop for ever: it waits for core 0 to enter smear_render, and returns when the frame is done. smear_render
+ * waits for all of them. */
 void smear_work(smear_context *ctx, int worker);
 
+/* Of the last frame that was rendered. */
 void smear_get_stats(const smear_context *ctx, smear_stats *stats);
 
 /* ------------------------------------------------------------------ the filter alone */
 
 /* Blurs a frame that another renderer drew: begin, then every row from top to bottom, each
  * once. Finished bands come through flush as the window moves. Uses the context's desc (width,
- * height, reach, tile, format) and of `frame` method, light, exposure, samples, shutter_degrees
- * and reconstruct; camera needs only near_plane.
+ * height, reach, tile, format; one worker) and of `frame` the method (a filter, but not SMEAR_CAMERA) with its
+ * options, light, exposure, samples and shutter; camera needs only near_plane. Errors are those of smear_begin and
+ * smear_render; one of flush ends the frame.
  *
  *   color     width pixels 0x00RRGGBB, sRGB-encoded
  *   depth     width distances along the view in Q16.16 units, 0 for background

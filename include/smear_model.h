@@ -13,8 +13,9 @@
  *
  *     smear_actor *fox;
  *     smear_actor_init(&fox, &fox_model, 2, fox_memory, sizeof fox_memory);
- *     for (int32_t time = 0;; time += 65536 / 30) {
- *         smear_play play = { .clip = FOX_CLIP_RUN, .loop = 1, .time = time, .place = &place };
+ *     for (uint32_t time = 0;; time += 65536 / 30) {
+ *         smear_play play = { .clip = FOX_CLIP_RUN, .loop = 1, .time = (int32_t)(time & INT32_MAX),
+ *                             .place = &place };
  *         smear_actor_advance(fox, &play);
  *         smear_begin(ctx, &frame);
  *         smear_actor_submit(fox, ctx);
@@ -184,7 +185,7 @@ const char *smear_mesh_reason(int error);
 size_t smear_model_memory(const void *blob, size_t bytes);
 
 /* Checks the blob and fills `model`, which points into it and into `memory` (8-byte aligned). All three must
- * stay. SMEAR_OK, a reason, or SMEAR_ERR_MEMORY. */
+ * stay. SMEAR_OK, a reason, SMEAR_ERR_MEMORY, or SMEAR_ERR_ARG (no `model`). */
 int smear_model_open(smear_model *model, const void *blob, size_t bytes, void *memory, size_t memory_bytes);
 
 /* Index of a clip by its name, or -1. */
@@ -208,12 +209,13 @@ typedef struct smear_play {
     uint16_t clip;
     uint8_t rest;               /* 1: no clip, the pose at rest */
     uint8_t loop;               /* 1: starts again at the end of its longest channel; 0: stops */
-    int32_t time;               /* Q16.16 seconds */
+    int32_t time;               /* Q16.16 seconds, nine hours at most; before 0 it is the start or, looped, the end */
     const smear_transform *place;       /* null: identity; its basis within +-7 */
     const smear_node_move *move;        /* null: none; read during the call only */
     uint16_t move_count;
 } smear_play;
 
+/* Bytes smear_actor_init needs; 0 where `poses` is not 1 to 3. */
 size_t smear_actor_memory(const smear_model *model, int poses);
 
 /* Cuts `memory` (8-byte aligned, at least smear_actor_memory() bytes) into what the actor needs. The model is
@@ -221,7 +223,7 @@ size_t smear_actor_memory(const smear_model *model, int poses);
 int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, void *memory, size_t bytes);
 
 /* Now becomes a frame ago (with 2 poses or more), and `play` is now. SMEAR_ERR_ARG, and nothing has changed,
- * when the model has no such clip. Not between smear_actor_submit and smear_render. */
+ * when the model has clips, but not this one. Not between smear_actor_submit and smear_render. */
 int smear_actor_advance(smear_actor *actor, const smear_play *play);
 
 /* Sets one pose alone. SMEAR_ERR_ARG also when the actor has no room for that pose. */
@@ -231,10 +233,10 @@ int smear_actor_set(smear_actor *actor, smear_pose pose, const smear_play *play)
 void smear_actor_cut(smear_actor *actor);
 
 /* Draw `index` of the model in the actor's poses, 0 .. model->draw_count - 1; for a motion mode or a
- * material of yours. It points into the actor. */
+ * material of yours. It points into the actor. SMEAR_ERR_ARG when there is no such draw, or no pose yet. */
 int smear_actor_draw(smear_actor *actor, int index, smear_draw *draw);
 
-/* Submits every draw. SMEAR_OK or what smear_submit returned. */
+/* Submits every draw. SMEAR_OK, or the first error of smear_actor_draw or smear_submit. */
 int smear_actor_submit(smear_actor *actor, smear_context *ctx);
 
 /* smear_actor_memory() as a constant. Headers define NAME_ACTOR_BYTES(poses) by it. */

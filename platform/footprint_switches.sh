@@ -12,9 +12,9 @@
 # A switch's row says how much less flash there is than with everything.
 set -u
 [ $# -gt 0 ] || set -- cortex-m0plus:-Os cortex-m33:-O2
-make=${MAKE:-make}
+. tests/lib.sh
 out=build/footprint/switches
-roots=$(sed -n 's/^[a-z].*[ *]\(smear_[a-z0-9_]*\)(.*/-u \1/p' include/smear.h include/smear_model.h | grep -v '_fn$')
+roots=$(interface)
 mkdir -p "$out"
 status=0
 
@@ -51,11 +51,9 @@ for pair in "$@"; do
     everything=$flash
     printf '%-34s %7s %7s  %7s %7s %7s %7s\n' "$target $optimization" flash stack sharp window timed both
     printf '%-34s %7d %s\n' everything "$flash" "$line"
-    for switch in $(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_config.h | grep -v _ALL); do
-        case $switch in
-        SMEAR_WITH_SUBFRAMES) measure $switch -D$switch=0 -DSMEAR_WITH_TIMEMASK=0 ;;
-        *) measure $switch -D$switch=0 ;;
-        esac
+    for switch in $(switches); do
+        # shellcheck disable=SC2046
+        measure "$switch" $(without "$switch")
         printf '%-34s %7d %s\n' "  $switch=0" $((flash - everything)) "$line"
     done
     one="-DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -DSMEAR_WITH_DITHER=1"

@@ -7,9 +7,6 @@
 
 #include "fixmath.h"
 
-/* Angles are turns q32: they wrap by themselves. */
-enum { ARC_LEAST = 35791394 };      /* 3 degrees */
-
 /* Axes count as orthogonal up to this cosine, q30: 2^-12. */
 enum { ARC_SKEW = 1 << 18 };
 
@@ -65,7 +62,7 @@ static void cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
 
 struct turn {
     int32_t axis[3];        /* q30 */
-    uint32_t angle;         /* 0 .. half a turn */
+    uint32_t angle;         /* q32 turns, 0 .. half a turn; others wrap by themselves */
 };
 
 /* `in`, brought to length one, q30. `length` is what it was after a shift to 30 bits: left, or
@@ -237,10 +234,4 @@ void smear_arc_between(smear_transform *out, const smear_transform *before, cons
         rotation(m, turn.axis, (uint32_t)((int64_t)turn.angle * time >> 24));
         turn_basis(out->basis, m, rest);
     }
-}
-
-bool smear_arc_applies(const smear_transform *before, const smear_transform *now)
-{
-    struct turn turn;
-    return find_turn(&turn, before, now) && turn.angle >= ARC_LEAST;
 }

@@ -25,8 +25,4 @@
 void smear_arc_between(smear_transform *out, const smear_transform *before, const smear_transform *now,
                        int32_t time);
 
-/* The arc differs from the chord: a turn of 3 degrees or more. Up to there the chord of something 200 pixels
- * large is off by less than a tenth of a pixel. */
-bool smear_arc_applies(const smear_transform *before, const smear_transform *now);
-
 #endif

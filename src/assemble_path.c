@@ -540,10 +540,6 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
     struct smear_clip_vertex corner[3];
     struct smear_face face = smear_face_of(d, triangle, back);
     struct cut cut = { .piece = 0 };
-    if (b->segment == NULL)
-        b->segment = smear_record_segment(b->a, d);
-    if (b->segment == NULL)
-        return false;
     for (int i = 0; i < 3; i++) {
         struct smear_clip_vertex *v = &corner[i];
         uint32_t index = vertex[i]->tag & 0xffffu;

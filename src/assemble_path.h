@@ -5,8 +5,10 @@
 
 #include "record.h"
 
-/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that are cut by the near plane or
- * the guard band at some instant lose what lies beyond it there, for the whole exposure. */
+/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the guard band (or the near plane of
+ * an orthographic camera) cuts at some instant lose what lies beyond it there, for the whole exposure. Those that pass
+ * the near plane of a perspective are cut where nothing nearer is seen or, where that is nowhere, listed in pieces of
+ * the exposure (smear_path_bounds.piece). */
 bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *draw, bool drop);
 
 #endif

@@ -6,7 +6,7 @@
 #include "subframes.h"
 #include "timemask.h"
 
-enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants */
+enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants (smear_desc.strip) */
 
 /* The movers of a tile: all that may be seen there during the exposure. */
 struct smear_tile_load {
@@ -23,7 +23,7 @@ enum {
     TILE_METHOD = 10,               /* bit */
     TILE_MOVES = 0x200,             /* there are movers */
     TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
-    PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | 0x100
+    PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | TILE_BLENDED
 };
 
 /* TILE_SMOOTH: a time mask whose samples lie apart. */

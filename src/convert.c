@@ -6,6 +6,7 @@
 #include "convert.h"
 
 #include "pixel.h"
+#include "vector.h"
 
 bool smear_convert_has(int format, int dither)
 {
@@ -366,7 +367,12 @@ static uint32_t grey_level(uint32_t p, int32_t x, int32_t y, uint32_t levels, sm
 
 static void row_xrgb8888(uint32_t *out, const uint32_t *in, int32_t n)
 {
-    for (int32_t i = 0; i < n; i++)
+    int32_t i = 0;
+#if SMEAR_VECTORS
+    for (; i + 4 <= n; i += 4)
+        v4u_store(out + i, v4u_load(in + i) & 0xffffffu);
+#endif
+    for (; i < n; i++)
         out[i] = in[i] & 0xffffffu;
 }
 

@@ -74,16 +74,6 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 }
 #endif
 
-/* floor(v m / 2^16) for a 16-bit v: two 16 x 16 products where the core has no wide one. */
-static inline int32_t mul_i16_q16(int16_t v, int32_t m)
-{
-#if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)v * m >> 16);
-#else
-    return v * (m >> 16) + (v * (int32_t)((uint32_t)m & 0xffffu) >> 16);
-#endif
-}
-
 static inline int32_t narrow_sat(int64_t a)
 {
     return a > INT32_MAX ? INT32_MAX : a < -INT32_MAX ? -INT32_MAX : (int32_t)a;

@@ -1089,15 +1089,14 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
     c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
-#ifndef __OPTIMIZE_SIZE__       /* else every draw finds it out */
-    c->camera_moves = c->camera_moves && !(same_camera(&c->camera, &c->camera_open)
-                                           && same_camera(&c->camera, &c->camera_close));
+    const bool view_moves = c->camera_moves && !(same_camera(&c->camera, &c->camera_open)
+                                                 && same_camera(&c->camera, &c->camera_close));
+#ifndef __OPTIMIZE_SIZE__       /* else every draw finds it out (pose_differs) */
+    c->camera_moves = view_moves;
 #endif
     c->raster.velocity_from_depth = SMEAR_WITH_FILTERS && c->assembler.keep_motion
-                                 && c->frame.camera_step != 0 && c->camera_moves && !c->frame.cut
-                                 && c->state != STATE_FILTER
-                                 && !(same_camera(&c->camera, &c->camera_open)
-                                      && same_camera(&c->camera, &c->camera_close));
+                                 && c->frame.camera_step != 0 && view_moves && !c->frame.cut
+                                 && c->state != STATE_FILTER;
     /* Pairs of taps of the widest gap, 8 to either side, find room
      * between the borders of a frame this large. */
     c->chooser = (struct smear_chooser){ c->frame.method, c->frame.samples, c->frame.target,

@@ -412,7 +412,7 @@ static void merge_job(void *argument, int job, int worker)
     c->worker_samples[worker] += samples;
 }
 
-/* Blended draws lie behind what is in the middle of the exposure. */
+/* Blended draws are drawn sharp: what moves hides them where it is in the middle of the exposure. */
 static void keep_depths(const struct layers_row *r)
 {
     const struct smear_layer_rows *rows = &r->row.c->layers->rows;

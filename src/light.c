@@ -24,7 +24,7 @@ static SMEAR_RARE uint32_t length_from(uint64_t square)
     return sqrt_floor_64(square);
 }
 
-/* Down to the bits that are wanted, or up. */
+/* By how much to shift right for `largest` to have that many bits; negative: left. */
 static int shift_to(uint64_t largest, int bits)
 {
     return 64 - count_leading_zeros_64(largest) - bits;
@@ -246,7 +246,7 @@ uint32_t smear_color_pack(const struct smear_color *color, bool linear)
     uint32_t packed = (uint32_t)(color->channel[3] >> 8) << 24;
     for (int i = 0; i < 3; i++) {
         uint32_t code = SMEAR_WITH_LINEAR && linear ? smear_srgb_encode[color->channel[i] >> 4]
-                               : (uint32_t)color->channel[i] >> 8;
+                                                    : (uint32_t)color->channel[i] >> 8;
         packed |= code << (16 - 8 * i);
     }
     return packed;

@@ -2,11 +2,10 @@
 /* record.c - layouts of vertex records, and the colours of vertices and faces. */
 #include "record.h"
 
+#include "path.h"
 #include "pixel.h"
 
 enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
-
-#include "path.h"
 
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {

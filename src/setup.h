@@ -40,8 +40,6 @@ enum texture_mode {
     TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
 };
 
-enum { TEXTURE_BEND_MAX = 4095 };       /* largest change of q per pixel in a bent block, q16 of q itself */
-
 /* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what
  * repeats) or, where textures do not repeat by their bits, in texels q16. Where they are no polynomials they
  * are exact at the ends of blocks of pixels, and run along a chord or a parabola between. */

@@ -174,7 +174,7 @@ static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t c
 static void load_ways(struct smear_row_movers *r, int32_t first, int32_t last, const struct way *way,
                       int32_t top, int shift)
 {
-    enum { APART_PX = 32 };
+    enum { APART_PX = 64 };
     const int32_t apart = max_i32(APART_PX >> shift, 2);
     int32_t left[SIDE_VALUES], right[SIDE_VALUES];
     way_at_side(left, way, first, top, shift);

@@ -8,55 +8,12 @@
 # Works in a folder of its own. Prints each claim that does not hold and, last,
 # `N passed, N failed`.
 
-case ${1:-} in
-'') echo "usage: sh tests/cli.sh PROGRAM" >&2; exit 2 ;;
-/*) smear=$1 ;;
-*) smear=$PWD/$1 ;;
-esac
-LC_ALL=C
-export LC_ALL
-base=$(mktemp -d "${TMPDIR:-/tmp}/smear-cli.XXXXXX") || exit 1
-trap 'rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
+. "$(dirname "$0")/lib.sh"
+of_program "$@"
+in_passing cli
 mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
 
-passed=0
-failed=0
-
-# claim NAME COMMAND...: the command succeeds
-claim() {
-    claim_name=$1
-    shift
-    if "$@" >"$base/claim" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAIL: $claim_name"
-        sed 's/^/    /' "$base/claim" | head -5
-    fi
-}
-
-# run ARGUMENTS...: the program; afterwards $rc, $base/out, $base/err
-run() {
-    "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null
-    rc=$?
-}
-
-# Quietly succeeds, or says why not.
-works() {
-    run "$@"
-    [ "$rc" -eq 0 ] && [ ! -s "$base/err" ] && return 0
-    echo "exit $rc: $(cat "$base/err")"
-    return 1
-}
-
 render() { works render "$@"; }
-
-one_error_line() {
-    [ "$(wc -l <"$base/err")" -eq 1 ] || { echo "not one line: $(cat "$base/err")"; return 1; }
-    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
-    case $(cat "$base/err") in "smear: "$1": "*) ;; *) echo "$(cat "$base/err")"; return 1 ;; esac
-}
 
 fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject, and no file
     status=$1
@@ -66,9 +23,9 @@ fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject
     run "$@"
     left=$(ls -A "$base/empty")
     cd "$base/work" || return 1
-    [ "$rc" -eq "$status" ] || { echo "exit $rc: $(cat "$base/err")"; return 1; }
+    has_failed "$status" "$subject" || return 1
+    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
     [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-    one_error_line "$subject"
 }
 
 usage() { # SUBJECT ARGUMENTS...
@@ -79,11 +36,8 @@ input() { # SUBJECT ARGUMENTS...
     claim "bad input: smear $(shift; echo "$*")" fails 1 "$@"
 }
 
-same() { cmp "$1" "$2"; }
-differ() { ! cmp -s "$1" "$2" || { echo "$1 and $2 are equal"; return 1; }; }
-exists() { [ -f "$1" ] || { echo "no $1"; return 1; }; }
-out_has() { grep -e "$1" "$base/out" || { head -5 "$base/out"; return 1; }; }
-err_has() { grep -e "$1" "$base/err" || { head -5 "$base/err"; return 1; }; }
+out_has() { has "$base/out" "$1"; }
+err_has() { has "$base/err" "$1"; }
 starts_with() { # FILE OCTAL-BYTES
     start=$(od -An -to1 -N"$(echo $2 | wc -w)" "$1" | tr -s ' \n' ' ' | sed 's/^ //;s/ $//')
     [ "$start" = "$2" ] || { echo "starts with $(od -An -c -N8 "$1")"; return 1; }
@@ -91,8 +45,6 @@ starts_with() { # FILE OCTAL-BYTES
 stat_of() { # FILE KEY: its first value
     sed -n "s/.*\"$2\":\"\{0,1\}\([^,}\"]*\).*/\1/p" "$1" | head -1
 }
-equals() { [ "$1" = "$2" ] || { echo "$1, not $2"; return 1; }; }
-is_true() { awk "BEGIN { exit !($1) }" || { echo "not true: $1"; return 1; }; }
 value_of() { sed -n "s/^$1=//p" "$base/out"; }
 
 # bytes FILE [SKIP]: of a PPM, in decimal, one to a line, behind its three header lines
@@ -709,6 +661,9 @@ done
 
 # ------------------------------------------------------------------ bad usage
 
+claim "the version" works --version
+claim "is that of the packages" out_has "^smear $(cd "$here" && sh tools/dist/version.sh)\$"
+usage more --version more
 usage "no command"
 usage frobnicate frobnicate
 usage --frob chart --frob
@@ -902,6 +857,29 @@ input nowhere/out.gif render "$plate" -o nowhere/out.gif
 input nowhere/s.json render "$plate" --stats nowhere/s.json
 input nowhere/d.pfm render "$plate" --stats /dev/null --depth nowhere/d.pfm
 input nowhere/v.pfm render "$plate" --stats /dev/null --velocity nowhere/v.pfm
+# What is read is never replaced, and nothing is written twice, whatever it is called.
+cp -r "$base/in" "$base/before"
+cp out.ppm "$base/in/other.ppm"
+cp out.ppm "$base/in/picture.ppm"
+ln -s "$plate" "$base/in/link.json"
+input "$base/in/card.png" render "$base/in/card.obj" -o "$base/in/card.png"
+claim "says why" err_has "it has been read, and would be lost"
+input "$base/in/card.mtl" render "$base/in/card.obj" --stats "$base/in/card.mtl"
+input "$plate" render "$plate" --stats "$plate"
+input "$base/in/link.json" render "$plate" --stats "$base/in/link.json"
+input "$plate" view "$plate" --out null --frames 1 --record "$plate"
+input "$plate" view "$plate" --out null --frames 1 --check "$plate" --update
+claim "keeps no picture" missing "$plate.0000.png"
+for picture in picture other; do
+    input "$base/in/$picture.ppm" compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/$picture.ppm"
+    claim "it is as it was" same out.ppm "$base/in/$picture.ppm"
+done
+claim "another name beside it is free" works compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/diff.ppm"
+for name in plate.gltf card.obj card.mtl card.png; do claim "$name is as it was" same "$base/before/$name" "$base/in/$name"; done
+usage ./same.pfm render "$plate" -o same.pfm --depth ./same.pfm
+usage ../empty/same.pfm render "$plate" -o same.pfm --velocity ../empty/same.pfm
+usage ./s%04d.pfm render "$plate" --frames 0-1 -o s%d.pfm --depth ./s%04d.pfm
+claim "other folders, same names" render "$plate" $small -o "$base/in/same.pfm" --depth same.pfm
 mkdir "$base/in/there.png"
 input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
 mkfifo "$base/in/pipe.h" "$base/in/pipe.ppm" "$base/in/pipe.gif" "$base/in/pipe"
@@ -925,6 +903,24 @@ for args in "render builtin:suite/pan -o full.png" "render $plate -o full.pfm" "
     claim "no room for $args" equals "$? $(ls -A "$base/full" | wc -l) $(wc -l <"$base/err")" "1 0 1"
     rm -rf "$base/full"
 done
+# A run that is ended leaves nothing. Those that last a minute are ended when they have begun to write.
+ended_by() { # SIGNAL FILE ARGUMENTS...
+    signal=$1 file=$2
+    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
+    shift 2
+    "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null &
+    process=$!
+    cd "$base/work" || return 1
+    wait_for 30 [ -e "$base/empty/$file.tmp" ]
+    kill -s "$signal" "$process"
+    wait "$process"
+    [ $? -gt 128 ] || { echo "not ended: $(cat "$base/err")"; return 1; }
+    equals "$(ls -A "$base/empty")" ""
+}
+for signal in TERM HUP PIPE; do
+    claim "an animation ended by $signal" ended_by $signal x.gif render builtin:demo/race --frames 0-2000 -o x.gif
+done
+claim "statistics ended" ended_by TERM x.json render builtin:demo/race --frames 0-2000 --stats x.json
 claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"
 run render "$base/in/vertices.obj" --size 16x16 -o empty.ppm
@@ -934,5 +930,4 @@ run render "$plate" --arena 10 -o kept.ppm
 claim "a failed run leaves the old picture" same kept.ppm out.ppm
 claim "and no unfinished files" equals "$(ls | grep -c '\.tmp$')" 0
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

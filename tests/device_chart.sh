@@ -3,14 +3,13 @@
 # device_chart.sh FOLDER - the picture of platform/device_chart.awk: labels cover neither each other nor the marks of
 # others and stay within their panel, where many ways to blur lie close together, too.
 set -u
-folder=$1
-passed=0
-failed=0
-mkdir -p "$folder"
+. "$(dirname "$0")/lib.sh"
+base=$1
+mkdir -p "$base"
 
-# check NAME: of FOLDER/NAME.csv. A letter is taken as 0.55 of its size wide and 0.72 high.
-check() {
-    if awk -f platform/device_chart.awk "$folder/$1.csv" >"$folder/$1.svg" && awk -v count="$2" '
+# drawn NAME MARKS: of $base/NAME.csv. A letter is taken as 0.55 of its size wide and 0.72 high.
+drawn() {
+    awk -f platform/device_chart.awk "$base/$1.csv" >"$base/$1.svg" && awk -v count="$2" '
         function value(name,    at) {
             at = match($0, " " name "=\"[-0-9.]*")
             return at ? substr($0, at + length(name) + 3, RLENGTH - length(name) - 3) + 0 : 0
@@ -37,12 +36,7 @@ check() {
             if (labels < count) { print labels " labels, not " count; bad = 1 }
             if (marks != count) { print marks " marks, not " count; bad = 1 }
             exit bad || !ended
-        }' "$folder/$1.svg"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $1"
-    fi
+        }' "$base/$1.svg"
 }
 
 head='target,screen,unit,method,cost per pixel,RMS in codes'
@@ -52,14 +46,13 @@ head='target,screen,unit,method,cost per pixel,RMS in codes'
         echo "one,oled,cycles,$method,1000,5"
     done
     for cost in 100 120 140 5000; do echo "two,gba,instructions,reconstruct-$cost,$cost,$cost"; done
-} >"$folder/crowd.csv"
-check crowd 13
+} >"$base/crowd.csv"
+claim crowd drawn crowd 13
 {
     echo "$head"
     awk 'BEGIN { for (i = 0; i < 40; i++) printf "one,oled,cycles,m%d-%d,%.1f,%.2f\n", i % 9, i, 500 + i * i, 4 + i % 7 / 4 }'
-} >"$folder/many.csv"
-check many 40
-printf '%s\none,oled,cycles,none,100,0\n' "$head" >"$folder/single.csv"
-check single 1
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+} >"$base/many.csv"
+claim many drawn many 40
+printf '%s\none,oled,cycles,none,100,0\n' "$head" >"$base/single.csv"
+claim single drawn single 1
+finish

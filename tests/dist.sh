@@ -5,38 +5,25 @@
 # by its few CMake functions, so that lists of sources, folders and switches are tried all the same.
 set -u
 dist=$PWD/build/dist installed=$PWD/build/dist-install
-out=$PWD/build/dist-test
-passed=0
-failed=0
+. "$(dirname "$0")/lib.sh"
+base=$PWD/build/dist-test
 version=$(sh tools/dist/version.sh)
-rm -rf "$out"
-mkdir -p "$out"
-
-check() {
-    what=$1
-    shift
-    if "$@" >"$out/log" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $what"
-        tail -n 20 "$out/log"
-    fi
-}
+rm -rf "$base"
+mkdir -p "$base"
 
 # ---------------------------------------------------------------------- versions
 
 states() {
     grep -qF "$2" "$1" || { grep -n -i version "$1"; return 1; }
 }
-check "version of cmake" states "$dist/cmake/smear/CMakeLists.txt" "project(smear VERSION $version "
-check "version of platformio" states "$dist/platformio/smear/library.json" "\"version\": \"$version\""
-check "version of arduino" states "$dist/arduino/smear/library.properties" "version=$version"
-check "version of esp-idf" states "$dist/esp-idf/smear/idf_component.yml" "version: \"$version\""
-check "version of zephyr" states "$dist/zephyr/smear/zephyr/CMakeLists.txt" "version $version:"
-check "version of pico-sdk" states "$dist/pico-sdk/smear/CMakeLists.txt" "Version $version."
-check "version of smear.pc" states "$installed/usr/lib/pkgconfig/smear.pc" "Version: $version"
-check "no other version is stated" sh -c "! grep -rnE 'VERSION [0-9]|ersion[\": =]+[0-9]+\\.[0-9]+\\.[0-9]' '$dist' \
+claim "version of cmake" states "$dist/cmake/smear/CMakeLists.txt" "project(smear VERSION $version "
+claim "version of platformio" states "$dist/platformio/smear/library.json" "\"version\": \"$version\""
+claim "version of arduino" states "$dist/arduino/smear/library.properties" "version=$version"
+claim "version of esp-idf" states "$dist/esp-idf/smear/idf_component.yml" "version: \"$version\""
+claim "version of zephyr" states "$dist/zephyr/smear/zephyr/CMakeLists.txt" "version $version:"
+claim "version of pico-sdk" states "$dist/pico-sdk/smear/CMakeLists.txt" "Version $version."
+claim "version of smear.pc" states "$installed/usr/lib/pkgconfig/smear.pc" "Version: $version"
+claim "no other version is stated" sh -c "! grep -rnE 'VERSION [0-9]|ersion[\": =]+[0-9]+\\.[0-9]+\\.[0-9]' '$dist' \
     --include=CMakeLists.txt --include=*.json --include=*.properties --include=*.yml | grep -vF '$version' | grep -v cmake_minimum | grep ."
 
 # ---------------------------------------------------------------------- one file
@@ -46,44 +33,44 @@ golden() {
     name=$1
     shift
     # shellcheck disable=SC2086
-    "$@" -I"$dist/single" -c -o "$out/$name.o" "$dist/single/smear.c" &&
-        ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$dist/single" -Itests -o "$out/$name" $programs "$out/$name.o" &&
-        "$out/$name"
+    "$@" -I"$dist/single" -c -o "$base/$name.o" "$dist/single/smear.c" &&
+        ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$dist/single" -Itests -o "$base/$name" $programs "$base/$name.o" &&
+        "$base/$name"
 }
 strict="-O1 -Wall -Wextra -Wpedantic -Werror"
 # shellcheck disable=SC2086
 {
-    check "smear.c as C99" golden c99 ${CC:-cc} -std=c99 $strict -Wconversion
-    check "smear.c as C11" golden c11 ${CC:-cc} -std=c11 $strict -Wconversion
-    check "smear.c as C++20" golden cxx20 ${CXX:-c++} -x c++ -std=c++20 $strict
-    check "smear.c with switches" ${CC:-cc} -std=c99 $strict -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -c -o "$out/o" \
+    claim "smear.c as C99" golden c99 ${CC:-cc} -std=c99 $strict -Wconversion
+    claim "smear.c as C11" golden c11 ${CC:-cc} -std=c11 $strict -Wconversion
+    claim "smear.c as C++20" golden cxx20 ${CXX:-c++} -x c++ -std=c++20 $strict
+    claim "smear.c with switches" ${CC:-cc} -std=c99 $strict -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -c -o "$base/o" \
         "$dist/single/smear.c"
     # For size, where helpers are functions: a file of its own must not call what it defines under another name.
     ! command -v arm-none-eabi-gcc >/dev/null ||
-        check "smear.c on Cortex-M0+ for size" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -Wall \
-            -Wextra -Werror -c -o "$out/o" "$dist/single/smear.c"
-    check "smear.h as C99" ${CC:-cc} -std=c99 $strict -fsyntax-only -x c "$dist/single/smear.h"
-    check "smear.h as C++11" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -x c++ "$dist/single/smear.h"
+        claim "smear.c on Cortex-M0+ for size" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -Wall \
+            -Wextra -Werror -c -o "$base/o" "$dist/single/smear.c"
+    claim "smear.h as C99" ${CC:-cc} -std=c99 $strict -fsyntax-only -x c "$dist/single/smear.h"
+    claim "smear.h as C++11" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -x c++ "$dist/single/smear.h"
 }
 
 # ---------------------------------------------------------------------- Arduino, PlatformIO
 
-cat >"$out/sketch.cpp" <<END
+cat >"$base/sketch.cpp" <<END
 #include "$dist/arduino/smear/examples/cube/cube.ino"
 int main() { setup(); for (int i = 0; i < 40; i++) loop(); return bytes_seen == 40u * 128 * 64 * 2 ? 0 : 1; }
 END
 sketch() {
-    ${CC:-cc} -std=gnu11 -O1 -c -I"$dist/arduino/smear/src" -o "$out/arduino.o" "$dist"/arduino/smear/src/*.c &&
-        ${CXX:-c++} -std=gnu++11 -Wall -Wextra -Werror -I"$dist/arduino/smear/src" -o "$out/sketch" "$out/sketch.cpp" "$out/arduino.o" &&
-        "$out/sketch"
+    ${CC:-cc} -std=gnu11 -O1 -c -I"$dist/arduino/smear/src" -o "$base/arduino.o" "$dist"/arduino/smear/src/*.c &&
+        ${CXX:-c++} -std=gnu++11 -Wall -Wextra -Werror -I"$dist/arduino/smear/src" -o "$base/sketch" "$base/sketch.cpp" "$base/arduino.o" &&
+        "$base/sketch"
 }
-check "sketch of arduino" sketch
+claim "sketch of arduino" sketch
 
 example() {
-    ${CC:-cc} -std=gnu11 -O1 -I"$dist/platformio/smear/include" -I"$dist/platformio/smear/src" -o "$out/example" \
-        "$dist"/platformio/smear/src/*.c "$dist/platformio/smear/examples/cube/main.c" && "$out/example" >"$out/example.ppm"
+    ${CC:-cc} -std=gnu11 -O1 -I"$dist/platformio/smear/include" -I"$dist/platformio/smear/src" -o "$base/example" \
+        "$dist"/platformio/smear/src/*.c "$dist/platformio/smear/examples/cube/main.c" && "$base/example" >"$base/example.ppm"
 }
-check "example of platformio" example
+claim "example of platformio" example
 
 # ---------------------------------------------------------------------- installed
 
@@ -91,10 +78,10 @@ if command -v pkg-config >/dev/null 2>&1; then
     installed_example() {
         flags=$(PKG_CONFIG_PATH="$installed/usr/lib/pkgconfig" pkg-config --define-variable=prefix="$installed/usr" --cflags --libs smear) &&
             # shellcheck disable=SC2086
-            ${CC:-cc} -std=gnu11 -o "$out/pc" "$dist/platformio/smear/examples/cube/main.c" $flags && "$out/pc" >"$out/pc.ppm" &&
-            cmp "$out/pc.ppm" "$out/example.ppm"
+            ${CC:-cc} -std=gnu11 -o "$base/pc" "$dist/platformio/smear/examples/cube/main.c" $flags && "$base/pc" >"$base/pc.ppm" &&
+            cmp "$base/pc.ppm" "$base/example.ppm"
     }
-    check "program by pkg-config" installed_example
+    claim "program by pkg-config" installed_example
 else
     echo "not run without pkg-config"
 fi
@@ -104,34 +91,34 @@ fi
 if command -v cmake >/dev/null 2>&1; then
     # project NAME: configures and builds out/NAME, whose program draws the example's picture
     project() {
-        cp "$dist/platformio/smear/examples/cube/main.c" "$out/$1/main.c"
-        cmake -S "$out/$1" -B "$out/$1/build" -DCMAKE_PREFIX_PATH="$out/prefix" && cmake --build "$out/$1/build" -j2 &&
-            "$out/$1/build/program" >"$out/$1/picture.ppm" && cmp "$out/$1/picture.ppm" "$out/example.ppm"
+        cp "$dist/platformio/smear/examples/cube/main.c" "$base/$1/main.c"
+        cmake -S "$base/$1" -B "$base/$1/build" -DCMAKE_PREFIX_PATH="$base/prefix" && cmake --build "$base/$1/build" -j2 &&
+            "$base/$1/build/program" >"$base/$1/picture.ppm" && cmp "$base/$1/picture.ppm" "$base/example.ppm"
     }
-    mkdir -p "$out/subdirectory" "$out/package" "$out/esp-idf" "$out/zephyr" "$out/pico-sdk"
-    cat >"$out/subdirectory/CMakeLists.txt" <<END
+    mkdir -p "$base/subdirectory" "$base/package" "$base/esp-idf" "$base/zephyr" "$base/pico-sdk"
+    cat >"$base/subdirectory/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 add_subdirectory($dist/cmake/smear smear)
 add_executable(program main.c)
 target_link_libraries(program smear::smear)
 END
-    check "cmake: add_subdirectory" project subdirectory
+    claim "cmake: add_subdirectory" project subdirectory
     package() {
-        cmake -S "$dist/cmake/smear" -B "$out/cmake" -DCMAKE_INSTALL_PREFIX="$out/prefix" && cmake --build "$out/cmake" -j2 &&
-            cmake --install "$out/cmake" && project package
+        cmake -S "$dist/cmake/smear" -B "$base/cmake" -DCMAKE_INSTALL_PREFIX="$base/prefix" && cmake --build "$base/cmake" -j2 &&
+            cmake --install "$base/cmake" && project package
     }
-    cat >"$out/package/CMakeLists.txt" <<END
+    cat >"$base/package/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 find_package(smear $version EXACT REQUIRED)
 add_executable(program main.c)
 target_link_libraries(program smear::smear)
 END
-    check "cmake: find_package" package
+    claim "cmake: find_package" package
 
     switches=$(sed -n 's/^config \(SMEAR_WITH_[A-Z0-9_]*\)$/set(CONFIG_\1 y)/p' "$dist/esp-idf/smear/Kconfig" | grep -v _MODEL)
-    cat >"$out/esp-idf/CMakeLists.txt" <<END
+    cat >"$base/esp-idf/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 function(idf_component_register)
@@ -148,9 +135,9 @@ include($dist/esp-idf/smear/CMakeLists.txt)
 add_executable(program main.c)
 target_link_libraries(program component)
 END
-    check "esp-idf's functions" project esp-idf
-    check "esp-idf: a switch that is off leaves code out" sh -c "! nm '$out/esp-idf/build/libcomponent.a' | grep -q smear_actor_init"
-    cat >"$out/zephyr/CMakeLists.txt" <<END
+    claim "esp-idf's functions" project esp-idf
+    claim "esp-idf: a switch that is off leaves code out" sh -c "! nm '$base/esp-idf/build/libcomponent.a' | grep -q smear_actor_init"
+    cat >"$base/zephyr/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 macro(zephyr_library_named name)
@@ -178,17 +165,16 @@ include($dist/zephyr/smear/zephyr/CMakeLists.txt)
 add_executable(program main.c)
 target_link_libraries(program smear)
 END
-    check "zephyr's functions" project zephyr
-    cat >"$out/pico-sdk/CMakeLists.txt" <<END
+    claim "zephyr's functions" project zephyr
+    cat >"$base/pico-sdk/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 add_subdirectory($dist/pico-sdk/smear smear)
 add_executable(program main.c)
 target_link_libraries(program smear)
 END
-    check "pico-sdk" project pico-sdk
+    claim "pico-sdk" project pico-sdk
 else
     echo "not run without cmake"
 fi
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -7,51 +7,37 @@
 # every pixel SHOT_ZOOM times as large, and another frame is told from them. With SHOT_KEY, SHOT
 # presses that key (its last argument), and the frame becomes sharp.
 set -u
-folder=$1 program=$2
+. "$(dirname "$0")/lib.sh"
+base=$1 program=$2
 shift 2
 screen=build/demo/target_screen
-passed=0
-failed=0
-mkdir -p "$folder"
+mkdir -p "$base"
 
-count() {
-    if [ "$1" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $2"
-    fi
+frames() { # SCREEN STEP
+    $screen crcs "$1" "$2" >"$base/$1.want" || return 1
+    # shellcheck disable=SC2086
+    ${RUN:-} "$program" check "$1" "$2" >"$base/$1.got" && cmp "$base/$1.want" "$base/$1.got"
 }
+# shows SHUTTER FRAME FILE: the screenshot is that frame
+shows() { $screen compare "$SHOT_SCREEN" "$2" "$1" "$3" "$SHOT_ZOOM"; }
+# shot SHUTTER FRAME FILE [DISPLAY or KEY]
+shot() { $SHOT "$program" "$2" "$3" ${4:+"$4"} && shows "$1" "$2" "$3"; }
+shows_not() { ! shows "$@"; }
 
 for loop in "$@"; do
-    name=${loop%:*} step=${loop#*:}
-    $screen crcs "$name" "$step" >"$folder/$name.want" || exit 1
-    # shellcheck disable=SC2086
-    ${RUN:-} "$program" check "$name" "$step" >"$folder/$name.got" &&
-        cmp "$folder/$name.want" "$folder/$name.got"
-    count $? "frames of $name"
+    claim "frames of ${loop%:*}" frames "${loop%:*}" "${loop#*:}"
 done
 
 if [ -n "${SHOT:-}" ]; then
     for frame in $SHOT_FRAMES; do
-        shot=$folder/shot-$frame.ppm
+        file=$base/shot-$frame.ppm
         display=
         case $frame in
-        *:*) display=${frame%:*} frame=${frame#*:} shot=$folder/shot-$display.ppm ;;
+        *:*) display=${frame%:*} frame=${frame#*:} file=$base/shot-$display.ppm ;;
         esac
-        # shellcheck disable=SC2086
-        $SHOT "$program" "$frame" "$shot" $display &&
-            $screen compare "$SHOT_SCREEN" "$frame" 180 "$shot" "$SHOT_ZOOM"
-        count $? "screenshot of frame $frame${display:+ on $display}"
+        claim "screenshot of frame $frame${display:+ on $display}" shot 180 "$frame" "$file" "$display"
     done
-    if $screen compare "$SHOT_SCREEN" "$((frame + 1))" 180 "$shot" "$SHOT_ZOOM" 2>/dev/null; then
-        count 1 "a screenshot is as good as another"
-    fi
-    if [ -n "${SHOT_KEY:-}" ]; then
-        $SHOT "$program" "$frame" "$folder/shot-key.ppm" "$SHOT_KEY" &&
-            $screen compare "$SHOT_SCREEN" "$frame" 0 "$folder/shot-key.ppm" "$SHOT_ZOOM"
-        count $? "screenshot with a key held"
-    fi
+    claim "a screenshot is not as good as another" shows_not 180 $((frame + 1)) "$file"
+    [ -z "${SHOT_KEY:-}" ] || claim "screenshot with a key held" shot 0 "$frame" "$base/shot-key.ppm" "$SHOT_KEY"
 fi
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ] && [ $passed -gt 0 ]
+finish

@@ -4,39 +4,25 @@
 # against this machine's, and a screenshot of the board's panel.
 set -u
 smear=$1 model=$2
-make=${MAKE:-make}
-folder=build/test/model
-header=$folder/model.h
-passed=0
-failed=0
-rm -rf "$folder"
-mkdir -p "$folder"
+. "$(dirname "$0")/lib.sh"
+base=build/test/model
+header=$base/model.h
+rm -rf "$base"
+mkdir -p "$base"
 
-claim() { # NAME COMMAND...
-    name=$1
-    shift
-    if "$@" >"$folder/claim" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name"
-        sed 's/^/    /' "$folder/claim" | tail -5
-    fi
-}
 board() { $make -s TARGET=lm3s6965evb MODEL="$1" "$2"; }
 fails_with() { # TEXT COMMAND...
     text=$1
     shift
-    if "$@" >"$folder/told" 2>&1; then
+    if "$@" >"$base/told" 2>&1; then
         echo "did not fail"
         return 1
     fi
-    grep -q "$text" "$folder/told" || { cat "$folder/told"; return 1; }
+    grep -q "$text" "$base/told" || { cat "$base/told"; return 1; }
 }
 # The panel's 128x64 pixels, 4x4 each: is anything there, and does it change with time?
-shot() { sh platform/lm3s6965evb/shot.sh build/lm3s6965evb/model.elf "$1" "$folder/$1.ppm"; }
+shot() { sh platform/lm3s6965evb/shot.sh build/lm3s6965evb/model.elf "$1" "$base/$1.ppm"; }
 is_lit() { tail -c +16 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | sort -u | awk 'NF' | wc -l | grep -qv '^ *[012]$'; }
-differ() { ! cmp -s "$1" "$2"; }
 
 claim "a missing header is told, and how to make it" fails_with "smear convert FILE --name model" board "$header" model-firmware
 claim "a header" "$smear" convert "$model" --name other -o "$header"
@@ -46,13 +32,12 @@ claim "the firmware" board "$header" model-firmware
 claim "its frames are this machine's" board "$header" model-test
 claim "what they cost" board "$header" model-cost
 claim "a screenshot" shot 6
-claim "shows something" is_lit "$folder/6.ppm"
+claim "shows something" is_lit "$base/6.ppm"
 claim "another" shot 12
-claim "is another picture" differ "$folder/6.ppm" "$folder/12.ppm"
-cp build/lm3s6965evb/model.want "$folder/want"
-claim "a model without motion" "$smear" convert "$model" --clip none --name model -o "$folder/rest.h"
-touch -d '2020-01-01' "$folder/rest.h"
-claim "is compiled though its header is older" board "$folder/rest.h" model-test
-claim "and is another" differ build/lm3s6965evb/model.want "$folder/want"
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+claim "is another picture" differ "$base/6.ppm" "$base/12.ppm"
+cp build/lm3s6965evb/model.want "$base/want"
+claim "a model without motion" "$smear" convert "$model" --clip none --name model -o "$base/rest.h"
+touch -d '2020-01-01' "$base/rest.h"
+claim "is compiled though its header is older" board "$base/rest.h" model-test
+claim "and is another" differ build/lm3s6965evb/model.want "$base/want"
+finish

@@ -8,6 +8,7 @@
 # SWITCHES="-DSMEAR_WITH_...=0" leaves out what smear_config.h lets one leave out; counted is what a program that calls
 # every function of the interface would link. CODE_LIMIT=BYTES makes larger code fail; LIST=0 prints no files.
 set -u
+. "$(dirname "$0")/lib.sh"
 if [ $# -lt 1 ]; then
     echo "usage: target_objects.sh BUILD-FOLDER [SOURCE...]" >&2
     exit 2
@@ -41,7 +42,7 @@ done
 # 32-bit division, 64-bit products, shifts and comparisons, switch tables, and filling and copying
 allowed='^(__aeabi_u?idiv(mod)?|__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)|__gnu_thumb1_case_[a-z]+'
 allowed="$allowed|memcpy|memset|__aeabi_mem(cpy|set|clr)[48]?)\$"
-roots=$(sed -n 's/^[a-z].*[ *]\(smear_[a-z0-9_]*\)(.*/-u \1/p' include/smear.h include/smear_model.h | grep -v '_fn$')
+roots=$(interface)
 # shellcheck disable=SC2086
 arm-none-eabi-ld -r --gc-sections $roots -Map="$out/all.map" -o "$out/all.o" $objects || exit 1
 foreign=$(arm-none-eabi-nm -u "$out/all.o" | awk '{ print $NF }' | sort -u | grep -Ev "$allowed|^($(echo $roots | sed 's/-u //g; s/ /|/g'))\$")

@@ -16,7 +16,6 @@
 #define shl_wrap narrow_shl_wrap
 #define mulh_i32 narrow_mulh_i32
 #define mulh_u32 narrow_mulh_u32
-#define mul_i16_q16 narrow_mul_i16_q16
 #define scale_sat narrow_scale_sat
 #define narrow_sat narrow_narrow_sat
 #include "../src/fixed.h"
@@ -26,7 +25,6 @@
 #undef shl_wrap
 #undef mulh_i32
 #undef mulh_u32
-#undef mul_i16_q16
 #undef scale_sat
 #undef narrow_sat
 
@@ -89,35 +87,6 @@ static void test_high_products_of_random_values_are_exact_in_both_forms(void)
     for (int i = 0; i < RANDOMS; i++) {
         int32_t a = random_i32(), b = random_i32();
         if (!check_products(a, b))
-            return;
-    }
-}
-
-/* floor(v m / 2^16), computed upwards from a product that is never negative. The bits above 32 wrap. */
-static int32_t q16_product(int16_t v, int32_t m)
-{
-    const uint64_t lift = (uint64_t)1 << 62;        /* a multiple of 2^48 above every |v m| < 2^47 */
-    uint64_t product = (uint64_t)((int64_t)v * m) + lift;
-    return (int32_t)(uint32_t)((product >> 16) - (lift >> 16));
-}
-
-static bool check_q16(int16_t v, int32_t m)
-{
-    bool ok = CHECK_EQ(mul_i16_q16(v, m), q16_product(v, m));
-    return CHECK_EQ(narrow_mul_i16_q16(v, m), q16_product(v, m)) && ok;
-}
-
-static void test_vertex_products_are_floored_alike_in_both_forms(void)
-{
-    static const int16_t vertex[] = { -32768, -32767, -12345, -256, -2, -1, 0, 1, 2, 255, 4096, 32766, 32767 };
-    for (int i = 0; i < (int)(sizeof vertex / sizeof vertex[0]); i++)
-        for (int j = 0; j < EXTREMES; j++)
-            if (!check_q16(vertex[i], extreme[j]))
-                return;
-    random_state = 2;
-    for (int i = 0; i < RANDOMS; i++) {
-        int16_t v = (int16_t)(random_u32() & 0xffffu);
-        if (!check_q16(v, random_i32()))
             return;
     }
 }
@@ -196,7 +165,6 @@ void suite_fixed(void)
 {
     RUN(test_high_products_of_extremes_are_exact_in_both_forms);
     RUN(test_high_products_of_random_values_are_exact_in_both_forms);
-    RUN(test_vertex_products_are_floored_alike_in_both_forms);
     RUN(test_wrapping_arithmetic_is_modulo_2_to_the_32);
     RUN(test_scaling_rounds_to_nearest_and_saturates);
     RUN(test_saturated_values_can_always_be_negated);

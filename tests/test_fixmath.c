@@ -21,7 +21,6 @@
 #define shl_wrap poor_shl_wrap
 #define mulh_i32 poor_mulh_i32
 #define mulh_u32 poor_mulh_u32
-#define mul_i16_q16 poor_mul_i16_q16
 #define scale_sat poor_scale_sat
 #define narrow_sat poor_narrow_sat
 #define count_leading_zeros poor_count_leading_zeros
@@ -39,7 +38,6 @@
 #undef shl_wrap
 #undef mulh_i32
 #undef mulh_u32
-#undef mul_i16_q16
 #undef scale_sat
 #undef narrow_sat
 #undef count_leading_zeros

@@ -8,14 +8,9 @@
 # Prints each claim that does not hold and, last, `N passed, N failed`.
 . "$(dirname "$0")/view_lib.sh"
 golden=$here/tests/golden.txt
-LC_ALL=C
-export LC_ALL
-trap 'rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
 mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
 
 view() { works view --out null "$@"; }
-race=builtin:demo/race
 small="--size 96x72"
 
 # ------------------------------------------------------------------ the same bits as render

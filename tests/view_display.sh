@@ -6,8 +6,6 @@
 #     sh tests/view_display.sh build/host/demo-screen
 . "$(dirname "$0")/view_lib.sh"
 demo=$smear
-trap 'rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
 cd "$base" || exit 1
 unset TERM
 export SMEAR_OUT=null

@@ -5,34 +5,19 @@
 #
 #     sh tests/view_linux.sh build/smear WORK_FOLDER STATIC_SMEAR INIT MKCPIO
 #
-# The kernel is the distribution's, unpacked in the work folder, never installed.
+# The kernel is that of platform/linux/kernel.sh, in the work folder.
 . "$(dirname "$0")/view_lib.sh"
-LC_ALL=C
-export LC_ALL
-absolute() { case $1 in /*) echo "$1" ;; *) echo "$here/$1" ;; esac; }
-mkdir -p "$2"
-work=$(absolute "$2")
+package=$(sh platform/linux/kernel.sh "$(absolute "$2")") || exit 1
 static=$(absolute "$3")
 init=$(absolute "$4")
 mkcpio=$(absolute "$5")
 machine=
 trap '[ -z "$machine" ] || kill $machine 2>/dev/null; rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
 trap '' PIPE
 cd "$base" || exit 1
-race=builtin:demo/race
 
-find_package() {
-    package=$(apt-cache depends linux-image-amd64 2>/dev/null | awk '/Depends: linux-image/ { print $2; exit }')
-    [ -n "$package" ]
-}
-find_package || { apt-get update -qq && find_package; } || { echo "no kernel package"; exit 1; }
-if [ ! -d "$work/$package" ]; then
-    (cd "$work" && apt-get download "$package" >download.log 2>&1 && dpkg -x "$package"_*.deb "$package.new" &&
-        rm "$package"_*.deb && mv "$package.new" "$package") || { cat "$work/download.log"; exit 1; }
-fi
-kernel=$(ls "$work/$package"/boot/vmlinuz-*)
-modules=$(ls -d "$work/$package"/lib/modules/*/kernel)
+kernel=$(ls "$package"/boot/vmlinuz-*)
+modules=$(ls -d "$package"/lib/modules/*/kernel)
 
 # boot NAME DISPLAY-OPTIONS KERNEL-OPTIONS MODULES: with ./commands; $log is the serial line
 boot() {

@@ -9,9 +9,7 @@ LC_ALL=C.UTF-8
 export LC_ALL
 tmux() { command tmux -S "$base/tmux" -u -f /dev/null "$@"; }
 trap 'tmux kill-server 2>/dev/null; rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
 cd "$base" || exit 1
-race=builtin:demo/race
 
 # A shell in a terminal of 80x24; whatever ran in it has to leave its prompt usable.
 tmux new-session -d -x 80 -y 24 -s t "env PS1='ready ' LC_ALL=C.UTF-8 COLORTERM=truecolor sh" || exit 1

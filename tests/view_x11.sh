@@ -6,14 +6,10 @@
 #
 #     sh tests/view_x11.sh build/smear build/host/view_x11_user
 . "$(dirname "$0")/view_lib.sh"
-LC_ALL=C
-export LC_ALL
-case $2 in /*) user=$2 ;; *) user=$here/$2 ;; esac
+user=$(absolute "$2")
 servers=
 trap 'kill $servers 2>/dev/null; rm -rf "$base"' EXIT
-trap 'exit 1' HUP INT TERM
 cd "$base" || exit 1
-race=builtin:demo/race
 
 # server NAME OPTIONS...: starts one; $DISPLAY is its display, $server its process
 server() {

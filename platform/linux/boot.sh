@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: MIT
 # boot.sh PROGRAM FRAME OUT.ppm SCREEN
 # Boots Linux in QEMU with the demo as its only process, shows frame FRAME and takes a screenshot.
-# SCREEN: fbdev (framebuffer device, 640x480, 24 bits), bochs or virtio (DRM). The kernel is the
-# distribution's, unpacked in KERNEL [build/kernel], never installed.
+# SCREEN: fbdev (framebuffer device, 640x480, 24 bits), bochs or virtio (DRM). The kernel is that
+# of kernel.sh, in KERNEL [build/kernel].
 set -u
 program=$1 frame=$2 shot=$3 screen=$4
-folder=${KERNEL:-build/kernel}
 log=$shot.log archive=$shot.cpio list=$shot.list
 vga= card="-vga std" modules= out=drm
 case $screen in
@@ -26,23 +25,13 @@ virtio)
     ;;
 esac
 
-package=$(apt-cache depends linux-image-amd64 2>/dev/null |
-    awk '/Depends: linux-image/ { print $2; exit }')
-if [ -z "$package" ]; then
-    echo "boot.sh: the package lists name no kernel: apt-get update" >&2
-    exit 1
-fi
-if [ ! -d "$folder/$package" ]; then
-    mkdir -p "$folder"
-    (cd "$folder" && apt-get download -qq "$package" && dpkg -x "$package"_*.deb "$package.new" &&
-        rm "$package"_*.deb && mv "$package.new" "$package") || exit 1
-fi
-kernel=$(ls "$folder/$package"/boot/vmlinuz-*)
+package=$(sh platform/linux/kernel.sh "${KERNEL:-build/kernel}") || exit 1
+kernel=$(ls "$package"/boot/vmlinuz-*)
 
 rm -f "$shot" "$log" "$list"
 files=$program=init
 for module in $modules; do
-    files="$files $(find "$folder/$package/lib/modules" -name "$module.ko")=modules/$module.ko"
+    files="$files $(find "$package/lib/modules" -name "$module.ko")=modules/$module.ko"
     echo "$module.ko" >>"$list"
 done
 [ -z "$modules" ] || files="$files $list=modules/list"

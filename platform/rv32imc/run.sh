@@ -1,27 +1,5 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # run.sh OPTION... PROGRAM.elf [ARGUMENT...]
-# Runs a program on QEMU's virt machine; its output and exit status become ours. 99: it faulted; 124:
-# it did not end within LIMIT seconds [300].
-set -u
-options=
-while [ $# -gt 0 ]; do
-    case $1 in
-    *.elf) break ;;
-    esac
-    options="$options $1"
-    shift
-done
-if [ $# -eq 0 ]; then
-    echo "run.sh: no program given" >&2
-    exit 2
-fi
-program=$1
-config="enable=on,target=native,chardev=out"
-for argument in "$@"; do
-    config="$config,arg=$argument"
-done
-# shellcheck disable=SC2086
-exec timeout "${LIMIT:-300}" qemu-system-riscv32 -M virt -cpu rv32,f=false,d=false -bios none \
-    -display none -monitor none -serial none $options \
-    -chardev stdio,id=out -semihosting-config "$config" -kernel "$program" </dev/null
+# Runs a program on QEMU's virt machine.
+exec platform/common/qemu.sh qemu-system-riscv32 -M virt -cpu rv32,f=false,d=false -bios none "$@"

@@ -2,6 +2,7 @@
 /* compare.c - `smear compare`: how far two pictures are from each other. */
 #include "commands.h"
 
+#include "../image/file.h"
 #include "../image/image.h"
 #include "arguments.h"
 #include "picture.h"
@@ -54,7 +55,7 @@ static int load(const char *path, struct image *out)
     struct failure f = { "" };
     uint8_t *bytes;
     size_t size;
-    if (!file_read(path, max_file, &bytes, &size, &f))
+    if (!file_keep(path, &f) || !file_read(path, max_file, &bytes, &size, &f))
         return say_bad_input(path, &f);
     bool is_pfm = size > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f');
     bool is_pnm = size > 2 && bytes[0] == 'P' && bytes[1] >= '0' && bytes[1] <= '9';

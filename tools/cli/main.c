@@ -2,11 +2,22 @@
 /* main.c - the program `smear`: finds the command and hands over. */
 #include "commands.h"
 
+#include "../image/file.h"
 #include "arguments.h"
 #include "say.h"
+#include "smear.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
+
+static int command_version(int count, char **text)
+{
+    if (count > 0)
+        return say_bad_usage(text[0], "one argument too many");
+    printf("smear %d.%d.%d\n", SMEAR_VERSION_MAJOR, SMEAR_VERSION_MINOR, SMEAR_VERSION_PATCH);
+    return STATUS_OK;
+}
 
 static const struct {
     const char *name;
@@ -16,6 +27,7 @@ static const struct {
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
     { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
+    { "--version", command_version },
 };
 
 static int run_command(const char *name, int count, char **text)
@@ -30,6 +42,7 @@ int main(int argc, char **argv)
 {
     if (argc < 2)
         return say_bad_usage("no command", "render, view, convert, compare, info or help (smear help)");
+    output_catch_signals();
     int status = run_command(argv[1], argc - 2, argv + 2);
     if (fflush(stdout) != 0 && status == STATUS_OK) {
         struct failure f = { "" };

@@ -32,7 +32,7 @@ static const char *read_frames(void *to, const char *value)
 {
     struct render_options *o = to;
     o->has_frames = read_range(value, &o->first, &o->last);
-    return o->has_frames ? NULL : "needs FIRST-LAST, two frame numbers from 0 on";
+    return o->has_frames ? NULL : "needs FIRST-LAST, two frame numbers from 0 to 999999999";
 }
 
 static const char *read_time(void *to, const char *value)
@@ -458,7 +458,7 @@ static int check_outputs(struct render_options *o)
     const char *const path[] = { o->output, o->depth, o->velocity, o->stats };
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < i; j++)
-            if (path[i] != NULL && path[j] != NULL && strcmp(path[i], path[j]) == 0)
+            if (path[i] != NULL && path[j] != NULL && sink_same(path[i], path[j]))
                 return say_bad_usage(path[i], "is to be written twice");
     if (o->output == NULL && o->stats == NULL && o->repeat == 0) {
         char stem[280];

@@ -36,8 +36,10 @@ static int set_draws(const struct render_options *o, struct source *source, stru
         size_t room = (size_t)instant.draw_count + 1;
         out->motion = o->motion_count > 0 ? calloc(room, 1) : NULL;
         out->layers = o->mask != NULL ? calloc(room, 1) : NULL;
-        if ((out->motion == NULL && o->motion_count > 0) || (out->layers == NULL && o->mask != NULL))
+        if ((out->motion == NULL && o->motion_count > 0) || (out->layers == NULL && o->mask != NULL)) {
+            fail(&f, "out of memory");
             status = say_bad_input(source->name, &f);
+        }
         if (status == STATUS_OK && o->motion_count > 0)
             status = source_motion(source, o->motion, o->motion_count, &instant, out->motion);
         if (status == STATUS_OK && o->mask != NULL)

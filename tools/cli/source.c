@@ -162,6 +162,7 @@ bool source_stem(const char *name, char *out, size_t size)
     out[length] = '\0';
     return true;
 }
+
 /* A clip that ends shows its last instant, too; one that loops shows it as its first. */
 long source_period(const struct source *s, const struct source_view *view, double fps)
 {
@@ -176,4 +177,3 @@ long source_period(const struct source *s, const struct source_view *view, doubl
     frames = longest * fps;
     return frames > 0.0 && frames < 1e6 ? lround(frames) + !view->loop : 0;
 }
-

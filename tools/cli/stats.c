@@ -38,7 +38,7 @@ bool stats_open(struct stats_file *s, const char *path, struct failure *f)
 {
     struct stat there;
     *s = (struct stats_file){ .stream = NULL };
-    if (lstat(path, &there) == 0 && !S_ISREG(there.st_mode)) {
+    if (lstat(path, &there) == 0 && !S_ISREG(there.st_mode) && !file_is_kept(path)) {
         s->stream = fopen(path, "w");
         if (s->stream == NULL)
             return fail(f, "cannot be written (%s)", strerror(errno));

@@ -127,7 +127,7 @@ static const char *read_frames(void *to, const char *value)
         return NULL;
     }
     return read_integer(value, 1, 999999999, &o->frames) ? NULL
-                                                         : "needs a number from 1 on, or FIRST-LAST";
+                                                         : "needs a number from 1 to 999999999, or FIRST-LAST";
 }
 
 static const char *read_crc(void *to, const char *value)

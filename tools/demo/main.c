@@ -14,6 +14,7 @@
 #include "night.h"
 
 #include "../cli/say.h"
+#include "../image/file.h"
 #include "../scenes/builtin.h"
 
 #include <errno.h>
@@ -401,6 +402,7 @@ int main(int argc, char **argv)
     if (argc != (is_readme ? 4 : 3) || argv[argc - 1][0] == '-')
         return say_bad_usage("usage", "smear-demo [--readme] ASSETS|- FOLDER");
     const char *folder = argv[argc - 1];
+    output_catch_signals();
     if (!gallery_open(&gallery, folder, &f))
         return say_bad_input(folder, &f);
     const struct tour tour = { .room = is_readme ? readme_rooms : demo_rooms,

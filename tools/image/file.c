@@ -51,12 +51,57 @@ bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size
     return true;
 }
 
+/* Files that have been read, whatever they are called. */
+static struct kept {
+    dev_t device;
+    ino_t number;
+} *kept;
+static size_t kept_count;
+
+static bool is_kept(const struct stat *file)
+{
+    for (size_t i = 0; i < kept_count; i++)
+        if (kept[i].device == file->st_dev && kept[i].number == file->st_ino)
+            return true;
+    return false;
+}
+
+bool file_keep(const char *path, struct failure *f)
+{
+    struct stat file;
+    if (stat(path, &file) != 0 || !S_ISREG(file.st_mode) || is_kept(&file))
+        return true;            /* nothing that could be replaced */
+    struct kept *more = realloc(kept, (kept_count + 1) * sizeof *kept);
+    if (more == NULL)
+        return fail(f, "out of memory");
+    kept = more;
+    kept[kept_count++] = (struct kept){ file.st_dev, file.st_ino };
+    return true;
+}
+
+bool file_is_kept(const char *path)
+{
+    struct stat file;
+    return stat(path, &file) == 0 && is_kept(&file);
+}
+
 bool file_is_replaceable(const char *path, struct failure *f)
 {
     struct stat there;
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
         return fail(f, "cannot be written (it is there and no regular file)");
-    return true;
+    return !file_is_kept(path) || fail(f, "cannot be written (it has been read, and would be lost)");
+}
+
+char *volatile output_unfinished[OUTPUTS_MAX];
+
+static void note_unfinished(char *path, char *instead)
+{
+    for (int i = 0; i < OUTPUTS_MAX; i++)
+        if (output_unfinished[i] == path) {
+            output_unfinished[i] = instead;
+            break;
+        }
 }
 
 bool output_open(struct output *o, const char *path, struct failure *f)
@@ -81,6 +126,7 @@ bool output_open(struct output *o, const char *path, struct failure *f)
         output_discard(o);
         return fail(f, "cannot be written (%s)", strerror(reason));
     }
+    note_unfinished(NULL, o->temporary);
     return true;
 }
 
@@ -112,6 +158,8 @@ void output_discard(struct output *o)
         fclose(o->stream);
         remove(o->temporary);
     }
+    if (o->temporary != NULL)
+        note_unfinished(o->temporary, NULL);
     free(o->path);
     free(o->temporary);
     *o = (struct output){0};

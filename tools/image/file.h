@@ -12,7 +12,12 @@ struct output {
     char *path, *temporary;     /* the final name, and the one beside it that is written */
 };
 
-/* A complete file replaces what has its name; false where that is a device or folder, which must stay. */
+/* From now on nothing that is written replaces the file `path`, which has been read: false when that cannot be
+ * promised. */
+bool file_keep(const char *path, struct failure *f);
+bool file_is_kept(const char *path);
+
+/* A complete file replaces what has its name; false where that is a device or folder, which must stay, or is kept. */
 bool file_is_replaceable(const char *path, struct failure *f);
 
 /* Opens `path`.tmp for writing and seeking; `path` must be replaceable. */
@@ -24,5 +29,15 @@ bool output_commit(struct output *o, struct failure *f);
 
 /* Closes and removes the temporary file. Harmless on an empty struct. */
 void output_discard(struct output *o);
+
+/* From now on a signal that ends the program removes what is unfinished first (interrupt.c). */
+void output_catch_signals(void);
+
+/* Removes what is unfinished; may be called by a signal handler. */
+void output_remove_all(void);
+
+/* Temporary files that are open now, or null. */
+enum { OUTPUTS_MAX = 16 };
+extern char *volatile output_unfinished[OUTPUTS_MAX];
 
 #endif

@@ -2,6 +2,8 @@
 /* external.c - see external.h. */
 #include "external.h"
 
+#include "../image/file.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,7 +36,7 @@ bool external_read(const char *folder, const char *name, uint8_t **bytes, size_t
         path[at++] = '/';
     memcpy(path + at, name, name_length + 1);
     struct failure why = { 0 };
-    bool ok = file_read(path, MODEL_MAX_BYTES, bytes, size, &why);
+    bool ok = file_keep(path, &why) && file_read(path, MODEL_MAX_BYTES, bytes, size, &why);
     free(path);
     return ok || fail(f, "%.80s: %s", name, why.text);
 }

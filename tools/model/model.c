@@ -2,6 +2,7 @@
 /* model.c - loads a model of either format, frees it, finds things in it by name. */
 #include "model.h"
 
+#include "../image/file.h"
 #include "gltf.h"
 #include "obj.h"
 
@@ -161,7 +162,7 @@ bool model_load(const char *path, struct model *out, struct failure *f)
     uint8_t *bytes;
     size_t size;
     *out = (struct model){ 0 };
-    if (!file_read(path, MODEL_MAX_BYTES, &bytes, &size, f))
+    if (!file_keep(path, f) || !file_read(path, MODEL_MAX_BYTES, &bytes, &size, f))
         return false;
     const char *slash = strrchr(path, '/');
     size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;

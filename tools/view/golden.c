@@ -63,7 +63,7 @@ static bool read_expected(struct golden *g, struct failure *f)
 bool golden_open(struct golden *g, const char *path, bool prints, bool updates, struct failure *f)
 {
     *g = (struct golden){ .path = path, .prints = prints, .updates = updates };
-    return path == NULL || updates || read_expected(g, f);
+    return path == NULL || (updates ? file_is_replaceable(path, f) : read_expected(g, f));
 }
 
 bool golden_wants_pictures(const struct golden *g)

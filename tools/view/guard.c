@@ -2,6 +2,8 @@
 /* guard.c - see guard.h. */
 #include "guard.h"
 
+#include "../image/file.h"
+
 #include <signal.h>
 #include <stddef.h>
 
@@ -14,6 +16,7 @@ static void die(int signal_number)
     undo_all = NULL;
     if (undo != NULL)
         undo();
+    output_remove_all();
     signal(signal_number, SIG_DFL);
     raise(signal_number);
 }

@@ -3,8 +3,12 @@
 #ifndef SMEAR_WEB_SYS_STAT_H
 #define SMEAR_WEB_SYS_STAT_H
 
+typedef unsigned dev_t, ino_t;
+
 struct stat {
     unsigned st_mode;
+    dev_t st_dev;
+    ino_t st_ino;
 };
 
 #define S_ISREG(mode) 1
@@ -12,7 +16,7 @@ struct stat {
 static inline int stat(const char *path, struct stat *out)
 {
     (void)path;
-    out->st_mode = 0;
+    *out = (struct stat){ 0 };
     return -1;
 }
 
