@@ -1021,6 +1021,7 @@ static void average_seen4(const struct subframes *f, int32_t at, const struct ga
 }
 #endif
 
+/* Means of n pixels one by one: their gaps first, as there are few registers. */
 static SMEAR_NOINLINE void average_some(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
                                         int32_t pairs, enum cover cover)
 {
