@@ -219,12 +219,20 @@ SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t add, struct 
 {
     if (p != o->last) {
         __asm__ volatile ("");      /* one branch: nothing of this is done for nothing */
-        const uint32_t levels = is_555 ? 31 : 63, g = pixel_green(p);
+        const uint32_t high = is_555 ? pixel_blue(p) : pixel_red(p), low = is_555 ? pixel_red(p) : pixel_blue(p);
         o->last = p;
-        uint32_t both = is_555 ? pixel_blue(p) << 16 | pixel_red(p) : p & 0xff00ffu;
+#if defined(__ARM_ARCH_6M__)
+        o->red_blue = ((uint32_t)smear_levels_31[high] << (ORDERED_HIGH - ORDERED_LOW) | smear_levels_31[low])
+                   << ORDERED_LOW;
+        const uint32_t green = is_555 ? (uint32_t)smear_levels_31[pixel_green(p)] << ORDERED_HIGH : 0;
+#else
+        uint32_t both = high << 16 | low, green = pixel_green(p);
         both = both * 31u + ((both + (both >> 7 & 0x10001u)) * 31u >> 8 & 0x1f001fu) + 0x20002u;
         o->red_blue = (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
-        o->green = (g * levels + ((g + (g >> 7)) * levels >> 8) + 2u) >> 2 << ORDERED_HIGH;
+        green = (green * 31u + ((green + (green >> 7)) * 31u >> 8) + 2u) >> 2 << ORDERED_HIGH;
+#endif
+        /* of 63, one product has it for all codes */
+        o->green = is_555 ? green : (pixel_green(p) * 16579962u + 508400u) >> ORDERED_HIGH << ORDERED_HIGH;
     }
     const uint32_t both = o->red_blue + add;
     const uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)

@@ -69,14 +69,13 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
             largest_cofactor |= (uint64_t)(c < 0 ? -c : c);
         }
     shift = shift_to(largest_cofactor, 15);
-    for (int i = 0; i < 9; i++)
-        m[i / 3][i % 3] = (int32_t)(shift >= 0 ? cofactor[i] >> shift
-                                               : (int64_t)((uint64_t)cofactor[i] << -shift));
-
     const int32_t row[3] = { b[0] >> 8, b[1] >> 8, b[2] >> 8 };
-    if (dot_q(row, m[0], 8) < 0)
-        for (int i = 0; i < 9; i++)
-            m[i / 3][i % 3] = -m[i / 3][i % 3];
+    for (int i = 0; i < 9; i++)
+        b[i] = (int32_t)(shift >= 0 ? cofactor[i] >> shift : (int64_t)((uint64_t)cofactor[i] << -shift));
+    const bool mirrored = dot_q(row, b, 8) < 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            m[i][j] = mirrored ? -b[3 * i + j] : b[3 * i + j];
 }
 
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
@@ -152,6 +151,8 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
     return cosine_of(s, n);
 }
 
+static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
+
 /* The normal of edges of any length. */
 static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
 {
@@ -159,7 +160,7 @@ static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const in
     int64_t cross[3];
     uint64_t largest = 1;
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        int j = next_axis(i), k = next_axis(j);
         cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
         largest |= cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
     }
@@ -185,7 +186,7 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
     if (size < 1u << 15) {      /* cross products have 31 bits */
         uint32_t largest = 1;
         for (int i = 0; i < 3; i++) {
-            int j = (i + 1) % 3, k = (i + 2) % 3;
+            int j = next_axis(i), k = next_axis(j);
             n[i] = u[j] * v[k] - u[k] * v[j];
             largest |= (uint32_t)abs_i32(n[i]);
         }

@@ -89,8 +89,9 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
     int32_t unit[3][3];
     int exponent = normalize_block(unit, turned) - 48;
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
-    for (int i = 0; i < 9; i++)
-        scaled[i] = (int64_t)unit[i / 3][i % 3] * scale;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
     view->basis_exp = normalize_block(view->basis, scaled) + exponent - mesh->shift;
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;

@@ -24,6 +24,7 @@ enum {
     PACKED_MAX = SMEAR_PACKED_INSTANTS,     /* weights of codes that add up in 16
                                              * bits, with half of themselves */
     SUM_PLANES = SMEAR_WITH_LINEAR ? 4 : 2,     /* of codes alone all sums are packed */
+    PAIRS_MAX = 8,          /* of taps of a gap */
     RECORD_WORDS = VERTEX_BASE_WORDS + 3        /* without the path, which comes last */
 };
 
@@ -56,15 +57,21 @@ struct mean {
 /* The same in 16 bits, for sums of n codes, 2 <= n <= PACKED_MAX: times 2^(16 + shift) / n, rounded up: a
  * mean that is whole stays so, and others go up from 1/2 - 1/128 on. */
 struct narrow_mean {
-    uint32_t n, half, factor;
+    uint32_t n, halves, factor;     /* halves: n / 2 in 16 bits, twice */
     int shift;
+    uint32_t factor24;              /* the factor times 2^(8 - shift): the mean is in a product's top byte */
+};
+
+/* Packed sums of a pixel: red and blue, in 16 bits each; green, and how many. */
+struct sums {
+    uint32_t rb, gn;
 };
 
 struct subframes {
     const struct smear_moving_tile *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
-    /* Planes of sums of what is not still. Packed: red and blue, then
-     * green and how many. Else: red, green, blue. */
+    /* Planes of sums of what is not still: red, green, blue. Packed, as in struct sums: two planes where there
+     * are vectors, else one of pairs. */
     uint32_t *sum[3];
     uint32_t *times;            /* how many */
     bool packed;
@@ -102,12 +109,8 @@ static inline uint32_t mean_of(const struct mean *m, uint32_t sum)
 static struct narrow_mean narrow_mean_make(uint32_t n)
 {
     int shift = 31 - count_leading_zeros(n - 1);
-    return (struct narrow_mean){ n, n >> 1, ((1u << (16 + shift)) + n - 1) / n, shift };
-}
-
-static inline uint32_t narrow_mean_of(const struct narrow_mean *m, uint32_t sum)
-{
-    return ((sum + m->half) * m->factor >> 16) >> m->shift;
+    uint32_t factor = ((1u << (16 + shift)) + n - 1) / n;
+    return (struct narrow_mean){ n, (n >> 1) * 0x10001u, factor, shift, factor << (8 - shift) };
 }
 
 /* ------------------------------------------------------------------ what is still */
@@ -313,7 +316,7 @@ static void note(struct subframes *f, const struct smear_mover *m)
 }
 
 /* Lists what may be seen. True when something moves. */
-static bool list(struct subframes *f)
+static SMEAR_NOINLINE bool list(struct subframes *f)
 {
     const struct smear_moving_tile *t = f->t;
     const struct smear_geometry *g = t->frame->geometry;
@@ -393,7 +396,7 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
         draw(&p, f, target);
 }
 
-static void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
+static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
                   const struct smear_raster_target *target, struct box *all)
 {
     for (uint32_t i = f->movers_listed; i < f->all_listed; i++)
@@ -437,13 +440,40 @@ static inline uint32_t value_of(uint32_t code, bool linear)
     return linear ? smear_srgb_decode[code] : code;
 }
 
+/* Compilers keep half of what these loops need on the stack: 17 instructions a pixel, not 24. */
+#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define SUMS_BY_HAND 1
+#else
+#define SUMS_BY_HAND 0
+#endif
+
+/* Sums are set at first, not emptied before: a gain where memory is slow. */
+#define SETS_PACKED (!SMEAR_VECTORS && !SUMS_BY_HAND)
+
+#if SMEAR_VECTORS
+static inline struct sums sums_at(const struct subframes *f, int32_t at)
+{
+    return (struct sums){ f->sum[0][at], f->sum[1][at] };
+}
+#else
+static inline struct sums *pair_at(const struct subframes *f, int32_t at)
+{
+    return (struct sums *)(void *)f->sum[0] + at;
+}
+
+static inline struct sums sums_at(const struct subframes *f, int32_t at)
+{
+    return *pair_at(f, at);
+}
+#endif
+
 /* Adds n pixels and makes them still again. What looks still need not be counted: it is what the rest of the
  * mean is made of. `all`: everything counts. */
+#if SMEAR_VECTORS
 static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uint32_t *gn, int32_t n,
                        bool all)
 {
     int32_t i = 0;
-#if SMEAR_VECTORS
     const smear_v4u every = { 0u - all, 0u - all, 0u - all, 0u - all };
     for (; i + 4 <= n; i += 4) {
         smear_v4u c = v4u_load(color + i), behind = v4u_load(still + i),
@@ -453,13 +483,7 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         v4u_store(rb + i, v4u_load(rb + i) + (c & 0xff00ffu));
         v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
     }
-#endif
-    /* Pixels have no alpha. Counted up to 0: few registers are enough. */
-    color += n;
-    still += n;
-    rb += n;
-    gn += n;
-    for (i -= n; i != 0; i++) {
+    for (; i < n; i++) {
         const uint32_t c = color[i], behind = still[i];
         if (c != behind || all) {
             color[i] = behind;
@@ -468,8 +492,83 @@ static void add_packed(uint32_t *color, const uint32_t *still, uint32_t *rb, uin
         }
     }
 }
+#else
+static SMEAR_NOINLINE void add_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n, bool all)
+{
+#if SUMS_BY_HAND
+    if (!all) {
+        const uint32_t *end = still + n;
+        __asm__ volatile(
+            ".syntax unified\n\t"
+            "movs r4, #255\n\t"
+            "lsls r5, r4, #16\n\t"
+            "orrs r4, r5\n\t"
+            "mov r8, r4\n\t"
+            "movs r4, #1\n\t"
+            "lsls r4, r4, #16\n\t"
+            "mov r9, r4\n"
+            "1:\n\t"
+            "ldr r4, [%[color]]\n\t"
+            "ldm %[still]!, {r5}\n\t"
+            "stm %[color]!, {r5}\n\t"
+            "cmp r4, r5\n\t"
+            "beq 2f\n\t"
+            "mov r5, r8\n\t"
+            "ands r5, r4\n\t"
+            "lsrs r4, r4, #8\n\t"
+            "uxtb r4, r4\n\t"
+            "ldr r6, [%[sums]]\n\t"
+            "ldr r7, [%[sums], #4]\n\t"
+            "adds r6, r6, r5\n\t"
+            "adds r7, r7, r4\n\t"
+            "add r7, r9\n\t"
+            "stm %[sums]!, {r6, r7}\n\t"
+            "cmp %[still], %[end]\n\t"
+            "bne 1b\n\t"
+            "b 3f\n"
+            "2:\n\t"
+            "adds %[sums], #8\n\t"
+            "cmp %[still], %[end]\n\t"
+            "bne 1b\n"
+            "3:"
+            : [color] "+l"(color), [still] "+l"(still), [sums] "+l"(sums)
+            : [end] "r"(end)
+            : "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
+        return;
+    }
+#endif
+    const uint32_t mask = all ? UINT32_MAX : 0;
+    for (const uint32_t *end = still + n; still != end; color++, sums++) {
+        const uint32_t c = *color, behind = *still++;
+        if (((c ^ behind) | mask) != 0) {
+            __asm__ volatile ("");      /* nothing of this in advance */
+            struct sums s = *sums;
+            *color = behind;
+            s.rb += c & 0xff00ffu;
+            s.gn += (c >> 8 & 0xffu) + 0x10000u;
+            *sums = s;
+        }
+    }
+}
+#endif
 
-static void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
+#if SETS_PACKED
+/* The same where the sums are not yet begun. */
+static SMEAR_NOINLINE void set_packed(uint32_t *color, const uint32_t *still, struct sums *sums, int32_t n)
+{
+    for (const uint32_t *end = still + n; still != end; color++, sums++) {
+        const uint32_t c = *color, behind = *still++;
+        struct sums s = { 0, 0 };
+        if (c != behind) {
+            *color = behind;
+            s = (struct sums){ c & 0xff00ffu, (c >> 8 & 0xffu) + 0x10000u };
+        }
+        *sums = s;
+    }
+}
+#endif
+
+static SMEAR_RARE void add_wide(const struct subframes *f, int32_t at, const uint32_t *still, int32_t n)
 {
     const bool linear = frame_is_linear(f->t->frame);
     const uint32_t all = f->blends;
@@ -487,14 +586,61 @@ static void add_wide(const struct subframes *f, int32_t at, const uint32_t *stil
     }
 }
 
-static void add(const struct subframes *f, const struct box *b)
+static void clear_row(const struct subframes *f, int32_t at, int32_t n)
+{
+    const size_t bytes = (size_t)n * sizeof *f->times;
+    if (f->packed && !SMEAR_VECTORS) {
+        __builtin_memset(f->sum[0] + 2 * at, 0, 2 * bytes);
+        return;
+    }
+    for (int i = 0; i < (f->packed ? 2 : 3); i++)
+        __builtin_memset(f->sum[i] + at, 0, bytes);
+    if (!f->packed)
+        __builtin_memset(f->times + at, 0, bytes);
+}
+
+/* Empties the sums where they will be read, but for what is `drawn`: a gap's mean is taken PAIRS_MAX
+ * beyond what was drawn, and reads as far beyond that. */
+static SMEAR_NOINLINE void clear_around(const struct subframes *f, const struct box *drawn)
+{
+    const struct smear_raster_target *s = &f->t->still;
+    const int32_t reach = 2 * PAIRS_MAX;
+    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    for (int32_t y = b.y0; y < b.y1; y++) {
+        const int32_t at = work_row(f, &b, y);
+        if (y < drawn->y0 || y >= drawn->y1) {
+            clear_row(f, at, b.x1 - b.x0);
+            continue;
+        }
+        if (drawn->x0 > b.x0)
+            clear_row(f, at, drawn->x0 - b.x0);
+        if (drawn->x1 < b.x1)
+            clear_row(f, at + drawn->x1 - b.x0, b.x1 - drawn->x1);
+    }
+}
+
+/* `first`: the sums begin here, which were not emptied. */
+static void add(const struct subframes *f, const struct box *b, bool first)
 {
     const struct smear_raster_target *s = &f->t->still;
     for (int32_t y = b->y0; y < b->y1; y++) {
         const uint32_t *still = s->color + still_row(s, &s->color_rows, y) + b->x0;
         int32_t at = work_row(f, b, y), n = b->x1 - b->x0;
+#if SETS_PACKED
+        if (first) {
+            set_packed(f->work.color + at, still, pair_at(f, at), n);
+            continue;
+        }
+#else
+        (void)first;
+#endif
         if (f->packed)
+#if SMEAR_VECTORS
             add_packed(f->work.color + at, still, f->sum[0] + at, f->sum[1] + at, n, f->blends);
+#else
+            add_packed(f->work.color + at, still, pair_at(f, at), n, f->blends);
+#endif
         else
             add_wide(f, at, still, n);
     }
@@ -505,8 +651,6 @@ static void add(const struct subframes *f, const struct box *b)
 /* The comb's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what
  * is left. Taps are in pairs, which count only together: where one lies outside the tiles the
  * gap is closed by less, but nothing is shifted. */
-enum { PAIRS_MAX = 8 };
-
 struct gap {
     int32_t pairs;
     int8_t x[PAIRS_MAX], y[PAIRS_MAX];
@@ -515,15 +659,21 @@ struct gap {
                                              * two), but the last pair's */
     int unit_log2;
     uint32_t weight[PAIRS_MAX + 1];         /* of all instants, by pairs that count */
-    struct narrow_mean mean[PAIRS_MAX + 1];
+    struct narrow_mean mean[PAIRS_MAX + 1]; /* made where they are needed: n is 0 before */
 };
 
-static int32_t nearest_pixel(int32_t numerator, int32_t over)
+/* Of part / over along an axis; where that is a whole number, no division. */
+static int32_t nearest_pixel(int32_t part, int32_t over, int32_t times)
 {
+    if (part == 0 || part == over)
+        return part == 0 ? 0 : times;
+    if (part == -over)
+        return -times;
+    const int32_t numerator = part * times;
     return (2 * numerator + (numerator < 0 ? -over : over)) / (2 * over);
 }
 
-static void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
+static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
     const int32_t x = step->x, y = step->y;
     /* 1/16 px */
@@ -543,8 +693,8 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x * (i + 1), (int32_t)length);
-        gap->y[i] = (int8_t)nearest_pixel(y * (i + 1), (int32_t)length);
+        gap->x[i] = (int8_t)nearest_pixel(x, (int32_t)length, i + 1);
+        gap->y[i] = (int8_t)nearest_pixel(y, (int32_t)length, i + 1);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -554,8 +704,7 @@ static void gap_make(struct gap *gap, const struct subframes *f, const struct sm
         gap->weight[pairs] = f->instants
                            * (pairs == gap->pairs && pairs != 0 ? whole
                                                                 : gap->unit * (2 * (uint32_t)pairs + 1));
-        if (f->packed)
-            gap->mean[pairs] = narrow_mean_make(gap->weight[pairs]);
+        gap->mean[pairs].n = 0;
     }
 }
 
@@ -577,15 +726,10 @@ static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
     return i + 1 == gap->pairs ? gap->last : gap->unit;
 }
 
-static inline uint32_t times_at(const struct subframes *f, int32_t at)
-{
-    return f->packed ? f->sum[1][at] >> 16 : f->times[at];
-}
-
 /* What is still hides all movers there. */
 static inline bool stays_still(const struct subframes *f, int32_t at)
 {
-    return f->work.depth[at] > f->nearest && times_at(f, at) == 0;
+    return f->work.depth[at] > f->nearest && f->times[at] == 0;
 }
 
 /* The pixels of a gap's taps, in pairs. Where movers are hidden is not where they are not: there
@@ -595,15 +739,15 @@ static inline bool stays_still(const struct subframes *f, int32_t at)
 static void find_taps(int32_t *tap, const struct subframes *f, int32_t at, const struct gap *gap,
                       int32_t pairs)
 {
-    const uint32_t depth = f->work.depth[at], times = times_at(f, at);
+    const uint32_t depth = f->work.depth[at], times = f->times[at];
     bool hides = depth > f->nearest;
     for (int32_t i = 0; i < 2 * pairs; i++) {
         const int32_t p = i & 1 ? at + gap->offset[i >> 1] : at - gap->offset[i >> 1];
         const uint32_t depth_there = f->work.depth[p];
         tap[i] = p;
-        if (depth_there > depth && (depth_there > f->nearest || times_at(f, p) + 1 < times))
+        if (depth_there > depth && (depth_there > f->nearest || f->times[p] + 1 < times))
             tap[i] = at;
-        else if (depth_there < depth && times + 1 < times_at(f, p))
+        else if (depth_there < depth && times + 1 < f->times[p])
             hides = true;
     }
     for (int32_t i = 0; hides && i < 2 * pairs; i++)
@@ -622,13 +766,130 @@ static inline uint32_t gap_sum(const uint32_t *sum, int32_t at, const struct gap
     return all;
 }
 
-static inline uint32_t mixed_packed(uint32_t rb, uint32_t gn, const struct narrow_mean *m, uint32_t still)
+/* Packed sums over the gaps of n pixels from `at` on. Nothing hides movers there. */
+static void gap_sums(struct sums *out, const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
+                     int32_t pairs)
 {
-    const uint32_t rest = m->n - (gn >> 16);
-    rb += (still & 0xff00ffu) * rest;
-    return pixel_make(0, narrow_mean_of(m, rb >> 16),
-                      narrow_mean_of(m, (gn & 0xffffu) + pixel_green(still) * rest),
-                      narrow_mean_of(m, rb & 0xffffu));
+    const int32_t *offset = gap->offset;
+    const int unit_log2 = gap->unit_log2;
+    if (pairs <= 1)
+        for (int32_t i = 0; i < n; i++) {
+            const struct sums here = sums_at(f, at + i);
+            out[i] = (struct sums){ here.rb << unit_log2, here.gn << unit_log2 };
+        }
+    else
+        for (int32_t i = 0; i < n; i++) {
+            struct sums all = sums_at(f, at + i);
+            for (int32_t k = 0; k < pairs - 1; k++) {
+                const struct sums a = sums_at(f, at + i - offset[k]), b = sums_at(f, at + i + offset[k]);
+                all.rb += a.rb + b.rb;
+                all.gn += a.gn + b.gn;
+            }
+            out[i] = (struct sums){ all.rb << unit_log2, all.gn << unit_log2 };
+        }
+    if (pairs == 0)
+        return;
+    const uint32_t weight = pair_weight(gap, pairs - 1);
+    for (int32_t i = 0, p = at - offset[pairs - 1], q = at + offset[pairs - 1]; i < n; i++) {
+        const struct sums a = sums_at(f, p + i), b = sums_at(f, q + i);
+        out[i].rb += (a.rb + b.rb) * weight;
+        out[i].gn += (a.gn + b.gn) * weight;
+    }
+}
+
+/* The same of one pixel, as find_taps says. */
+static inline struct sums gap_sums_seen(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+{
+    const struct sums here = sums_at(f, at);
+    const uint32_t depth = f->work.depth[at], times = here.gn >> 16;
+    struct sums all = { here.rb * gap->unit, here.gn * gap->unit };
+    bool hides = depth > f->nearest;
+    for (int32_t i = 0; i < pairs && !hides; i++) {
+        struct sums pair = { 0, 0 };
+        for (int side = 0; side < 2; side++) {
+            const int32_t p = side ? at + gap->offset[i] : at - gap->offset[i];
+            const uint32_t depth_there = f->work.depth[p];
+            struct sums there = sums_at(f, p);
+            if (depth_there > depth && (depth_there > f->nearest || (there.gn >> 16) + 1 < times))
+                there = here;
+            else if (depth_there < depth && times + 1 < there.gn >> 16)
+                hides = true;
+            pair.rb += there.rb;
+            pair.gn += there.gn;
+        }
+        all.rb += pair.rb * pair_weight(gap, i);
+        all.gn += pair.gn * pair_weight(gap, i);
+    }
+    if (hides) {    /* none where what is still stays so */
+        const uint32_t whole = gap->weight[pairs] / f->instants;
+        all = (struct sums){ here.rb * whole, here.gn * whole };
+    }
+    return all;
+}
+
+/* Means of n pixels, in place of what is still, which gets the weight of the instants that are left. */
+static SMEAR_NOINLINE void mix_packed(uint32_t *color, const struct sums *sums, int32_t n, const struct narrow_mean *m)
+{
+    const struct sums *end = sums + n;
+#if SUMS_BY_HAND
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "movs r4, #255\n\t"
+        "lsls r5, r4, #16\n\t"
+        "orrs r4, r5\n\t"
+        "mov r8, r4\n"
+        "1:\n\t"
+        "ldm %[sums]!, {r4, r5}\n\t"
+        "lsrs r6, r5, #16\n\t"
+        "beq 2f\n\t"
+        "ldr r3, [%[color]]\n\t"
+        "rsbs r6, r6, #0\n\t"
+        "add r6, %[n]\n\t"
+        "mov r7, r8\n\t"
+        "ands r7, r3\n\t"
+        "muls r7, r6\n\t"
+        "adds r4, r4, r7\n\t"
+        "add r4, %[halves]\n\t"
+        "lsrs r3, r3, #8\n\t"
+        "uxtb r3, r3\n\t"
+        "muls r3, r6\n\t"
+        "adds r5, r5, r3\n\t"
+        "add r5, %[halves]\n\t"
+        "uxth r5, r5\n\t"
+        "mov r6, %[factor]\n\t"
+        "muls r5, r6\n\t"
+        "lsrs r5, r5, #24\n\t"
+        "lsls r5, r5, #8\n\t"
+        "uxth r7, r4\n\t"
+        "muls r7, r6\n\t"
+        "lsrs r7, r7, #24\n\t"
+        "orrs r5, r7\n\t"
+        "lsrs r4, r4, #16\n\t"
+        "muls r4, r6\n\t"
+        "lsrs r4, r4, #24\n\t"
+        "lsls r4, r4, #16\n\t"
+        "orrs r5, r4\n\t"
+        "str r5, [%[color]]\n"
+        "2:\n\t"
+        "adds %[color], #4\n\t"
+        "cmp %[sums], %[end]\n\t"
+        "bne 1b"
+        : [color] "+l"(color), [sums] "+l"(sums)
+        : [end] "r"(end), [n] "r"(m->n), [halves] "r"(m->halves), [factor] "r"(m->factor24)
+        : "r3", "r4", "r5", "r6", "r7", "r8", "cc", "memory");
+#else
+    const struct narrow_mean mean = *m;
+    for (; sums != end; sums++, color++) {
+        const uint32_t times = sums->gn >> 16;
+        if (times == 0)
+            continue;
+        const uint32_t still = *color, rest = mean.n - times;
+        const uint32_t rb = sums->rb + (still & 0xff00ffu) * rest + mean.halves;
+        const uint32_t g = (uint16_t)(sums->gn + pixel_green(still) * rest + mean.halves);
+        *color = (rb >> 16) * mean.factor24 >> 24 << 16 | g * mean.factor24 >> 24 << 8
+               | (uint16_t)rb * mean.factor24 >> 24;
+    }
+#endif
 }
 
 #if SMEAR_VECTORS
@@ -657,7 +918,7 @@ static inline void gap_sum4(smear_v4u out[2], const uint32_t *rb, const uint32_t
 
 static inline smear_v4u mixed4(smear_v4u rb, smear_v4u gn, const struct narrow_mean *m, smear_v4u still)
 {
-    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->half * 0x10001u,
+    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->halves,
                     factor = zero + m->factor * 0x10001u;
     const smear_v4u rest = (zero + m->n) - (gn >> 16);
     rb += v4u_mul16(still & 0xff00ffu, rest | rest << 16);
@@ -736,8 +997,8 @@ static inline smear_v4u weighted(smear_v4u sum, uint32_t weight)
     return v4u_mul16(sum, (smear_v4u){ 0, 0, 0, 0 } + weight * 0x10001u);
 }
 
-/* average_covered of four pixels: those that stay still have sums of 0. */
-static void average_covered4(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
+/* gap_sums_seen of four pixels, and their means: those that stay still have sums of 0. */
+static void average_seen4(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs)
 {
     const smear_v4i zero = { 0, 0, 0, 0 };
     struct covered4 c = { .own = { v4u_load(f->sum[0] + at), v4u_load(f->sum[1] + at) },
@@ -760,23 +1021,21 @@ static void average_covered4(const struct subframes *f, int32_t at, const struct
 }
 #endif
 
-static inline void average_one(const struct subframes *f, int32_t at, const struct gap *gap, int32_t pairs,
-                               const int32_t *tap)
+/* Means of n pixels one by one: their gaps first, as there are few registers. */
+static SMEAR_NOINLINE void average_some(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
+                                        int32_t pairs, enum cover cover)
 {
-    uint32_t *out = &f->work.color[at];
-    *out = mixed_packed(gap_sum(f->sum[0], at, gap, pairs, tap), gap_sum(f->sum[1], at, gap, pairs, tap),
-                        &gap->mean[pairs], *out);
-}
-
-static void average_covered(const struct subframes *f, int32_t at, int32_t n, const struct gap *gap,
-                            int32_t pairs)
-{
-    int32_t tap[2 * PAIRS_MAX];
-    for (int32_t i = at; i < at + n; i++) {
-        if (stays_still(f, i))
-            continue;
-        find_taps(tap, f, i, gap, pairs);
-        average_one(f, i, gap, pairs, tap);
+    struct sums sums[16];
+    while (n > 0) {
+        const int32_t count = min_i32(n, 16);
+        if (cover == COVER_NONE)
+            gap_sums(sums, f, at, count, gap, pairs);
+        else
+            for (int32_t i = 0; i < count; i++)
+                sums[i] = gap_sums_seen(f, at + i, gap, pairs);
+        mix_packed(f->work.color + at, sums, count, &gap->mean[pairs]);
+        at += count;
+        n -= count;
     }
 }
 
@@ -795,7 +1054,7 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
             if (seen == SEEN_NOWHERE)
                 continue;
             if (seen == SEEN_UNEVENLY || (cover == COVER_ALL && is_hidden4(f, i, gap, s->pairs))) {
-                average_covered4(f, i, gap, s->pairs);
+                average_seen4(f, i, gap, s->pairs);
                 continue;
             }
         }
@@ -804,14 +1063,10 @@ static void average_packed(const struct subframes *f, const struct stretch *s, c
         v4u_store(out + i, mixed4(sum[0], sum[1], m, v4u_load(out + i)));
     }
 #endif
-    if (cover != COVER_NONE)
-        average_covered(f, i, end - i, gap, s->pairs);
-    else
-        for (; i < end; i++)
-            average_one(f, i, gap, s->pairs, NULL);
+    average_some(f, i, end - i, gap, s->pairs, cover);
 }
 
-static void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
+static SMEAR_RARE void average_wide(const struct subframes *f, const struct stretch *s, const struct gap *gap,
                          enum cover cover)
 {
     const struct mean m = mean_make(gap->weight[s->pairs]);
@@ -849,7 +1104,7 @@ static bool hides(const struct subframes *f, const struct box *b)
 }
 
 /* Columns [x0, x1) of the box, which lie in one tile: rows, cut where fewer pairs count. */
-static void average_tile(const struct subframes *f, const struct box *b, const struct gap *gap)
+static void average_tile(const struct subframes *f, const struct box *b, struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->still;
     const enum cover cover = f->highest == f->lowest ? COVER_NONE
@@ -862,10 +1117,13 @@ static void average_tile(const struct subframes *f, const struct box *b, const s
             const int32_t near = min_i32(x - s->x0, s->x1 - 1 - x);
             stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
             stretch.pairs = pairs_within(row_pairs, gap->x, near);
-            if (f->packed)
-                average_packed(f, &stretch, gap, cover);
-            else
+            if (!f->packed) {
                 average_wide(f, &stretch, gap, cover);
+                continue;
+            }
+            if (gap->mean[stretch.pairs].n == 0)
+                gap->mean[stretch.pairs] = narrow_mean_make(gap->weight[stretch.pairs]);
+            average_packed(f, &stretch, gap, cover);
         }
     }
 }
@@ -885,24 +1143,6 @@ static void average(const struct subframes *f, const struct box *all, const stru
                                min_i32(s->y1, all->y1 + wide) };
         if (!box_is_empty(&b))
             average_tile(f, &b, &gap);
-    }
-}
-
-/* Empties the sums where they will be read: a gap's mean is taken PAIRS_MAX beyond
- * what was drawn, and reads as far beyond that. */
-static void clear_sums(const struct subframes *f)
-{
-    const struct smear_raster_target *s = &f->t->still;
-    const int32_t reach = 2 * PAIRS_MAX;
-    const struct box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
-                           min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
-    for (int32_t y = b.y0; y < b.y1; y++) {
-        const int32_t at = work_row(f, &b, y);
-        const size_t bytes = (size_t)(b.x1 - b.x0) * sizeof *f->times;
-        for (int i = 0; i < (f->packed ? 2 : 3); i++)
-            __builtin_memset(f->sum[i] + at, 0, bytes);
-        if (!f->packed)
-            __builtin_memset(f->times + at, 0, bytes);
     }
 }
 
@@ -934,12 +1174,14 @@ uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instan
     uint32_t samples = 0;
     struct box all = no_box;
     if (list(&f)) {
-        clear_sums(&f);
         for (int32_t k = 0; k < instants; k++) {
             struct box box = draw_instant(&f, smear_shutter_instant(t->shutter, k, instants));
             if (box_is_empty(&box))
                 continue;
-            add(&f, &box);
+            const bool first = samples == 0, sets = SETS_PACKED && f.packed && !f.blends;
+            if (first)
+                clear_around(&f, sets ? &box : &no_box);
+            add(&f, &box, first && sets);
             restore_depth(&f, &box);
             samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
             box_add(&all, &box);

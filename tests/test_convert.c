@@ -232,6 +232,12 @@ static void test_sizes_follow_from_width_and_rows(void)
 
 /* ------------------------------------------------------------------ dither */
 
+/* code levels / 255 in 1/256, nearly, plus a threshold. */
+static uint32_t level_of(uint32_t code, uint32_t levels, uint32_t t)
+{
+    return ((code * 257 + (code >> 7)) * levels / 256 + t) >> 8;
+}
+
 static void test_white_and_black_are_exact_under_every_dither(void)
 {
     for (int dither = SMEAR_DITHER_ORDERED; dither <= SMEAR_DITHER_BLUE; dither++)
@@ -252,6 +258,30 @@ static void test_white_and_black_are_exact_under_every_dither(void)
                             return;
                     }
                 }
+}
+
+static void test_ordered_16_bit_pixels_are_the_formulas_for_all_codes(void)
+{
+    for (int first = 0; first < 256; first++)
+        for (int y = 0; y < 8; y++) {
+            for (int i = 0; i < MOST; i++) {
+                const uint32_t code = (uint32_t)(first + i / 3 * 37) & 255u;
+                pixels[i] = code << 16 | ((code * 7 + 5) & 255u) << 8 | (255 - code);
+            }
+            for (int format = SMEAR_RGB565; format <= SMEAR_RGB555; format++) {
+                smear_convert_row(band, smear_convert_stride(MOST, (smear_format)format), pixels, MOST, 0, y, y,
+                                  (smear_format)format, SMEAR_DITHER_ORDERED);
+                for (int i = 0; i < MOST; i++) {
+                    const uint32_t t = smear_dither_ordered[y << 3 | (i & 7)], p = pixels[i];
+                    const bool is_555 = format == SMEAR_RGB555;
+                    const uint32_t r = level_of(channel(p, 0), 31, t), b = level_of(channel(p, 2), 31, t),
+                                   g = level_of(channel(p, 1), is_555 ? 31 : 63, t);
+                    const uint32_t want = is_555 ? b << 10 | g << 5 | r : r << 11 | g << 5 | b;
+                    if (!CHECK_EQ(half_at(i, format == SMEAR_RGB565_SWAPPED), want))
+                        return;
+                }
+            }
+        }
 }
 
 /* Sum of the levels of a flat area of 32 x 32 pixels of one code, in the red channel or in grey. */
@@ -357,6 +387,7 @@ void suite_convert(void)
     RUN(test_pieces_of_a_row_give_the_bytes_of_the_row);
     RUN(test_sizes_follow_from_width_and_rows);
     RUN(test_white_and_black_are_exact_under_every_dither);
+    RUN(test_ordered_16_bit_pixels_are_the_formulas_for_all_codes);
     RUN(test_a_dithered_flat_area_has_the_mean_of_its_code);
     RUN(test_dither_moves_a_level_by_less_than_one);
     RUN(test_dither_patterns_repeat_and_hold_every_threshold_alike);

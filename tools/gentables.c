@@ -151,5 +151,9 @@ int main(void)
         t[i] = t[i] / 4;
     print_table("blue noise dither, 32 x 32, thresholds in 1/256", "uint8_t", "smear_dither_blue", t,
                 BLUE_CELLS);
+
+    for (uint32_t i = 0; i < 256; i++)
+        t[i] = (i * 31 + ((i + (i >> 7)) * 31 >> 8) + 2) >> 2;      /* as convert.c has it */
+    print_table("code to level of 31, in 1/64", "uint16_t", "smear_levels_31", t, 256);
     return 0;
 }

@@ -16,6 +16,70 @@ int memcmp(const void *a, const void *b, size_t count);
 
 typedef uint32_t __attribute__((may_alias)) word;
 
+#ifdef __arm__
+/* Four words in two instructions, which no compiler makes of a loop. */
+static inline void copy_fours(word **to, const word **from, size_t *count)
+{
+    __asm__ volatile(".syntax unified\n"
+                     "1:\n\t"
+                     "ldm %[from]!, {r3, r4, r5, r6}\n\t"
+                     "stm %[to]!, {r3, r4, r5, r6}\n\t"
+                     "subs %[left], %[left], #16\n\t"
+                     "bhs 1b"
+                     : [to] "+l"(*to), [from] "+l"(*from), [left] "+l"(*count)
+                     :
+                     : "r3", "r4", "r5", "r6", "cc", "memory");
+}
+
+static inline void set_fours(word **to, word value, size_t *count)
+{
+    register word fill __asm__("r3") = value;
+    __asm__ volatile(".syntax unified\n\t"
+                     "mov r4, r3\n\t"
+                     "mov r5, r3\n\t"
+                     "mov r6, r3\n"
+                     "1:\n\t"
+                     "stm %[to]!, {r3, r4, r5, r6}\n\t"
+                     "subs %[left], %[left], #16\n\t"
+                     "bhs 1b"
+                     : [to] "+l"(*to), [left] "+l"(*count)
+                     : "r"(fill)
+                     : "r4", "r5", "r6", "cc", "memory");
+}
+#else
+static inline void copy_fours(word **to, const word **from, size_t *count)
+{
+    word *w = *to;
+    const word *s = *from;
+    do {
+        word a = s[0], b = s[1], c = s[2], d = s[3];
+        w[0] = a;
+        w[1] = b;
+        w[2] = c;
+        w[3] = d;
+        w += 4;
+        s += 4;
+        *count -= 16;
+    } while ((ptrdiff_t)*count >= 0);
+    *to = w;
+    *from = s;
+}
+
+static inline void set_fours(word **to, word value, size_t *count)
+{
+    word *w = *to;
+    do {
+        w[0] = value;
+        w[1] = value;
+        w[2] = value;
+        w[3] = value;
+        w += 4;
+        *count -= 16;
+    } while ((ptrdiff_t)*count >= 0);
+    *to = w;
+}
+#endif
+
 void *memcpy(void *restrict to, const void *restrict from, size_t count)
 {
     uint8_t *byte = to;
@@ -23,14 +87,10 @@ void *memcpy(void *restrict to, const void *restrict from, size_t count)
     if ((((uintptr_t)to | (uintptr_t)from) & 3) == 0) {
         word *w = (word *)to;
         const word *s = (const word *)from;
-        for (; count >= 16; count -= 16) {
-            word a = s[0], b = s[1], c = s[2], d = s[3];
-            w[0] = a;
-            w[1] = b;
-            w[2] = c;
-            w[3] = d;
-            w += 4;
-            s += 4;
+        if (count >= 16) {
+            count -= 16;
+            copy_fours(&w, &s, &count);
+            count += 16;
         }
         for (; count >= 4; count -= 4)
             *w++ = *s++;
@@ -59,12 +119,10 @@ void *memset(void *to, int value, size_t count)
     for (; count != 0 && ((uintptr_t)byte & 3) != 0; count--)
         *byte++ = (uint8_t)value;
     word *w = (word *)(void *)byte, fill = (uint8_t)value * 0x01010101u;
-    for (; count >= 16; count -= 16) {
-        w[0] = fill;
-        w[1] = fill;
-        w[2] = fill;
-        w[3] = fill;
-        w += 4;
+    if (count >= 16) {
+        count -= 16;
+        set_fours(&w, fill, &count);
+        count += 16;
     }
     for (; count >= 4; count -= 4)
         *w++ = fill;
