@@ -399,8 +399,8 @@ typedef struct smear_desc {
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
     uint8_t keep_still;         /* 1: what does not move is kept from frame to frame, and drawn again only
                                  * where camera, background or a draw that stands still is another: the same
-                                 * pictures, for 6 bytes per pixel of the whole frame. With timed and sharp,
-                                 * for SMEAR_SUBFRAMES, _TIMEMASK and _AUTO; see smear_frame.refresh */
+                                 * pictures, for 6 bytes per pixel of the whole frame (with a window as many as
+                                 * that takes). With timed; see smear_frame.refresh */
     int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means
                                  * tile. With `sharp`: as many are drawn at once. With a window and
                                  * without timed, layers and half it may divide the tile: a smaller
@@ -553,7 +553,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
-/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: the whole frame, and what was drawn. */
+/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame, and what was drawn. */
 #define SMEAR_STILL_DRAW_BYTES 200u
 #define SMEAR_KEEP_STILL_BYTES(width, height, draws, tile) \
     ((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u \

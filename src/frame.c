@@ -1212,6 +1212,8 @@ void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
     prepare(c);
+    if (SMEAR_WITH_SUBFRAMES)
+        smear_still_forget(c);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;
     c->filter_row = 0;

@@ -74,7 +74,7 @@ static bool resolve(smear_desc *d)
     if (has_tiles(d) && d->band_rows != d->tile
         && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
-    if (SMEAR_WITH_SUBFRAMES && (d->keep_still > 1 || (d->keep_still && (!d->timed || !d->sharp))))
+    if (SMEAR_WITH_SUBFRAMES && (d->keep_still > 1 || (d->keep_still && !d->timed)))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -151,9 +151,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + row_px(d) - 1) / row_px(d);
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = has_window(d)     ? (w->lag + 1) * d->tile + d->reach
-            : keeps_still(d) ? d->height
-                             : min_i32(row_px(d), d->height);
+    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
+    if (keeps_still(d))
+        w->ring = max_i32(w->ring, d->height);
     size_t plane = (size_t)w->width * (size_t)w->ring, columns = (size_t)w->columns;
     size_t reduced = columns * (size_t)(2 * w->lag + 1);
     w->color = arena_take(a, plane, 4);

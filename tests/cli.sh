@@ -799,6 +799,14 @@ claim "is the sharp frame" render builtin:suite/pan --size 64x48 --shutter 0 -o 
 claim "of what stands still" same scaled.png sharp.png
 usage --shutter-mode render "$plate" --shutter-mode fixed:0
 
+claim "what stands still is drawn in every frame" render builtin:suite/arena --size 64x48 --frames 0-3 -o drawn%d.png
+claim "or kept" render builtin:suite/arena --size 64x48 --frames 0-3 --keep-still -o kept%d.png
+claim "the pictures are the same" same drawn3.png kept3.png
+claim "in a scene without motion of the camera" render builtin:suite/cross --size 64x48 --frames 0-3 -o drawn%d.png
+claim "likewise" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still -o kept%d.png
+claim "they are the same, too" same drawn3.png kept3.png
+usage --keep-still render "$plate" --keep-still --method reconstruct
+
 usage --time render "$plate" --time 1 --frames 0-0
 usage --exact render "$plate" --exact
 usage --exact render "$plate" --exact --method none

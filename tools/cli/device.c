@@ -98,6 +98,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.timed = s->timed;
     desc.layers = s->layers;
     desc.scatter = s->scatter;
+    desc.keep_still = s->keep_still;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;

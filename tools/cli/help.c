@@ -94,6 +94,8 @@ static const char *const render_help[] = {
     "                        than so many 1/256 of the distance are left out; 255: none; 16\n"
     "                        with spread) spread (silhouettes do), with commas\n"
     "  --scatter             the reach may exceed the tile, up to 64 pixels\n"
+    "  --keep-still          auto, subframes, timemask: what does not move is kept from frame to\n"
+    "                        frame, for memory of the whole frame; the same pictures\n"
     "  --scale LIST          turn=1,way=1,objects=1: of the camera's rotation, its translation and\n"
     "                        the motion of objects, 0 to 63\n",
     "  --quality draft|balanced|fine, --target CODES\n"

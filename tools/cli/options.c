@@ -161,6 +161,13 @@ static const char *read_exact(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_keep_still(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->keep_still = true;
+    return NULL;
+}
+
 static bool read_departure(void *to, const char *name, const char *value)
 {
     static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
@@ -370,6 +377,7 @@ static const struct option table[] = {
     { "--camera-step", true, read_camera_step },
     { "--pingpong", true, read_pingpong },
     { "--weights", true, read_weights },
+    { "--keep-still", false, read_keep_still },
     { "--scatter", false, read_scatter },
     { "--scale", true, read_scale },
     { "--quality", true, read_quality },
@@ -434,6 +442,8 @@ static int check_method(const struct render_options *o)
 {
     if (o->exact && o->method != SMEAR_ACCUMULATE)
         return say_bad_usage("--exact", "goes with --method accumulate");
+    if (o->keep_still && !smear_method_is_timed(o->method))
+        return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (o->mask != NULL && o->method != SMEAR_OBJECT && o->method != SMEAR_LAYERED)

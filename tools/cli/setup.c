@@ -101,6 +101,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
         .timed = is_timed_method(o), .layers = is_layered_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
+        .keep_still = o->keep_still && is_timed_method(o),
         .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };
 }
