@@ -304,6 +304,10 @@ typedef struct smear_frame {
     uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
     uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats
                                  * SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5 */
+    uint32_t budget;            /* SMEAR_AUTO: how much of what moves may be drawn, pixels x instants: of `target` and
+                                 * coarser errors the first that needs no more, SMEAR_DRAFT in any case. Reckoned
+                                 * from areas and ways of triangles before a pixel is drawn (smear_stats.work), so
+                                 * the same frame has the same picture; 0: no bound */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
     uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their
@@ -435,6 +439,9 @@ typedef struct smear_stats {
     uint32_t crc32;                     /* of the display bytes in row order, as in zlib (XRGB8888: R, G, B);
                                          * 0 without desc.crc */
     uint32_t arena_bytes;               /* memory in use */
+    uint32_t target;                    /* SMEAR_AUTO: smear_frame.target, or what the budget allowed; of a frame
+                                         * drawn in parts, each of which has its share, the coarsest */
+    uint32_t work;                      /* with a budget: areas of moving triangles x instants, saturated */
     uint32_t still_kept;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
                                          * desc.keep_still */
 } smear_stats;

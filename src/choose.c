@@ -22,18 +22,19 @@ enum {
     STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
 };
 
+static const struct preset presets[] = {
+    { SMEAR_DRAFT, 2, 288, 512, 32, 6, 8, 2, 768, 2 },
+    { 128, 3, 352, 448, 32, 6, 32, 7, 512, 3 },
+    { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
+    { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
+    { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
+    { 20, 15, 64, 36, 1000, 16, 32, 8, 256, 6 },
+    { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
+};
+
 static const struct preset *preset_of(int32_t target)
 {
-    static const struct preset preset[] = {
-        { SMEAR_DRAFT, 2, 288, 512, 32, 6, 8, 2, 768, 2 },
-        { 128, 3, 352, 448, 32, 6, 32, 7, 512, 3 },
-        { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
-        { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
-        { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
-        { 20, 15, 64, 36, 1000, 16, 32, 8, 256, 6 },
-        { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
-    };
-    const struct preset *p = preset;
+    const struct preset *p = presets;
     while (target < p->target)
         p++;
     return p;
@@ -152,4 +153,36 @@ void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *
         choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
     else
         choose_subframes(choice, instants_for(load, chooser->samples));
+}
+
+/* Pixels x instants, saturated. Triangles that go apart are not known to share a tile. */
+static uint32_t expected(const struct preset *p, const struct smear_chooser *chooser,
+                         const struct smear_way_areas *areas)
+{
+    uint32_t sum = 0;
+    for (int i = 0; i <= WAY_CLASSES; i++) {
+        const bool is_piece = i == WAY_CLASSES;
+        const int16_t way = is_piece ? 0 : (int16_t)((2 * i + 1) << (WAY_CLASS_SHIFT - 1));
+        const struct smear_tile_load load = { .x0 = way, .x1 = way, .x = way, .weight = 1,
+                                              .flags = (uint16_t)(TILE_MOVES | (is_piece ? PATH_PIECE : 0)) };
+        const uint32_t area = is_piece ? areas->piece_area : areas->area[i];
+        const uint32_t instants = (uint32_t)min_i32(auto_instants(p, chooser, &load), INSTANTS_MAX);
+        if (area > (UINT32_MAX - sum) / instants)
+            return UINT32_MAX;
+        sum += area * instants;
+    }
+    return sum;
+}
+
+int32_t smear_choose_target(const struct smear_chooser *chooser, const struct smear_way_areas *areas, uint32_t budget,
+                            uint32_t *work)
+{
+    const struct preset *p = preset_of(chooser->target);
+    int32_t target = chooser->target;
+    *work = expected(p, chooser, areas);
+    while (*work > budget && p != presets) {
+        target = (--p)->target;
+        *work = expected(p, chooser, areas);
+    }
+    return target;
 }

@@ -53,6 +53,18 @@ struct smear_chooser {
     bool fills;                 /* gaps between instants may be closed: the frame is not all border */
 };
 
+/* How much moves how far: areas of triangles in pixels, saturated. */
+enum { WAY_CLASSES = 32, WAY_CLASS_SHIFT = 6 };     /* of 4 px each, 1/16 px; the last: all longer ones */
+
+struct smear_way_areas {
+    uint32_t area[WAY_CLASSES], piece_area;     /* piece_area: of what passes through the near plane */
+};
+
+/* Of the chooser's target and coarser ones the first for which no more than `budget` pixels x instants are
+ * expected, which is then *work; the coarsest in any case. */
+int32_t smear_choose_target(const struct smear_chooser *chooser, const struct smear_way_areas *areas, uint32_t budget,
+                            uint32_t *work);
+
 /* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */
 void smear_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load);

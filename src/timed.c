@@ -527,8 +527,58 @@ static int finish_row(struct smear_context *c, int row)
     return smear_band_flush(c, row, finish.row.band);
 }
 
+/* Pixels of a mover in the middle of the exposure, at least 1 and no more than the box of its way has. */
+static uint32_t mover_area(const struct smear_geometry *g, uint32_t triangle)
+{
+    const struct smear_triangle *t = geometry_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
+    const struct smear_path_bounds *b = geometry_bounds(g, triangle);
+    const int32_t *v0 = geometry_vertex(g, s, t->vertex[0]), *v1 = geometry_vertex(g, s, t->vertex[1]),
+                  *v2 = geometry_vertex(g, s, t->vertex[2]);
+    /* q4, of edges within the guard band */
+    const int32_t x1 = (v1[VERTEX_X] - v0[VERTEX_X]) >> 4, y1 = (v1[VERTEX_Y] - v0[VERTEX_Y]) >> 4,
+                  x2 = (v2[VERTEX_X] - v0[VERTEX_X]) >> 4, y2 = (v2[VERTEX_Y] - v0[VERTEX_Y]) >> 4;
+    const int64_t twice = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    const uint64_t area = (uint64_t)(twice < 0 ? -twice : twice) >> 9;
+    const uint32_t box = (uint32_t)((b->x1 - b->x0) * (b->y1 - b->y0));
+    return area < box ? (uint32_t)area + 1 : box;
+}
+
+/* Adds a ring of movers, before it is opened. */
+static void add_areas(struct smear_way_areas *areas, const struct smear_geometry *g, uint32_t last)
+{
+    for (uint32_t i = last; i != SMEAR_NO_TRIANGLE;) {
+        i = geometry_triangle(g, i)->next;
+        const struct smear_path_bounds *b = geometry_bounds(g, i);
+        const int32_t way = min_i32((b->travel + b->bend) >> WAY_CLASS_SHIFT, WAY_CLASSES - 1);
+        uint32_t *sum = b->piece != 0 ? &areas->piece_area : &areas->area[way], area = mover_area(g, i);
+        if (b->piece != 0)      /* which is there for one of so many parts of the exposure */
+            area = (area + PATH_PIECES - 1) / PATH_PIECES;
+        *sum = min_u32(*sum, UINT32_MAX - area) + area;
+        if (i == last)
+            return;
+    }
+}
+
+/* The error that tile rows [first, end) may have, for their share of the frame's budget. */
+static int32_t target_within_budget(struct smear_context *c, int first, int end)
+{
+    const uint32_t rows = (uint32_t)(end - first), all = (uint32_t)c->window.rows, budget = c->frame.budget;
+    struct smear_way_areas areas = { .piece_area = 0 };
+    for (int row = first; row < end; row++)
+        add_areas(&areas, &c->geometry, c->geometry.mover_last[row]);
+    uint32_t work;
+    const int32_t target = smear_choose_target(&c->chooser, &areas, budget / all * rows + budget % all * rows / all, &work);
+    c->stats.work = min_u32(c->stats.work, UINT32_MAX - work) + work;
+    return target;
+}
+
 int smear_timed_rows(struct smear_context *c, int first, int end)
 {
+    c->chooser.target = c->frame.target;
+    if (c->frame.budget != 0 && c->frame.method == SMEAR_AUTO)
+        c->chooser.target = target_within_budget(c, first, end);
+    c->stats.target = max_u32(c->stats.target, (uint32_t)c->chooser.target);
     for (int row = first; row < end; row++) {
         uint32_t start = stage_start(c);
         struct row_job job = { .c = c, .row = row };

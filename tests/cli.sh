@@ -805,6 +805,11 @@ claim "the pictures are the same" same drawn3.png kept3.png
 claim "in a scene without motion of the camera" render builtin:suite/cross --size 64x48 --frames 0-3 -o drawn%d.png
 claim "likewise" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still -o kept%d.png
 claim "they are the same, too" same drawn3.png kept3.png
+claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
+claim "as coarse as a draft" render builtin:suite/cross --size 64x48 --quality draft -o drawn3.png
+claim "which it is" same drawn3.png kept3.png
+usage --budget render "$plate" --budget 0
+usage --budget render "$plate" --budget 10 --method subframes
 usage --keep-still render "$plate" --keep-still --method reconstruct
 
 usage --time render "$plate" --time 1 --frames 0-0

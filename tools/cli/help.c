@@ -94,6 +94,8 @@ static const char *const render_help[] = {
     "                        than so many 1/256 of the distance are left out; 255: none; 16\n"
     "                        with spread) spread (silhouettes do), with commas\n"
     "  --scatter             the reach may exceed the tile, up to 64 pixels\n"
+    "  --budget N            auto: as coarse as it takes to draw no more than N pixels x instants of\n"
+    "                        what moves (work of --stats), but not coarser than draft\n"
     "  --keep-still          auto, subframes, timemask: what does not move is kept from frame to\n"
     "                        frame, for memory of the whole frame; the same pictures\n"
     "  --scale LIST          turn=1,way=1,objects=1: of the camera's rotation, its translation and\n"

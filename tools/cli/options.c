@@ -161,6 +161,16 @@ static const char *read_exact(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_budget(void *to, const char *value)
+{
+    struct render_options *o = to;
+    long budget;
+    if (!read_integer(value, 1, 2000000000, &budget))
+        return "needs a number from 1 to 2000000000";
+    o->budget = (uint32_t)budget;
+    return NULL;
+}
+
 static const char *read_keep_still(void *to, const char *value)
 {
     (void)value;
@@ -377,6 +387,7 @@ static const struct option table[] = {
     { "--camera-step", true, read_camera_step },
     { "--pingpong", true, read_pingpong },
     { "--weights", true, read_weights },
+    { "--budget", true, read_budget },
     { "--keep-still", false, read_keep_still },
     { "--scatter", false, read_scatter },
     { "--scale", true, read_scale },
@@ -442,6 +453,8 @@ static int check_method(const struct render_options *o)
 {
     if (o->exact && o->method != SMEAR_ACCUMULATE)
         return say_bad_usage("--exact", "goes with --method accumulate");
+    if (o->budget != 0 && o->method != SMEAR_AUTO)
+        return say_bad_usage("--budget", "goes with --method auto");
     if (o->keep_still && !smear_method_is_timed(o->method))
         return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
     if (o->exact && o->motion_count > 0)

@@ -66,7 +66,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .shutter_poses = o->shutter_poses, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
-        .reconstruct = o->reconstruct, .target = o->target,
+        .reconstruct = o->reconstruct, .target = o->target, .budget = o->budget,
         .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
         .weights = o->weights, .turn_scale = o->turn_scale, .way_scale = o->way_scale,
         .object_scale = o->object_scale,

@@ -461,7 +461,7 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
                             .cut = o->cut || o->instant_only,
                             .reconstruct = (uint8_t)o->reconstruct,
-                            .samples = (uint16_t)o->samples, .target = (uint16_t)o->target,
+                            .samples = (uint16_t)o->samples, .target = (uint16_t)o->target, .budget = o->budget,
                             .shutter_degrees = (uint16_t)degrees,
                             .filter = (uint8_t)o->filter, .camera_step = (uint8_t)o->camera_step,
                             .pingpong = o->pingpong, .weights = (uint8_t)o->weights,

@@ -51,6 +51,7 @@ struct present_options {
     smear_light light;
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
+    uint32_t budget;                /* of SMEAR_AUTO; 0: none */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
     smear_filter filter;            /* of SMEAR_CAMERA and SMEAR_HALF */
     int camera_step;                /* 1, 2, 4: still draws take their velocity from depth */
