@@ -465,7 +465,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
         if (SMEAR_WITH_SUBFRAMES && done) {
-            smear_still_forget(c);
+            still_forget(c);
             continue;
         }
         if (end - first > 1)
@@ -1187,7 +1187,7 @@ int smear_frame_render(struct smear_context *c)
     uint32_t start = stage_start(c);
     prepare(c);
     if (SMEAR_WITH_SUBFRAMES && !smear_method_is_timed(c->frame.method))
-        smear_still_forget(c);
+        still_forget(c);
     /* What was not compiled in has been refused by smear_begin. */
     int result;
     if (SMEAR_WITH_ACCUMULATE && c->frame.method == SMEAR_ACCUMULATE)
@@ -1213,7 +1213,7 @@ void smear_frame_filter_begin(struct smear_context *c)
     c->draw_count = 0;
     prepare(c);
     if (SMEAR_WITH_SUBFRAMES)
-        smear_still_forget(c);
+        still_forget(c);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;
     c->filter_row = 0;

@@ -89,12 +89,6 @@ void smear_still_begin(struct smear_context *c)
     s->light = c->frame.light;
 }
 
-void smear_still_forget(struct smear_context *c)
-{
-    if (c->still != NULL)
-        c->still->holds = c->still->is_whole = false;
-}
-
 void smear_still_end(struct smear_context *c)
 {
     if (c->still == NULL)

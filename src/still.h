@@ -14,8 +14,12 @@ static inline bool draw_stands_still(const struct smear_context *c, uint32_t i)
 /* Before anything is drawn: whether the window shows what this frame wants (still_holds); notes that. */
 void smear_still_begin(struct smear_context *c);
 
-/* The window holds no longer: it is drawn into, or not to its end. */
-void smear_still_forget(struct smear_context *c);
+/* The window holds no longer: something else is drawn into it. */
+static inline void still_forget(struct smear_context *c)
+{
+    if (c->still != NULL)
+        c->still->holds = c->still->is_whole = false;
+}
 
 /* All rows have been drawn, or held. */
 void smear_still_end(struct smear_context *c);
