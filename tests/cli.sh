@@ -921,7 +921,11 @@ ended_by() { # SIGNAL FILE ARGUMENTS...
     signal=$1 file=$2
     rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
     shift 2
-    "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null &
+    # who starts this suite may have signals ignored (nohup does)
+    default=
+    ! env --default-signal="$signal" true 2>"$base/err" || default="env --default-signal=$signal"
+    # shellcheck disable=SC2086
+    $default "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null &
     process=$!
     cd "$base/work" || return 1
     wait_for 30 [ -e "$base/empty/$file.tmp" ]
