@@ -145,13 +145,16 @@ static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex
     return word;
 }
 
-/* The list of a triangle: what does not move by a step of its vertices (q8 px) is still. */
+/* It does not move by a step of its vertices (q8 px). */
+static bool is_still(const struct smear_path_bounds *bounds)
+{
+    return bounds->travel + bounds->bend == 0;
+}
+
 static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
 {
     struct smear_geometry *g = b->a->geometry;
-    const bool is_still = bounds->travel + bounds->bend == 0;
-    uint32_t *list = is_blend(b->d) ? g->blend_last : is_still ? g->opaque_last : g->mover_last;
-    b->a->path_still_count += is_still;
+    uint32_t *list = is_blend(b->d) ? g->blend_last : is_still(bounds) ? g->opaque_last : g->mover_last;
     return &list[geometry_row(g, bounds->y0)];
 }
 
@@ -181,6 +184,7 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     t->segment = (uint16_t)(b->segment - g->segment);
     t->color = color;
     b->a->path_count++;
+    b->a->path_still_count += is_still(bounds);
     b->a->triangles_drawn++;
 }
 

@@ -161,6 +161,16 @@ static inline bool still_holds(const struct smear_context *c)
     return SMEAR_WITH_SUBFRAMES && c->still != NULL && c->still->holds;
 }
 
+static inline bool same_transform(const smear_transform *a, const smear_transform *b)
+{
+    if (a == b)
+        return true;
+    for (int i = 0; i < 9; i++)
+        if (a->basis[i] != b->basis[i])
+            return false;
+    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] && a->origin[2] == b->origin[2];
+}
+
 extern const smear_transform smear_identity;      /* frame.c */
 
 /* frame.c: draws what was submitted. */

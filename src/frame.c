@@ -53,17 +53,6 @@ static struct instant instant_at(const struct smear_context *c, int32_t u)
     return i;
 }
 
-static bool same_transform(const smear_transform *a, const smear_transform *b)
-{
-    if (a == b)
-        return true;
-    for (int i = 0; i < 9; i++)
-        if (a->basis[i] != b->basis[i])
-            return false;
-    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1]
-        && a->origin[2] == b->origin[2];
-}
-
 static bool same_camera(const smear_camera *a, const smear_camera *b)
 {
     return a == b || (same_transform(&a->pose, &b->pose) && a->focal == b->focal

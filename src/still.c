@@ -5,19 +5,7 @@
 
 #if SMEAR_WITH_SUBFRAMES
 
-static bool same_words(const int32_t *a, const int32_t *b, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (a[i] != b[i])
-            return false;
-    return true;
-}
-
-static bool same_transform(const smear_transform *a, const smear_transform *b)
-{
-    return same_words(a->basis, b->basis, 9) && same_words(a->origin, b->origin, 3);
-}
-
+/* All of it, not its poses alone. */
 static bool same_camera(const smear_camera *a, const smear_camera *b)
 {
     return same_transform(&a->pose, &b->pose) && a->focal == b->focal && a->half_height == b->half_height
@@ -29,7 +17,8 @@ static bool same_mesh(const smear_mesh *a, const smear_mesh *b)
     return a->position == b->position && a->normal == b->normal && a->uv == b->uv && a->color == b->color
         && a->face_color == b->face_color && a->index == b->index && a->triangle_count == b->triangle_count
         && a->vertex_count == b->vertex_count && a->shift == b->shift && a->uv_shift == b->uv_shift
-        && a->scale == b->scale && same_words(a->offset, b->offset, 3);
+        && a->scale == b->scale && a->offset[0] == b->offset[0] && a->offset[1] == b->offset[1]
+        && a->offset[2] == b->offset[2];
 }
 
 static bool same_texture(const smear_texture *a, const smear_texture *b)

@@ -575,10 +575,12 @@ static int32_t target_within_budget(struct smear_context *c, int first, int end)
 
 int smear_timed_rows(struct smear_context *c, int first, int end)
 {
-    c->chooser.target = c->frame.target;
-    if (c->frame.budget != 0 && c->frame.method == SMEAR_AUTO)
-        c->chooser.target = target_within_budget(c, first, end);
-    c->stats.target = max_u32(c->stats.target, (uint32_t)c->chooser.target);
+    if (c->frame.method == SMEAR_AUTO) {
+        c->chooser.target = c->frame.target;        /* the part before may have had another */
+        if (c->frame.budget != 0)
+            c->chooser.target = target_within_budget(c, first, end);
+        c->stats.target = max_u32(c->stats.target, (uint32_t)c->chooser.target);
+    }
     for (int row = first; row < end; row++) {
         uint32_t start = stage_start(c);
         struct row_job job = { .c = c, .row = row };

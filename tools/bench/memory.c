@@ -38,6 +38,14 @@ static const struct display {
       { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565,
         .sharp = 1 },
       0.0, 0.0 },
+    { "240x240 RGB565, auto, 600 triangles",
+      { .width = 240, .height = 240, .reach = 8, .max_triangles = 600, .max_draws = 8, .format = SMEAR_RGB565,
+        .timed = 1, .sharp = 1, .tile = 8, .strip = 8, .vertex_cache = 16 },
+      72.0, 0.0 },
+    { "128x64 L4, auto, 200 triangles",
+      { .width = 128, .height = 64, .max_triangles = 200, .max_draws = 4, .format = SMEAR_L4, .timed = 1,
+        .sharp = 1, .tile = 8, .strip = 8, .vertex_cache = 16 },
+      20.0, 0.0 },
 };
 
 bool memory_report(struct sheet *sheet, struct failure *f)
@@ -51,10 +59,11 @@ bool memory_report(struct sheet *sheet, struct failure *f)
         desc.flush = no_flush;
         double size = (double)smear_memory_size(&desc) / 1024.0;
         if (d->bar_encoded > 0.0) {
-            const char *encoded = sheet_most(sheet, size, d->bar_encoded);
-            const char *linear = sheet_most(sheet, size, d->bar_linear);
-            printf("%-44s %8.1f  <= %5.1f %-9s <= %5.1f %s\n", d->what, size, d->bar_encoded, encoded,
-                   d->bar_linear, linear);
+            printf("%-44s %8.1f  <= %5.1f %-9s", d->what, size, d->bar_encoded,
+                   sheet_most(sheet, size, d->bar_encoded));
+            if (d->bar_linear > 0.0)
+                printf(" <= %5.1f %s", d->bar_linear, sheet_most(sheet, size, d->bar_linear));
+            printf("\n");
         } else {
             printf("%-44s %8.1f\n", d->what, size);
         }
