@@ -332,8 +332,9 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras;
                                  * null: one layer of all that moves */
     uint8_t layer_count;
-    uint8_t refresh;            /* with desc.keep_still: 1: vertices, colours or texels that draws standing still
-                                 * point to have changed in place since the last frame */
+    uint8_t refresh;            /* with desc.keep_still or desc.display_buffers: 1: vertices, colours or texels
+                                 * that draws standing still point to have changed in place since the last
+                                 * frame, or the display has lost what it was sent */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */
@@ -353,10 +354,11 @@ typedef enum smear_format {
 
 typedef enum smear_dither { SMEAR_DITHER_ORDERED, SMEAR_DITHER_NONE, SMEAR_DITHER_BLUE } smear_dither;
 
-/* Finished rows y .. y + height - 1, full width. */
+/* Finished pixels of columns x .. x + width - 1 and rows y .. y + height - 1: whole rows of the frame, x = 0,
+ * but for a desc with `display_buffers`. */
 typedef struct smear_band {
     const void *pixels;         /* valid until flush returns or, with two bands, until smear_band_done() */
-    int16_t y, width, height;
+    int16_t x, y, width, height;
     uint32_t stride;            /* bytes from row to row (from page to page for SMEAR_L1_PAGES) */
     uint32_t size;              /* bytes in all */
 } smear_band;
@@ -405,6 +407,12 @@ typedef struct smear_desc {
                                  * where camera, background or a draw that stands still is another: the same
                                  * pictures, for 6 bytes per pixel of the whole frame (with a window as many as
                                  * that takes). With timed; see smear_frame.refresh */
+    uint8_t display_buffers;    /* 1..7: the display keeps what it is sent, in so many buffers that are shown in
+                                 * turn: 1 for a panel with memory of its own, 2 where pages flip. Then only
+                                 * tiles that the buffer shows otherwise are drawn and sent: bands of tiles
+                                 * beside each other, from left to right and top to bottom, as many as it
+                                 * takes, or none. Frames of other methods are sent whole. 0: all are. With
+                                 * timed; see smear_frame.refresh */
     int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means
                                  * tile. With `sharp`: as many are drawn at once. With a window and
                                  * without timed, layers and half it may divide the tile: a smaller
@@ -436,14 +444,15 @@ typedef struct smear_stats {
                                          * (but with camera_step) the camera did */
     uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
     uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
-    uint32_t crc32;                     /* of the display bytes in row order, as in zlib (XRGB8888: R, G, B);
-                                         * 0 without desc.crc */
+    uint32_t crc32;                     /* of the bytes of all bands in their order, as in zlib (XRGB8888: R, G,
+                                         * B); 0 without desc.crc */
     uint32_t arena_bytes;               /* memory in use */
     uint32_t target;                    /* SMEAR_AUTO: smear_frame.target, or what the budget allowed; of a frame
                                          * drawn in parts, each of which has its share, the coarsest */
     uint32_t work;                      /* with a budget: areas of moving triangles x instants, saturated */
     uint32_t still_kept;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
                                          * desc.keep_still */
+    uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.display_buffers) */
 } smear_stats;
 
 typedef struct smear_context smear_context;
@@ -560,11 +569,16 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
-/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame, and what was drawn. */
-#define SMEAR_STILL_DRAW_BYTES 200u
-#define SMEAR_KEEP_STILL_BYTES(width, height, draws, tile) \
-    ((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_STILL_DRAW_BYTES) + 160u)
+/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame. With `display_buffers`: its tiles,
+ * and where draws are seen. */
+#define SMEAR_STILL_BYTES 48u
+#define SMEAR_KEEP_STILL_BYTES(width, height, tile) \
+    (SMEAR_ALIGN8((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u) + 8u \
+     + SMEAR_STILL_BYTES)
+#define SMEAR_TILES(pixels, tile) (((size_t)(pixels) + (size_t)(tile) - 1u) / (size_t)(tile))
+#define SMEAR_DISPLAY_BUFFERS_BYTES(width, height, draws, tile) \
+    (SMEAR_ALIGN8((size_t)(draws) * 4u) + SMEAR_ALIGN8(SMEAR_TILES(width, tile) * SMEAR_TILES(height, tile)) \
+     + SMEAR_STILL_BYTES)
 
 /* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes
  * per pixel; what groups leave for others they pass through, 6 bytes per pixel of a tile row;

@@ -45,6 +45,9 @@
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
 #define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
+#ifndef SMEAR_WITH_STILL                /* desc.keep_still, desc.display_buffers */
+#define SMEAR_WITH_STILL (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#endif
 
 /* Surfaces. */
 #ifndef SMEAR_WITH_TEXTURE

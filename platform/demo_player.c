@@ -11,16 +11,18 @@
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2, .sharp = 1,
                 .timed = 1, .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS, .max_triangles = 268,
-                .vertex_cache = 32 },
+                .vertex_cache = 32,
+                .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-               .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 300 },
+               .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 300, .display_buffers = 2 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-                    .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310 },
+                    .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                .sharp = 1, .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 520 },
+                .sharp = 1, .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 520,
+                .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
                  .max_draws = DEMO_DRAWS, .max_triangles = 530 },
@@ -79,6 +81,8 @@ void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *scre
     desc->accumulate = blur->method != SMEAR_ACCUMULATE ? 0 : desc->width * desc->height > 10000 ? 2 : 1;
     desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
     desc->timed = smear_method_is_timed(blur->method);
+    if (!desc->timed)
+        desc->display_buffers = 0;
 }
 
 /* The props are the only frame of the tape that is called like the level. */

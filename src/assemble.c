@@ -314,6 +314,17 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     }
 }
 
+/* The display has not all tiles that it reaches into. */
+static inline bool is_due(const struct smear_assembler *a, const struct box *box)
+{
+    if (!SMEAR_WITH_STILL || a->due == NULL)
+        return true;
+    const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
+    if (a->seen != NULL)
+        tile_box_add(a->seen, tiles);
+    return a->only_due == NULL || tile_box_is_due(a->only_due, tiles);
+}
+
 /* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of
  * the frame that is being filled. False when there is no room. */
 static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
@@ -324,7 +335,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
     if (cut)
         box_cut(&box, b->a);
-    if (box_is_empty(&box))
+    if (box_is_empty(&box) || !is_due(b->a, &box))
         return true;
     struct covered covered[POINTS_MAX];
     int count = POINTS_MAX + 1;

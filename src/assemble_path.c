@@ -167,6 +167,15 @@ static bool has_room(struct path_batch *b)
     return true;
 }
 
+/* Tiles in which it is seen at some time. */
+static void mark_tiles(const struct smear_due *due, const struct smear_path_bounds *b)
+{
+    const struct smear_tile_box box = tile_box_of(due, b->x0, b->x1, b->y0, b->y1);
+    for (int row = box.y0; row <= box.y1; row++)
+        for (int column = box.x0; column <= box.x1; column++)
+            due->tile[row * (due->columns + 1) + column] |= TILE_DUE_NOW;
+}
+
 /* There must be room. */
 static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds, const uint16_t vertex[3],
                           const struct smear_face *face)
@@ -185,6 +194,8 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     t->color = color;
     b->a->path_count++;
     b->a->path_still_count += is_still(bounds);
+    if (SMEAR_WITH_STILL && b->a->due != NULL)
+        mark_tiles(b->a->due, bounds);
     b->a->triangles_drawn++;
 }
 

@@ -67,14 +67,14 @@ int smear_band_flush_part(const struct row_job *r)
 {
     struct smear_context *c = r->c;
     smear_format format = (smear_format)c->desc.format;
-    int32_t y = job_top(r), height = job_bottom(r) - y;
+    int32_t y = job_top(r), height = job_bottom(r) - y, x = job_left(r), width = job_right(r) - x;
+    const uint8_t *pixels = r->band + (x != 0 ? smear_convert_size(x, height, format) : 0);
     smear_band b = {
-        .pixels = r->band, .y = (int16_t)y, .width = (int16_t)c->window.width, .height = (int16_t)height,
-        .stride = smear_convert_stride(c->window.width, format),
-        .size = smear_convert_size(c->window.width, height, format)
+        .pixels = pixels, .x = (int16_t)x, .y = (int16_t)y, .width = (int16_t)width, .height = (int16_t)height,
+        .stride = smear_convert_stride(width, format), .size = smear_convert_size(width, height, format)
     };
     if (c->desc.crc)
-        add_crc(c, r->band, b.size);
+        add_crc(c, pixels, b.size);
     c->bands_handed++;
     int result = c->desc.flush(c->desc.user, &b);
     if (result >= 0)
@@ -88,8 +88,12 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
 {
     const struct smear_context *c = r->c;
     smear_format format = (smear_format)c->desc.format;
-    smear_convert_row(r->band, smear_convert_stride(c->window.width, format), in, x1 - x0, x0, y, job_top(r),
-                      format, (smear_dither)c->desc.dither);
+    const int32_t left = job_left(r), top = job_top(r);
+    uint8_t *band = r->band;
+    if (left != 0)      /* where column 0 would be: within the buffer */
+        band += smear_convert_size(left, job_bottom(r) - top, format) - smear_convert_stride(left, format);
+    smear_convert_row(band, smear_convert_stride(job_right(r) - left, format), in, x1 - x0, x0, y, top, format,
+                      (smear_dither)c->desc.dither);
 }
 
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,

@@ -48,14 +48,23 @@ void smear_row_target(const struct smear_context *c, int row, struct smear_raste
 /* Columns of a raster job: the frame's width in as many equal cuts as there are workers. */
 void smear_job_columns(const struct smear_context *c, int job, int32_t *x0, int32_t *x1);
 
-/* What the jobs of a tile row share. A band may be a part of the
- * row: pixel rows [y0, y1); with y1 = 0, all. */
+/* What the jobs of a tile row share. A band may be a part of the row: pixel rows [y0, y1) and columns [x0, x1);
+ * where the end is 0, all. */
 struct row_job {
     struct smear_context *c;
     int row;
-    uint8_t *band;              /* finished rows */
+    uint8_t *band;              /* finished pixels: each tile's place is that of the same tile of a whole row
+                                 * whose tiles lie one after the other */
     int32_t y0, y1;
+    int32_t x0, x1;             /* of a timed method */
 };
+
+static inline int32_t job_left(const struct row_job *r) { return SMEAR_WITH_SUBFRAMES && r->x1 != 0 ? r->x0 : 0; }
+
+static inline int32_t job_right(const struct row_job *r)
+{
+    return SMEAR_WITH_SUBFRAMES && r->x1 != 0 ? r->x1 : r->c->window.width;
+}
 
 static inline int32_t job_top(const struct row_job *r) { return r->y1 != 0 ? r->y0 : row_top(r->c, r->row); }
 

@@ -57,24 +57,16 @@ struct smear_row_movers {
     struct smear_tile_load *load;               /* per tile */
 };
 
-/* What stands still in the frame, and where: as much of a draw as its picture depends on. */
-struct smear_still_draw {
-    smear_mesh mesh;
-    smear_material material;
-    smear_texture texture;
-    smear_transform now;
-    uint8_t billboard;
-};
-
-/* With desc.keep_still: what the window, which then has all rows of the frame, shows. */
+/* What stands still from frame to frame, and what shows it: with desc.keep_still or desc.display_buffers. */
 struct smear_still {
-    struct smear_still_draw *draw;
-    uint32_t count;
-    smear_camera camera;
-    uint32_t clear;
-    uint8_t light;
-    bool is_whole;                  /* all rows show it */
-    bool holds;                     /* and it is what this frame wants */
+    uint32_t scene[2];              /* hash of all that a picture of it depends on */
+    bool keeps;                     /* desc.keep_still: the window has all rows of the frame */
+    bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
+    bool is_same;                   /* and it is what this frame wants */
+    /* desc.display_buffers, else null: */
+    struct smear_due due;           /* in how many frames each tile must be drawn, this one included, or
+                                     * TILE_DUE_NOW */
+    struct smear_tile_box *seen;    /* where each draw that stands still is seen, in their order */
 };
 
 /* What filters need beyond the window. */
@@ -131,7 +123,7 @@ struct smear_context {
     int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
-    struct smear_still *still;          /* null without desc.keep_still */
+    struct smear_still *still;          /* null without desc.keep_still and desc.display_buffers */
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
@@ -158,7 +150,7 @@ static inline bool has_layers(const struct smear_context *c)
 /* Draws that stand still need not be drawn: the window shows them. */
 static inline bool still_holds(const struct smear_context *c)
 {
-    return SMEAR_WITH_SUBFRAMES && c->still != NULL && c->still->holds;
+    return SMEAR_WITH_STILL && c->still != NULL && c->still->keeps && c->still->is_same;
 }
 
 static inline bool same_transform(const smear_transform *a, const smear_transform *b)

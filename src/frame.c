@@ -363,15 +363,31 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
 
 /* ------------------------------------------------------------------ assembling */
 
-/* Assembles all draws into what `as` names. False when the store is full. */
-static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
-                           bool drop)
+/* Draws of a kind. */
+enum draws { DRAWS_ALL, DRAWS_IN_MOTION, DRAWS_AT_REST };
+
+static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
 {
+    return kind == DRAWS_ALL || draw_stands_still(c, i) == (kind == DRAWS_AT_REST);
+}
+
+/* Assembles draws into what `as` names. False when the store is full. */
+static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
+                          bool drop, enum draws kind)
+{
+    struct smear_tile_box *seen = NULL;
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
         uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
-        if (still_holds(c) && draw_stands_still(c, i))
+        if ((still_holds(c) && draw_stands_still(c, i)) || (SMEAR_WITH_STILL && !is_of_kind(c, i, kind)))
             continue;
+        if (SMEAR_WITH_STILL && kind == DRAWS_AT_REST) {
+            seen = seen == NULL ? c->still->seen : seen + 1;
+            if (c->still->is_same && !tile_box_is_due(&c->still->due, *seen))
+                continue;
+            as->only_due = c->still->is_same ? as->due : NULL;
+            as->seen = c->still->is_same ? NULL : seen;
+        }
         const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
                                         ? &c->layers->group[c->layers->group_of[i]] : NULL;
         if (has_layers(c))
@@ -384,6 +400,19 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
             return false;
     }
     return true;
+}
+
+/* Assembles all draws. Where the display keeps tiles, what moves comes first: it says in which of them
+ * something must be drawn. */
+static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
+                           bool drop)
+{
+    if (!SMEAR_WITH_STILL || as->due == NULL)
+        return assemble_kind(c, as, instant, drop, DRAWS_ALL);
+    as->only_due = NULL;
+    as->seen = NULL;
+    return assemble_kind(c, as, instant, drop, DRAWS_IN_MOTION)
+        && assemble_kind(c, as, instant, drop, DRAWS_AT_REST);
 }
 
 #if SMEAR_FAST_STACK
@@ -453,7 +482,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        if (SMEAR_WITH_SUBFRAMES && done) {
+        if (SMEAR_WITH_STILL && done) {
             still_forget(c);
             continue;
         }
@@ -946,9 +975,10 @@ static int render_filter(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = middle_of(c);
-    smear_still_begin(c);
+    if (SMEAR_WITH_STILL)
+        smear_still_begin(c);
     int result = render_parts(c, &middle, smear_timed_rows);
-    if (result == SMEAR_OK)
+    if (SMEAR_WITH_STILL && result == SMEAR_OK)
         smear_still_end(c);
     return result;
 }
@@ -1111,6 +1141,8 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
+    if (SMEAR_WITH_STILL)
+        c->assembler.due = NULL;        /* until smear_still_begin */
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = SMEAR_WITH_ORTHOGRAPHIC && c->camera.half_height > 0,
@@ -1135,7 +1167,7 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
 
     c->blends = false;
     c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE
-             && (!SMEAR_WITH_SUBFRAMES || c->still == NULL)
+             && (!SMEAR_WITH_STILL || c->still == NULL || !c->still->keeps)
              && c->desc.dither == SMEAR_DITHER_NONE
              && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
@@ -1175,7 +1207,7 @@ int smear_frame_render(struct smear_context *c)
 {
     uint32_t start = stage_start(c);
     prepare(c);
-    if (SMEAR_WITH_SUBFRAMES && !smear_method_is_timed(c->frame.method))
+    if (SMEAR_WITH_STILL && !smear_method_is_timed(c->frame.method))
         still_forget(c);
     /* What was not compiled in has been refused by smear_begin. */
     int result;
@@ -1201,7 +1233,7 @@ void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
     prepare(c);
-    if (SMEAR_WITH_SUBFRAMES)
+    if (SMEAR_WITH_STILL)
         still_forget(c);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;

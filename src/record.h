@@ -21,6 +21,42 @@ struct smear_cached_vertex {
 #endif
 };
 
+/* Tiles of the frame that something reaches into: columns and rows x0 .. x1 and y0 .. y1; none where x0 > x1. */
+struct smear_tile_box {
+    uint8_t x0, x1, y0, y1;
+};
+
+/* With smear_desc.display_buffers: which tiles are drawn at all. For each, row by row, 0: the display has it. */
+struct smear_due {
+    uint8_t *tile;
+    uint8_t columns, shift;         /* tiles of a row, less one; log2 of their size */
+};
+
+enum { TILE_DUE_NOW = 0x80 };       /* a mover is seen in it */
+
+static inline struct smear_tile_box tile_box_of(const struct smear_due *d, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    return (struct smear_tile_box){ (uint8_t)(x0 >> d->shift), (uint8_t)((x1 - 1) >> d->shift),
+                                    (uint8_t)(y0 >> d->shift), (uint8_t)((y1 - 1) >> d->shift) };
+}
+
+static inline bool tile_box_is_due(const struct smear_due *d, struct smear_tile_box box)
+{
+    for (int row = box.y0; row <= box.y1; row++)
+        for (int column = box.x0; column <= box.x1; column++)
+            if (d->tile[row * (d->columns + 1) + column] != 0)
+                return true;
+    return false;
+}
+
+static inline void tile_box_add(struct smear_tile_box *all, struct smear_tile_box box)
+{
+    all->x0 = box.x0 < all->x0 ? box.x0 : all->x0;
+    all->x1 = box.x1 > all->x1 ? box.x1 : all->x1;
+    all->y0 = box.y0 < all->y0 ? box.y0 : all->y0;
+    all->y1 = box.y1 > all->y1 ? box.y1 : all->y1;
+}
+
 struct smear_assembler {
     struct smear_viewport viewport;
     struct smear_geometry *geometry;
@@ -34,6 +70,10 @@ struct smear_assembler {
     uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
     uint32_t triangles_drawn, triangles_dropped;
     uint32_t path_still_count;      /* triangles with paths of no length: listed among those that stand still */
+    /* with smear_desc.display_buffers, else null: */
+    const struct smear_due *due;            /* where movers mark their tiles */
+    const struct smear_due *only_due;       /* triangles beyond tiles that are due are left out */
+    struct smear_tile_box *seen;            /* grows by where triangles are seen */
 };
 
 /* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)

@@ -30,7 +30,8 @@ static bool has_method(int method)
 
 static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
-static inline bool keeps_still(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->keep_still; }
+static inline bool keeps_still(const smear_desc *d) { return SMEAR_WITH_STILL && d->keep_still; }
+static inline bool display_keeps(const smear_desc *d) { return SMEAR_WITH_STILL && d->display_buffers; }
 static inline bool has_half(const smear_desc *d) { return SMEAR_WITH_FILTERS && d->half; }
 static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
 
@@ -74,7 +75,8 @@ static bool resolve(smear_desc *d)
     if (has_tiles(d) && d->band_rows != d->tile
         && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
-    if (SMEAR_WITH_SUBFRAMES && (d->keep_still > 1 || (d->keep_still && !d->timed)))
+    if (SMEAR_WITH_SUBFRAMES && (d->keep_still || d->display_buffers)
+        && (!SMEAR_WITH_STILL || !d->timed || d->keep_still > 1 || d->display_buffers > 7))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -112,7 +114,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_
 SMEAR_STATIC_ASSERT(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_still_draw) <= SMEAR_STILL_DRAW_BYTES, "SMEAR_STILL_DRAW_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_still) <= SMEAR_STILL_BYTES, "SMEAR_STILL_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
@@ -197,11 +199,14 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
         c->work = arena_take(a, d->workers, c->work_bytes);
     }
-    if (keeps_still(d)) {
-        struct smear_still_draw *draw = arena_take(a, d->max_draws, sizeof *draw);
+    if (keeps_still(d) || display_keeps(d)) {
+        const bool tiles = display_keeps(d);
+        struct smear_tile_box *seen = tiles ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
+        struct smear_due due = { tiles ? arena_take(a, columns * (size_t)w->rows, 1) : NULL,
+                                 (uint8_t)(columns - 1), (uint8_t)w->tile_shift };
         c->still = arena_take(a, 1, sizeof *c->still);
         if (c->still != NULL)       /* not only measured */
-            *c->still = (struct smear_still){ .draw = draw };
+            *c->still = (struct smear_still){ .keeps = d->keep_still, .due = due, .seen = seen };
     }
     if (is_layered(d)) {
         struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);

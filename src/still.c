@@ -1,90 +1,156 @@
 /* SPDX-License-Identifier: MIT */
-/* still.c - see still.h. What draws point to is compared as far as it is a few words: vertices, indices and
+/* still.c - see still.h.
+ *
+ * Scenes are told apart by 64 bits of hash, in which two that differ in one word always differ, and others by
+ * chance but for one in 2^64. What draws point to counts as far as it is a few words: vertices, indices and
  * texels only by their place (smear_frame.refresh). */
 #include "still.h"
 
-#if SMEAR_WITH_SUBFRAMES
+#if SMEAR_WITH_STILL
 
-/* All of it, not its poses alone. */
-static bool same_camera(const smear_camera *a, const smear_camera *b)
+/* ------------------------------------------------------------------ hash */
+
+/* Two lanes, in each of which every step is a permutation of its state, and of the word. */
+static void mix(uint32_t h[2], uint32_t word)
 {
-    return same_transform(&a->pose, &b->pose) && a->focal == b->focal && a->half_height == b->half_height
-        && a->near_plane == b->near_plane && a->far_plane == b->far_plane;
+    h[0] = (h[0] ^ word) * 0x85ebca6bu;
+    h[0] ^= h[0] >> 15;
+    h[1] = ((h[1] << 5 | h[1] >> 27) ^ word) * 0xc2b2ae35u;
+    h[1] ^= h[1] >> 13;
 }
 
-static bool same_mesh(const smear_mesh *a, const smear_mesh *b)
+static void mix_pointer(uint32_t h[2], const void *p)
 {
-    return a->position == b->position && a->normal == b->normal && a->uv == b->uv && a->color == b->color
-        && a->face_color == b->face_color && a->index == b->index && a->triangle_count == b->triangle_count
-        && a->vertex_count == b->vertex_count && a->shift == b->shift && a->uv_shift == b->uv_shift
-        && a->scale == b->scale && a->offset[0] == b->offset[0] && a->offset[1] == b->offset[1]
-        && a->offset[2] == b->offset[2];
+    const uint64_t place = (uintptr_t)p;
+    mix(h, (uint32_t)place);
+    if (sizeof p > 4)
+        mix(h, (uint32_t)(place >> 32));
 }
 
-static bool same_texture(const smear_texture *a, const smear_texture *b)
+static void mix_words(uint32_t h[2], const int32_t *word, int count)
 {
-    return a->texels == b->texels && a->palette == b->palette && a->width == b->width && a->height == b->height
-        && a->format == b->format && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v;
+    for (int i = 0; i < count; i++)
+        mix(h, (uint32_t)word[i]);
 }
 
-static bool same_material(const smear_material *a, const smear_material *b)
+static void mix_transform(uint32_t h[2], const smear_transform *t)
 {
-    for (int i = 0; i < 4; i++)
-        if (a->color[i] != b->color[i])
-            return false;
-    return a->texture == b->texture && a->alpha == b->alpha && a->cutoff == b->cutoff && a->unlit == b->unlit
-        && a->double_sided == b->double_sided && a->bilinear == b->bilinear;
+    mix_words(h, t->basis, 9);
+    mix_words(h, t->origin, 3);
 }
 
-static bool same_draw(const struct smear_still_draw *a, const struct smear_still_draw *b)
+static void mix_camera(uint32_t h[2], const smear_camera *c)
 {
-    return same_mesh(&a->mesh, &b->mesh) && same_material(&a->material, &b->material)
-        && same_texture(&a->texture, &b->texture) && same_transform(&a->now, &b->now)
-        && a->billboard == b->billboard;
+    mix_transform(h, &c->pose);
+    const int32_t lens[4] = { c->focal, c->half_height, c->near_plane, c->far_plane };
+    mix_words(h, lens, 4);
 }
 
-static struct smear_still_draw look_at(const smear_draw *d)
+static void mix_mesh(uint32_t h[2], const smear_mesh *m)
 {
-    struct smear_still_draw look = { .mesh = *d->mesh, .billboard = d->billboard };
-    look.now = d->now != NULL ? *d->now : smear_identity;
+    const void *const part[6] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
+    for (int i = 0; i < 6; i++)
+        mix_pointer(h, part[i]);
+    mix(h, m->triangle_count);
+    mix(h, (uint32_t)m->vertex_count << 16 | (uint32_t)(uint8_t)m->shift << 8 | m->uv_shift);
+    mix(h, (uint32_t)m->scale);
+    mix_words(h, m->offset, 3);
+}
+
+static void mix_texture(uint32_t h[2], const smear_texture *t)
+{
+    mix_pointer(h, t->texels);
+    mix_pointer(h, t->palette);
+    mix(h, (uint32_t)t->width << 16 | t->height);
+    mix(h, (uint32_t)t->format << 16 | (uint32_t)t->wrap_u << 8 | t->wrap_v);
+}
+
+static void mix_material(uint32_t h[2], const smear_material *m)
+{
+    const uint8_t *color = m->color;
+    mix(h, (uint32_t)color[0] << 24 | (uint32_t)color[1] << 16 | (uint32_t)color[2] << 8 | color[3]);
+    mix(h, (uint32_t)m->alpha << 24 | (uint32_t)m->cutoff << 16 | (uint32_t)m->unlit << 2
+               | (uint32_t)m->double_sided << 1 | m->bilinear);
+    mix(h, m->texture != NULL);
+    if (m->texture != NULL)
+        mix_texture(h, m->texture);
+}
+
+static void mix_draw(uint32_t h[2], const smear_draw *d)
+{
+    mix_mesh(h, d->mesh);
+    mix_transform(h, d->now != NULL ? d->now : &smear_identity);
+    mix(h, (uint32_t)d->billboard << 1 | (d->material != NULL));
     if (d->material != NULL)
-        look.material = *d->material;
-    if (look.material.texture != NULL)
-        look.texture = *look.material.texture;
-    return look;
+        mix_material(h, d->material);
 }
+
+/* ------------------------------------------------------------------ frames */
 
 void smear_still_begin(struct smear_context *c)
 {
     struct smear_still *s = c->still;
     if (s == NULL)
         return;
-    c->assembler.path_still_count = 0;
-    bool same = s->is_whole && !c->frame.refresh && same_camera(&s->camera, &c->camera)
-             && s->clear == c->frame.clear && s->light == c->frame.light;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        if (!draw_stands_still(c, i))
-            continue;
-        const struct smear_still_draw look = look_at(&c->submitted[i].draw);
-        same = same && count < s->count && same_draw(&s->draw[count], &look);
-        s->draw[count++] = look;
-    }
-    s->holds = same && count == s->count;
+    uint32_t scene[2] = { 0, 0 };
+    mix_camera(scene, &c->camera);
+    mix(scene, c->frame.clear << 8 | c->frame.light);
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (!c->raster_draw[i].moves)
+            mix_draw(scene, &c->submitted[i].draw);
+    s->is_same = s->is_whole && !c->frame.refresh && scene[0] == s->scene[0] && scene[1] == s->scene[1];
     s->is_whole = false;
-    s->count = count;
-    s->camera = c->camera;
-    s->clear = c->frame.clear;
-    s->light = c->frame.light;
+    s->scene[0] = scene[0];
+    s->scene[1] = scene[1];
+    c->assembler.path_still_count = 0;
+    if (s->due.tile == NULL)
+        return;
+    c->assembler.due = &s->due;
+    for (uint32_t i = 0; !s->is_same && i < c->desc.max_draws; i++)
+        s->seen[i] = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
+    if (!s->is_same)
+        for (int32_t i = 0; i < c->window.columns * c->window.rows; i++)
+            s->due.tile[i] = c->desc.display_buffers;
 }
 
 void smear_still_end(struct smear_context *c)
 {
-    if (c->still == NULL)
+    struct smear_still *s = c->still;
+    if (s == NULL)
         return;
-    c->stats.still_kept = c->still->holds;
+    c->stats.still_kept = still_holds(c);
     /* triangles with paths of no length were drawn among what stands still */
-    c->still->is_whole = c->assembler.path_still_count == 0;
+    s->is_whole = !s->keeps || c->assembler.path_still_count == 0;
+}
+
+/* ------------------------------------------------------------------ tiles that the display keeps */
+
+bool smear_still_next_run(const struct smear_context *c, int row, struct smear_tile_run *run)
+{
+    const int columns = (int)c->window.columns;
+    int first = run->end;
+    run->end = columns;
+    if (c->still != NULL && c->still->due.tile != NULL) {
+        const uint8_t *due = &c->still->due.tile[row * columns];
+        while (first < columns && due[first] == 0)
+            first++;
+        for (run->end = first; run->end < columns && due[run->end] != 0;)
+            run->end++;
+    }
+    run->first = first;
+    return first < columns;
+}
+
+/* What a tile with movers shows is right for none of the buffers later. */
+void smear_still_row_sent(struct smear_context *c, int row)
+{
+    if (c->still == NULL || c->still->due.tile == NULL)
+        return;
+    uint8_t *due = &c->still->due.tile[row * c->window.columns];
+    for (int32_t i = 0; i < c->window.columns; i++) {
+        c->stats.tiles_kept += due[i] == 0;
+        due[i] = (due[i] & TILE_DUE_NOW) != 0 ? c->desc.display_buffers : due[i] != 0 ? (uint8_t)(due[i] - 1) : 0;
+    }
 }
 
 #endif

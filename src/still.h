@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* still.h - what stands still, kept from frame to frame (smear_desc.keep_still). */
+/* still.h - what stands still from frame to frame: kept in the window (smear_desc.keep_still), or by the display
+ * (smear_desc.display_buffers). */
 #ifndef SMEAR_STILL_H
 #define SMEAR_STILL_H
 
@@ -11,17 +12,28 @@ static inline bool draw_stands_still(const struct smear_context *c, uint32_t i)
     return !c->raster_draw[i].moves && c->raster_draw[i].alpha != SMEAR_BLEND;
 }
 
-/* Before anything is drawn: whether the window shows what this frame wants (still_holds); notes that. */
+/* Before anything is drawn: whether it is the last frame's scene that stands still (is_same). */
 void smear_still_begin(struct smear_context *c);
 
-/* The window holds no longer: something else is drawn into it. */
+/* Nothing shows it any longer: something else is drawn. */
 static inline void still_forget(struct smear_context *c)
 {
     if (c->still != NULL)
-        c->still->holds = c->still->is_whole = false;
+        c->still->is_same = c->still->is_whole = false;
 }
 
 /* All rows have been drawn, or held. */
 void smear_still_end(struct smear_context *c);
+
+/* The next tiles beside each other that must be drawn and sent, of a row whose movers are listed: from tile
+ * `end` of the run before, or 0, on. False when there are no more. */
+struct smear_tile_run {
+    int first, end;                 /* [first, end) */
+};
+
+bool smear_still_next_run(const struct smear_context *c, int row, struct smear_tile_run *run);
+
+/* They have all been sent. */
+void smear_still_row_sent(struct smear_context *c, int row);
 
 #endif

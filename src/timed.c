@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* timed.c - tile rows by methods that look at several instants.
  *
- *     still       triangles that do not move, into the row's pixels
  *     list        movers of the row, and what they mean for its tiles
- *     finish      tiles by their method (choose.h): a copy, subframes of tiles beside each other, or a time
- *                 mask; then flush
+ *     for each run of tiles that must be drawn (one, unless the display keeps some):
+ *         still       triangles that do not move, into the row's pixels
+ *         finish      tiles by their method (choose.h): a copy, subframes of tiles beside each other, or a
+ *                     time mask; then flush
  */
 #include "timed.h"
 
 #include "fixmath.h"
 #include "pixel.h"
+#include "still.h"
 
 /* ------------------------------------------------------------------ lists */
 
@@ -329,6 +331,8 @@ static void still_job(void *argument, int job, int worker)
     (void)worker;
     smear_row_target(r->c, r->row, &t);
     smear_job_columns(r->c, job, &t.x0, &t.x1);
+    t.x0 = max_i32(t.x0, job_left(r));
+    t.x1 = min_i32(t.x1, job_right(r));
     if (t.x0 >= t.x1)
         return;
     clear(&t, r->c->frame.clear & 0xffffffu);
@@ -466,12 +470,14 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
     hand_on(f, &t);
 }
 
+/* Tiles of the run in as many strips as the frame has. */
 static void finish_job(void *argument, int strip, int worker)
 {
     const struct finish *f = (const struct finish *)argument;
     struct smear_context *c = f->row.c;
-    const int tiles = c->strip >> c->window.tile_shift, end = min_i32((strip + 1) * tiles, c->window.columns);
-    for (int column = strip * tiles; column < end;) {
+    const int tiles = c->strip >> c->window.tile_shift,
+              end = min_i32((strip + 1) * tiles, (job_right(&f->row) + c->window.tile - 1) >> c->window.tile_shift);
+    for (int column = max_i32(strip * tiles, job_left(&f->row) >> c->window.tile_shift); column < end;) {
         const struct smear_tile_load *load = &c->row_movers.load[column];
         struct smear_tile_choice choice;
         if (is_still(load)) {
@@ -504,27 +510,63 @@ static void count_tiles(struct smear_context *c)
     }
 }
 
-static bool row_is_still(const struct smear_context *c)
+static bool run_is_still(const struct smear_context *c, const struct smear_tile_run *run)
 {
-    for (int32_t i = 0; i < c->window.columns; i++)
+    for (int i = run->first; i < run->end; i++)
         if (!is_still(&c->row_movers.load[i]))
             return false;
     return true;
 }
 
-static int finish_row(struct smear_context *c, int row)
+/* The next tiles to be drawn: all, but for those that the display keeps. */
+static bool next_run(const struct smear_context *c, int row, struct smear_tile_run *run)
+{
+    if (SMEAR_WITH_STILL)
+        return smear_still_next_run(c, row, run);
+    run->first = run->end;
+    run->end = (int)c->window.columns;
+    return run->first < run->end;
+}
+
+/* Draws, finishes and hands out tiles beside each other. */
+static int finish_run(struct smear_context *c, int row, const struct smear_tile_run *run)
 {
     uint32_t start = stage_start(c);
-    struct finish finish = { .row = { .c = c, .row = row, .band = smear_band_begin(c) } };
+    struct finish finish = { .row = { .c = c, .row = row } };
+    finish.row.x0 = tile_left(c, run->first);
+    finish.row.x1 = tile_right(c, run->end - 1);
+    if (!still_holds(c))
+        smear_jobs_run(&c->jobs, still_job, &finish.row, c->jobs.workers);
+    stage_end(c, &c->stats.time_raster, start);
+
+    start = stage_start(c);
+    finish.row.band = smear_band_begin(c);
     smear_row_target(c, row, &finish.still);
-    list_blended(c, row);
-    if (c->jobs.workers == 1 && row_is_still(c))
-        finish_still(&finish, 0, c->window.columns);
+    if (c->jobs.workers == 1 && run_is_still(c, run))
+        finish_still(&finish, run->first, run->end);
     else
         smear_jobs_run(&c->jobs, finish_job, &finish, (c->window.width + c->strip - 1) / c->strip);
-    count_tiles(c);
     stage_end(c, &c->stats.time_blur, start);
-    return smear_band_flush(c, row, finish.row.band);
+    return smear_band_flush_part(&finish.row);
+}
+
+static int draw_row(struct smear_context *c, int row)
+{
+    uint32_t start = stage_start(c);
+    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+    list_movers(c, row);
+    list_blended(c, row);
+    stage_end(c, &c->stats.time_raster, start);
+    struct smear_tile_run run = { 0, 0 };
+    while (next_run(c, row, &run)) {
+        int result = finish_run(c, row, &run);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    count_tiles(c);
+    if (SMEAR_WITH_STILL)
+        smear_still_row_sent(c, row);
+    return SMEAR_OK;
 }
 
 /* Pixels of a mover in the middle of the exposure, at least 1 and no more than the box of its way has. */
@@ -582,14 +624,7 @@ int smear_timed_rows(struct smear_context *c, int first, int end)
         c->stats.target = max_u32(c->stats.target, (uint32_t)c->chooser.target);
     }
     for (int row = first; row < end; row++) {
-        uint32_t start = stage_start(c);
-        struct row_job job = { .c = c, .row = row };
-        c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
-        if (!still_holds(c))
-            smear_jobs_run(&c->jobs, still_job, &job, c->jobs.workers);
-        list_movers(c, row);
-        stage_end(c, &c->stats.time_raster, start);
-        int result = finish_row(c, row);
+        int result = draw_row(c, row);
         if (result != SMEAR_OK)
             return result;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* test_still.c - smear_desc.keep_still: the pictures are those of a context that draws everything in every frame, to
- * the bit, and what stands still is drawn only where it must be. Host only. */
+/* test_still.c - smear_desc.keep_still and smear_desc.display_buffers: the pictures are those of a context that draws and
+ * sends everything in every frame, to the bit, and what stands still is drawn, and sent, only where it must be.
+ * Host only. */
 #include "rig.h"
 #include "test.h"
 
@@ -226,16 +227,208 @@ static void test_memory_is_as_the_macro_says_and_only_timed_contexts_keep(void)
                             .flush = take_band };
         const size_t without = smear_memory_size(&desc);
         desc.keep_still = 1;
-        const size_t with = smear_memory_size(&desc), room = SMEAR_KEEP_STILL_BYTES(size[0], size[1], 20, size[2]);
-        CHECK(with > without && with - without <= room && with - without + 2400 >= room);
+        const size_t with = smear_memory_size(&desc), room = SMEAR_KEEP_STILL_BYTES(size[0], size[1], size[2]);
+        CHECK(with > without && with - without <= room && with - without + 40 >= room);
+        desc.keep_still = 0;
+        desc.display_buffers = 2;
+        const size_t tiles = smear_memory_size(&desc), most = SMEAR_DISPLAY_BUFFERS_BYTES(size[0], size[1], 20, size[2]);
+        CHECK(tiles > without && tiles - without <= most && tiles - without + 40 >= most);
     }
     smear_desc desc = desc_of(400, true);
     desc.flush = take_band;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 4; i++) {
         smear_desc wrong = desc;
-        wrong.keep_still = i == 0 ? 2 : 1;
-        wrong.timed = i != 1;
+        wrong.keep_still = i == 0 ? 2 : i == 1;
+        wrong.display_buffers = i == 2 ? 8 : i == 3;
+        wrong.timed = i != 1 && i != 3;
         CHECK(smear_memory_size(&wrong) == 0);
+    }
+}
+
+/* ------------------------------------------------------------------ displays that keep their picture */
+
+/* A context that sends only what its display does not show, into buffers that are shown in turn; and one that
+ * sends all. */
+struct display {
+    struct rig sends;               /* must be first: what flush is given */
+    struct rig all;
+    uint8_t *buffer[3];
+    int buffers, written;           /* the one that is written to */
+    int x, y;                       /* where the next band may begin */
+    uint32_t bytes;                 /* sent in the frame */
+    bool in_order;
+};
+
+static int bits_of(uint8_t format)
+{
+    return format == SMEAR_XRGB8888                                ? 32
+         : format >= SMEAR_RGB565 && format <= SMEAR_RGB555        ? 16
+         : format == SMEAR_L4                                      ? 4
+         : format == SMEAR_L1                                      ? 1
+                                                                   : 8;
+}
+
+static int put_band(void *user, const smear_band *band)
+{
+    struct display *d = user;
+    const smear_desc *desc = &d->sends.desc;
+    const int page = desc->format == SMEAR_L1_PAGES ? 8 : 1, bits = bits_of(desc->format);
+    const size_t pitch = (size_t)(desc->width * bits + 7) / 8, at = (size_t)band->x * (size_t)bits / 8;
+    const int rows = (band->height + page - 1) / page;
+    d->in_order = d->in_order && (band->y > d->y || (band->y == d->y && band->x >= d->x)) && band->width > 0
+               && band->x + band->width <= desc->width && band->y + band->height <= desc->height
+               && band->size == band->stride * (uint32_t)rows;
+    d->x = band->x + band->width;
+    d->y = band->y;
+    d->bytes += band->size;
+    for (int i = 0; d->in_order && i < rows; i++)
+        memcpy(d->buffer[d->written] + (size_t)(band->y / page + i) * pitch + at,
+               (const uint8_t *)band->pixels + (size_t)i * band->stride, band->stride);
+    return d->sends.bands++ == d->sends.fail_at ? d->sends.fail_with : 0;
+}
+
+static bool display_begin(struct display *d, smear_desc desc, int buffers)
+{
+    *d = (struct display){ .buffers = buffers };
+    bool ok = rig_begin(&d->all, &desc, false);
+    desc.flush = put_band;
+    desc.display_buffers = (uint8_t)buffers;
+    ok = rig_begin(&d->sends, &desc, false) && ok;
+    for (int i = 0; i < buffers; i++)
+        ok = CHECK((d->buffer[i] = calloc(1, BYTES)) != NULL) && ok;
+    return ok;
+}
+
+static void display_end(struct display *d)
+{
+    rig_end(&d->sends);
+    rig_end(&d->all);
+    for (int i = 0; i < d->buffers; i++)
+        free(d->buffer[i]);
+}
+
+static int write_frame(struct display *d, const struct set *s)
+{
+    d->x = d->y = 0;
+    d->bytes = 0;
+    d->in_order = true;
+    d->sends.bands = 0;
+    d->written = (d->written + 1) % d->buffers;
+    int result = rig_frame(&d->sends, &s->frame, s->draw, s->count);
+    CHECK(d->in_order);
+    return result;
+}
+
+/* Draws a frame; what is shown must be what a context shows that sends all. The tiles that were not sent. */
+static uint32_t shown(struct display *d, const struct set *s)
+{
+    smear_stats stats;
+    uint8_t *want = rig_copy(&d->all, &s->frame, s->draw, s->count);
+    CHECK_EQ(write_frame(d, s), SMEAR_OK);
+    CHECK(want != NULL && memcmp(want, d->buffer[d->written], d->all.picture_size) == 0);
+    free(want);
+    smear_get_stats(d->sends.ctx, &stats);
+    CHECK_EQ(d->bytes == d->all.picture_size, stats.tiles_kept == 0);
+    return stats.tiles_kept;
+}
+
+/* Of 5 x 4 tiles. */
+static void test_a_display_is_sent_what_it_does_not_show(void)
+{
+    static const uint8_t methods[] = { SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
+    for (uint8_t format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
+        for (int buffers = 1; buffers <= 3; buffers++)
+            for (uint8_t keeps = 0; keeps < 2; keeps++) {
+                struct display d;
+                struct set s;
+                set_up(&s, methods[(format + buffers) % 3]);
+                smear_desc desc = desc_of(buffers == 2 ? 16 : 400, keeps == 0);
+                desc.format = format;
+                desc.keep_still = keeps;
+                desc.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
+                if (display_begin(&d, desc, buffers))
+                    for (int i = 0; i < 14; i++) {
+                        move_on(&s, i < 10 ? i : 9);
+                        const uint32_t kept = shown(&d, &s);
+                        if (i < 1 + buffers || i == 10)
+                            CHECK_EQ(kept, 0);      /* unknown yet, or the cube has stopped */
+                        else if (i > 1 + buffers && i < 10)
+                            CHECK(kept >= 8);
+                        if (i >= 10 + buffers)
+                            CHECK_EQ(kept, 20);
+                    }
+                display_end(&d);
+            }
+}
+
+static void test_a_still_frame_sends_nothing_until_it_is_refreshed(void)
+{
+    struct display d;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    s.count = 2;
+    if (display_begin(&d, desc_of(400, true), 1)) {
+        CHECK_EQ(shown(&d, &s), 0);
+        for (int i = 0; i < 3; i++) {
+            CHECK_EQ(shown(&d, &s), 20);
+            CHECK_EQ(d.sends.bands, 0);
+        }
+        memset(d.buffer[0], 0, BYTES);
+        s.frame.refresh = 1;
+        CHECK_EQ(shown(&d, &s), 0);
+        CHECK_EQ(d.sends.bands, 4);
+        s.frame.refresh = 0;
+        CHECK_EQ(shown(&d, &s), 20);
+        s.material[FLOOR].texture = NULL;
+        CHECK_EQ(shown(&d, &s), 0);
+        CHECK_EQ(shown(&d, &s), 20);
+    }
+    display_end(&d);
+}
+
+/* So slow that it never moves by a step of its vertices within an exposure, but from frame to frame. */
+static void test_what_creeps_is_sent_all_the_same(void)
+{
+    struct display d;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    s.frame.shutter_degrees = 1;
+    if (display_begin(&d, desc_of(400, true), 2))
+        for (int i = 0; i < 40; i++) {
+            s.pose[MOVER] = pose_at(0.9 + 0.002 * i, 0.9, -9, 0.2, 0);
+            const uint32_t kept = shown(&d, &s);
+            if (i > 4)
+                CHECK(kept >= 16 && kept < 20);
+        }
+    display_end(&d);
+}
+
+static void test_the_display_is_right_after_other_methods_and_failures(void)
+{
+    static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
+    for (int buffers = 1; buffers <= 3; buffers++) {
+        struct display d;
+        struct set s;
+        set_up(&s, SMEAR_AUTO);
+        if (display_begin(&d, desc_of(400, false), buffers)) {
+            for (int i = 0; i < 25; i++) {
+                move_on(&s, i % 12);
+                s.frame.method = i % 5 == 4 ? between[i / 5] : (uint8_t)SMEAR_AUTO;
+                shown(&d, &s);
+            }
+            s.frame.method = SMEAR_AUTO;
+            for (int band = 0; band < 4; band++) {
+                s.frame.clear++;
+                d.sends.fail_at = band;
+                d.sends.fail_with = -9;
+                CHECK_EQ(write_frame(&d, &s), -9);
+                d.sends.fail_at = -1;
+                rig_frame(&d.all, &s.frame, s.draw, s.count);
+                for (int i = 0; i < 4; i++)
+                    CHECK_EQ(shown(&d, &s) == 0, i < buffers);
+            }
+        }
+        display_end(&d);
     }
 }
 
@@ -246,5 +439,9 @@ void suite_still(void)
     RUN(test_what_stops_and_starts_joins_and_leaves);
     RUN(test_motion_too_small_to_be_seen_is_drawn_in_order);
     RUN(test_other_methods_and_failures_between_do_no_harm);
+    RUN(test_a_display_is_sent_what_it_does_not_show);
+    RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
+    RUN(test_what_creeps_is_sent_all_the_same);
+    RUN(test_the_display_is_right_after_other_methods_and_failures);
     RUN(test_memory_is_as_the_macro_says_and_only_timed_contexts_keep);
 }

@@ -40,7 +40,7 @@ static int flush(void *user, const smear_band *band)
     }
     uint32_t from = (uint32_t)band->pixels, halfwords = (uint32_t)band->width;
     uint32_t to = GBA_VIDEO_MEMORY + screen.hidden * PAGE_BYTES +
-                  (uint32_t)band->y * screen.row_bytes;
+                  (uint32_t)band->y * screen.row_bytes + (uint32_t)band->x * 2;
     for (int y = 0; y < band->height; y++) {
         GBA_DMA3_FROM = from;
         GBA_DMA3_TO = to;
@@ -58,6 +58,7 @@ bool display_open(smear_desc *desc)
     if (desc->format != SMEAR_RGB555 || (!is_half && !is_whole))
         return false;
     desc->bands = 1;
+    desc->display_buffers = desc->timed ? (uint8_t)(is_half + 1) : 0;
     desc->flush = flush;
     screen.is_paged = is_half;
     screen.hidden = is_half;

@@ -74,11 +74,11 @@ static void command(const uint8_t *byte, unsigned count)
     GPIO_PINS(GPIO_C, DATA) = DATA;
 }
 
-/* Points the panel at the band's rows and lets the interrupt send them. */
+/* Points the panel at the band's place and lets the interrupt send them. */
 static void start_band(const smear_band *band)
 {
-    const uint8_t window[6] = { 0x15, 0, ROW_BYTES - 1, 0x75, (uint8_t)band->y,
-                                (uint8_t)(band->y + band->height - 1) };
+    const uint8_t window[6] = { 0x15, (uint8_t)(band->x / 2), (uint8_t)((band->x + band->width) / 2 - 1),
+                                0x75, (uint8_t)band->y, (uint8_t)(band->y + band->height - 1) };
     command(window, sizeof window);
     bus.at = band->pixels;
     bus.end = bus.at + band->size;
@@ -144,6 +144,7 @@ bool display_open(smear_desc *desc)
     if (desc->width != 2 * ROW_BYTES || desc->height != ROWS || desc->format != SMEAR_L4)
         return false;
     desc->bands = 2;
+    desc->display_buffers = desc->timed;        /* the panel's memory */
     desc->flush = flush;
     desc->idle = wait_for_event;
 
