@@ -15,7 +15,7 @@ const struct demo_screen demo_screens[] = {
                 .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-               .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 300, .display_buffers = 2 },
+               .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300, .display_buffers = 2 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
                     .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .display_buffers = 1 },
@@ -73,9 +73,8 @@ const struct demo_blur *demo_blur_find(const char *name)
 void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc)
 {
     desc->sharp = !smear_method_is_filter(blur->method);
-    const int is_plain = blur->method == SMEAR_NONE || smear_method_is_timed(blur->method);
-    if (screen->plain_tile != 0)
-        desc->tile = is_plain ? screen->plain_tile : 0;
+    if (screen->sharp_tile != 0 && !smear_method_is_timed(blur->method))
+        desc->tile = blur->method == SMEAR_NONE ? screen->sharp_tile : 0;
     desc->passes = blur->method == SMEAR_PINGPONG ? 2 : 0;
     /* Sums of whole frames where small boards have the memory, else of bands. */
     desc->accumulate = blur->method != SMEAR_ACCUMULATE ? 0 : desc->width * desc->height > 10000 ? 2 : 1;

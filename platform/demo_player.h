@@ -12,7 +12,7 @@ struct demo_screen {
     uint8_t light;                  /* smear_light */
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */
-    uint8_t plain_tile;             /* desc.tile of ways to blur that read no neighbours: larger is faster; 0: desc's */
+    uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE, which has none to keep; 0: desc's, for all ways to blur */
 };
 
 /* A way to blur, to compare costs (make demo-cost BLUR=...). */
