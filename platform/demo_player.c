@@ -21,7 +21,7 @@ const struct demo_screen demo_screens[] = {
                     .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                .sharp = 1, .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 520,
+                .sharp = 1, .timed = 1, .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS, .max_triangles = 520,
                 .display_buffers = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,

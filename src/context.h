@@ -121,6 +121,7 @@ struct smear_context {
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
+    int32_t strip_columns;          /* and so many with what is drawn beyond their sides */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
     struct smear_still *still;          /* null without desc.keep_still and desc.display_buffers */

@@ -186,14 +186,15 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
                                      4);
     }
     c->strip = d->strip;
+    c->strip_columns = d->strip >= d->width ? d->strip : SMEAR_STRIP_COLUMNS(d->strip);
     if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->band_rows
-                                       * (size_t)(is_timed(d) ? SMEAR_STRIP_COLUMNS(c->strip) : c->strip), 4);
+                                       * (size_t)(is_timed(d) ? c->strip_columns : c->strip), 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
         c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
-        c->work_bytes = (uint32_t)smear_subframes_work(SMEAR_STRIP_COLUMNS(c->strip), d->tile);
+        c->work_bytes = (uint32_t)smear_subframes_work(c->strip_columns, d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
