@@ -72,6 +72,17 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
+/* The display has not all tiles that it reaches into. */
+static inline bool is_due(const struct smear_assembler *a, const struct box *box)
+{
+    if (!SMEAR_WITH_STILL || a->due == NULL)
+        return true;
+    const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
+    if (a->seen != NULL)
+        tile_box_add(a->seen, tiles);
+    return a->only_due == NULL || tile_box_is_due(a->only_due, tiles);
+}
+
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
 static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
                                        struct smear_segment **segment, uint32_t triangle,
@@ -139,7 +150,7 @@ static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct s
             continue;
         struct box box = box_of(place[0], place[1], place[2]);
         box_cut(&box, a);
-        if (box_is_empty(&box))
+        if (box_is_empty(&box) || !is_due(a, &box))
             continue;
         struct smear_segment *s = make_room(a, d, *segment, 1);
         if (s == NULL)
@@ -312,17 +323,6 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
                                        : tiny_color(channels[0], channels[1], channels[2], w1, w2,
                                                     shading_is_linear(&b->d->shading));
     }
-}
-
-/* The display has not all tiles that it reaches into. */
-static inline bool is_due(const struct smear_assembler *a, const struct box *box)
-{
-    if (!SMEAR_WITH_STILL || a->due == NULL)
-        return true;
-    const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
-    if (a->seen != NULL)
-        tile_box_add(a->seen, tiles);
-    return a->only_due == NULL || tile_box_is_due(a->only_due, tiles);
 }
 
 /* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of

@@ -186,7 +186,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
                                      4);
     }
     c->strip = d->strip;
-    c->strip_columns = d->strip >= d->width ? d->strip : SMEAR_STRIP_COLUMNS(d->strip);
+    if (is_timed(d))
+        c->strip_columns = d->strip >= d->width ? d->strip : SMEAR_STRIP_COLUMNS(d->strip);
     if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->band_rows
                                        * (size_t)(is_timed(d) ? c->strip_columns : c->strip), 4);

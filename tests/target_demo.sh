@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # target_demo.sh FOLDER PROGRAM SCREEN:STEP...
 # The demo on a target: every STEPth frame of its loop has the bits that the host draws. RUN runs a
-# program there. Then, where SHOT takes a screenshot (SHOT PROGRAM FRAME OUT.ppm [DISPLAY]), the
+# program there. With a step of 1, a display that keeps what it is sent shows them too (on this machine). Then, where SHOT takes a screenshot (SHOT PROGRAM FRAME OUT.ppm [DISPLAY]), the
 # display shows the host's frames SHOT_FRAMES (FRAME or DISPLAY:FRAME) of SHOT_SCREEN to the bit,
 # every pixel SHOT_ZOOM times as large, and another frame is told from them. With SHOT_KEY, SHOT
 # presses that key (its last argument), and the frame becomes sharp.
@@ -26,6 +26,7 @@ shows_not() { ! shows "$@"; }
 
 for loop in "$@"; do
     claim "frames of ${loop%:*}" frames "${loop%:*}" "${loop#*:}"
+    [ "${loop#*:}" != 1 ] || claim "${loop%:*} keeps what it is sent" "$screen" kept "${loop%:*}"
 done
 
 if [ -n "${SHOT:-}" ]; then

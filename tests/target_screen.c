@@ -3,10 +3,12 @@
  * screenshot of an emulated machine shows exactly that.
  *
  *     target_screen crcs SCREEN STEP
+ *     target_screen kept SCREEN
  *     target_screen picture SCREEN FRAME SHUTTER OUT.png
  *     target_screen compare SCREEN FRAME SHUTTER SHOT.ppm ZOOM
  *
- * `crcs` prints what `demo check` must print. SHUTTER in degrees, 0 is sharp. A pixel of the
+ * `crcs` prints what `demo check` must print. `kept` plays the loop twice on a display that keeps what it is sent, and
+ * says whether it shows every frame as one that is sent all. SHUTTER in degrees, 0 is sharp. A pixel of the
  * screen is ZOOM x ZOOM pixels of the screenshot,
  * all of one colour; what a larger screenshot has around the picture is of one colour, too.
  * Every code of the display's format must come back, to the bit. */
@@ -30,8 +32,8 @@ static int take_band(void *user, const smear_band *band)
 {
     struct screen *screen = user;
     const uint8_t *row = band->pixels;
-    uint32_t *to = screen->code + (size_t)band->y * (size_t)band->width;
-    for (int y = 0; y < band->height; y++, row += band->stride)
+    for (int y = 0; y < band->height; y++, row += band->stride) {
+        uint32_t *to = screen->code + (size_t)(band->y + y) * (size_t)screen->desc->width + band->x;
         for (int x = 0; x < band->width; x++) {
             uint32_t word;
             switch (screen->desc->format) {
@@ -49,6 +51,7 @@ static int take_band(void *user, const smear_band *band)
                 *to++ = word;
             }
         }
+    }
     return 0;
 }
 
@@ -96,6 +99,7 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     struct demo_player player;
     smear_desc desc = which->desc;
     desc.bands = 1;
+    desc.display_buffers = 0;
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
@@ -148,6 +152,49 @@ static bool crcs(const struct demo_screen *which, uint32_t step, struct failure 
         printf("%" PRIu32 " %08" PRIx32 "\n", i, crc_of(&screen));
         free(screen.code);
     }
+    return true;
+}
+
+/* A player for a display that is sent all, or keeps what it is sent; its memory is never given back. */
+static bool start_kept(struct demo_player *player, const struct demo_screen *which, struct screen *screen, int buffers,
+                       struct failure *f)
+{
+    smear_desc desc = which->desc;
+    desc.bands = 1;
+    desc.display_buffers = (uint8_t)buffers;
+    desc.flush = take_band;
+    desc.user = screen;
+    screen->desc = &which->desc;
+    return start(player, which, desc, f) != NULL;
+}
+
+/* Of as many buffers as the screen has, or one, which are shown in turn. */
+static bool kept(const struct demo_screen *which, struct failure *f)
+{
+    static struct demo_player keeps, all;
+    const size_t pixels = (size_t)which->desc.width * (size_t)which->desc.height;
+    const int buffers = which->desc.display_buffers;
+    uint32_t *code = calloc(pixels * ((size_t)buffers + 1), sizeof *code);
+    struct screen shown = { .code = code }, want = { .code = code != NULL ? code + pixels * (size_t)buffers : NULL };
+    uint32_t tiles = 0;
+    if (code == NULL || buffers == 0)
+        return fail(f, code == NULL ? "out of memory" : "keeps nothing");
+    if (!start_kept(&keeps, which, &shown, buffers, f) || !start_kept(&all, which, &want, 0, f))
+        return false;
+    for (uint32_t i = 0; i < 2 * DEMO_LOOP; i++) {
+        smear_stats stats;
+        shown.code = code + pixels * (i % (uint32_t)buffers);
+        if (demo_player_frame(&keeps, i, true) != SMEAR_OK || demo_player_frame(&all, i, true) != SMEAR_OK)
+            return fail(f, "the library refused frame %u", i);
+        if (memcmp(shown.code, want.code, pixels * sizeof *code) != 0)
+            return fail(f, "frame %u is another", i);
+        smear_get_stats(keeps.ctx, &stats);
+        tiles += stats.tiles_kept;
+    }
+    free(code);
+    if (tiles == 0)
+        return fail(f, "all tiles were sent in all frames");
+    printf("%s: %u tiles kept in %d frames\n", which->name, tiles, 2 * DEMO_LOOP);
     return true;
 }
 
@@ -205,6 +252,7 @@ static bool compare(const struct screen *screen, const char *path, int zoom, str
 }
 
 static const char usage[] = "usage: target_screen crcs SCREEN STEP\n"
+                            "       target_screen kept SCREEN\n"
                             "       target_screen picture SCREEN FRAME SHUTTER OUT.png\n"
                             "       target_screen compare SCREEN FRAME SHUTTER SHOT.ppm ZOOM\n";
 
@@ -222,6 +270,8 @@ int main(int argc, char **argv)
     uint16_t shutter = argc > 4 ? (uint16_t)atoi(argv[4]) : 0;
     if (argc == 4 && strcmp(argv[1], "crcs") == 0 && number > 0) {
         ok = crcs(which, number, &f);
+    } else if (argc == 3 && strcmp(argv[1], "kept") == 0) {
+        ok = kept(which, &f);
     } else if (argc == 6 && strcmp(argv[1], "picture") == 0) {
         ok = draw(&screen, which, number % DEMO_LOOP, shutter, &f) && save(&screen, argv[5], &f);
     } else if (argc == 7 && strcmp(argv[1], "compare") == 0) {
