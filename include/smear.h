@@ -571,7 +571,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 
 /* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame. With `display_buffers`: its tiles,
  * and where draws are seen. */
-#define SMEAR_STILL_BYTES 48u
+#define SMEAR_STILL_BYTES 56u
 #define SMEAR_KEEP_STILL_BYTES(width, height, tile) \
     (SMEAR_ALIGN8((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u) + 8u \
      + SMEAR_STILL_BYTES)

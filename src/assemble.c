@@ -78,9 +78,9 @@ static inline bool is_due(const struct smear_assembler *a, const struct box *box
     if (!SMEAR_WITH_STILL || a->due == NULL)
         return true;
     const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
-    if (a->seen != NULL)
-        tile_box_add(a->seen, tiles);
-    return a->only_due == NULL || tile_box_is_due(a->only_due, tiles);
+    if (a->due->seen != NULL)
+        tile_box_add(a->due->seen, tiles);
+    return !a->due->only || tile_box_is_due(a->due, tiles);
 }
 
 /* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */

@@ -121,7 +121,6 @@ struct smear_context {
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
-    int32_t strip_columns;          /* and so many with what is drawn beyond their sides */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
     struct smear_still *still;          /* null without desc.keep_still and desc.display_buffers */
@@ -141,6 +140,12 @@ struct smear_context {
     uint32_t worker_samples[SMEAR_WORKERS_MAX];
     smear_stats stats;
 };
+
+/* Columns that a strip takes with what is drawn beyond its sides: of one as wide as the frame, nothing. */
+static inline int32_t strip_columns(const struct smear_context *c)
+{
+    return c->strip >= c->window.width ? c->strip : SMEAR_STRIP_COLUMNS(c->strip);
+}
 
 /* The frame has blurred layers. */
 static inline bool has_layers(const struct smear_context *c)

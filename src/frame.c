@@ -385,8 +385,8 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
             seen = seen == NULL ? c->still->seen : seen + 1;
             if (c->still->is_same && !tile_box_is_due(&c->still->due, *seen))
                 continue;
-            as->only_due = c->still->is_same ? as->due : NULL;
-            as->seen = c->still->is_same ? NULL : seen;
+            c->still->due.only = c->still->is_same;
+            c->still->due.seen = c->still->is_same ? NULL : seen;
         }
         const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
                                         ? &c->layers->group[c->layers->group_of[i]] : NULL;
@@ -409,8 +409,8 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
 {
     if (!SMEAR_WITH_STILL || as->due == NULL)
         return assemble_kind(c, as, instant, drop, DRAWS_ALL);
-    as->only_due = NULL;
-    as->seen = NULL;
+    c->still->due.only = false;
+    c->still->due.seen = NULL;
     return assemble_kind(c, as, instant, drop, DRAWS_IN_MOTION)
         && assemble_kind(c, as, instant, drop, DRAWS_AT_REST);
 }

@@ -30,6 +30,8 @@ struct smear_tile_box {
 struct smear_due {
     uint8_t *tile;
     uint8_t columns, shift;         /* tiles of a row, less one; log2 of their size */
+    bool only;                      /* triangles beyond tiles that are due are left out */
+    struct smear_tile_box *seen;    /* grows by where triangles are seen, or null */
 };
 
 enum { TILE_DUE_NOW = 0x80 };       /* a mover is seen in it */
@@ -70,10 +72,7 @@ struct smear_assembler {
     uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
     uint32_t triangles_drawn, triangles_dropped;
     uint32_t path_still_count;      /* triangles with paths of no length: listed among those that stand still */
-    /* with smear_desc.display_buffers, else null: */
-    const struct smear_due *due;            /* where movers mark their tiles */
-    const struct smear_due *only_due;       /* triangles beyond tiles that are due are left out */
-    struct smear_tile_box *seen;            /* grows by where triangles are seen */
+    const struct smear_due *due;    /* with smear_desc.display_buffers, else null: where movers mark their tiles */
 };
 
 /* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)

@@ -186,16 +186,14 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
                                      4);
     }
     c->strip = d->strip;
-    if (is_timed(d))
-        c->strip_columns = d->strip >= d->width ? d->strip : SMEAR_STRIP_COLUMNS(d->strip);
     if (has_window(d) || is_timed(d))
         c->scratch = arena_take(a, (size_t)d->workers * (size_t)d->band_rows
-                                       * (size_t)(is_timed(d) ? c->strip_columns : c->strip), 4);
+                                       * (size_t)(is_timed(d) ? strip_columns(c) : c->strip), 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
         c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
         c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
-        c->work_bytes = (uint32_t)smear_subframes_work(c->strip_columns, d->tile);
+        c->work_bytes = (uint32_t)smear_subframes_work(strip_columns(c), d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
         c->work_bytes = (c->work_bytes + 7u) & ~7u;
@@ -205,7 +203,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         const bool tiles = display_keeps(d);
         struct smear_tile_box *seen = tiles ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
         struct smear_due due = { tiles ? arena_take(a, columns * (size_t)w->rows, 1) : NULL,
-                                 (uint8_t)(columns - 1), (uint8_t)w->tile_shift };
+                                 (uint8_t)(columns - 1), (uint8_t)w->tile_shift, false, NULL };
         c->still = arena_take(a, 1, sizeof *c->still);
         if (c->still != NULL)       /* not only measured */
             *c->still = (struct smear_still){ .keeps = d->keep_still, .due = due, .seen = seen };

@@ -374,7 +374,7 @@ static struct smear_moving_tile tiles_of(const struct finish *f, int first, int 
     struct smear_context *c = f->row.c;
     const struct smear_window *w = &c->window;
     const struct smear_row_movers *m = &c->row_movers;
-    const int32_t pitch = c->strip_columns;
+    const int32_t pitch = strip_columns(c);
     struct smear_moving_tile t = {
         .frame = &c->raster, .shutter = &c->shutter, .still = f->still,
         .mover = m->mover, .mover_count = m->count,
@@ -411,7 +411,7 @@ static int32_t margin_of(const struct smear_context *c, const struct smear_step 
                          const struct smear_tile_load *neighbour)
 {
     enum { GAP_SEEN = 2 * 16 };
-    const int32_t most = (c->strip_columns - c->strip) / 2;
+    const int32_t most = (strip_columns(c) - c->strip) / 2;
     const int32_t gap = abs_i32(step->x);       /* 1/16 px */
     return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
 }
