@@ -117,12 +117,13 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
-    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba; do
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb rp2040 microbit gba; do
         suite "symbols-$target" $make -s TARGET=$target symbols-test
     done
     suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    suite demo-rp2040 $make -s TARGET=rp2040 demo-test
     suite model sh tests/target_model.sh build/smear tests/arm.gltf
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test

@@ -805,12 +805,23 @@ claim "the pictures are the same" same drawn3.png kept3.png
 claim "in a scene without motion of the camera" render builtin:suite/cross --size 64x48 --frames 0-3 -o drawn%d.png
 claim "likewise" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still -o kept%d.png
 claim "they are the same, too" same drawn3.png kept3.png
+claim "or where a display keeps its picture" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-display --stats kept.json -o kept%d.png
+claim "which shows the same" same drawn3.png kept3.png
+claim "and is not sent all" grep -q '"kept":[1-9]' kept.json
+claim "frames that are sent whole" render builtin:suite/cross --size 64x48 --frames 0-3 --format l4 --stats drawn.json -o drawn%d.png
+claim "have the CRCs" render builtin:suite/cross --size 64x48 --frames 0-3 --format l4 --keep-display --stats kept.json -o kept%d.png
+crcs() { grep -o '"crc32":"[0-9a-f]*"' "$1"; }
+same_crcs() { [ -n "$(crcs "$1")" ] && [ "$(crcs "$1")" = "$(crcs "$2")" ]; }
+claim "of those that are not" same_crcs drawn.json kept.json
+claim "what stands still counts as kept" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still --stats kept.json -o kept%d.png
+claim "with statistics, too" grep -q '"still_kept":1' kept.json
 claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
 claim "as coarse as a draft" render builtin:suite/cross --size 64x48 --quality draft -o drawn3.png
 claim "which it is" same drawn3.png kept3.png
 usage --budget render "$plate" --budget 0
 usage --budget render "$plate" --budget 10 --method subframes
 usage --keep-still render "$plate" --keep-still --method reconstruct
+usage --keep-display render "$plate" --keep-display --method reconstruct
 
 usage --time render "$plate" --time 1 --frames 0-0
 usage --exact render "$plate" --exact

@@ -301,18 +301,55 @@ struct rig {
     smear_desc desc;
     int next_row, fail_at, band;
     uint32_t sum;               /* of the frame's bytes, in order */
+    uint8_t *shown;             /* with desc.display_buffers: all of them, as bands leave them */
+    int next_column;
     uint32_t inspected;
 };
+
+static uint32_t add_byte(uint32_t sum, uint8_t byte)
+{
+    return (sum ^ byte) * 16777619u;
+}
+
+/* Rows of bytes: of pixels, or of pages. */
+static size_t pitch_of(const smear_desc *d)
+{
+    static const uint8_t bits[] = { 32, 16, 16, 16, 8, 8, 4, 1, 8 };
+    return ((size_t)d->width * bits[d->format] + 7) / 8;
+}
+
+static size_t rows_of(const smear_desc *d, int rows)
+{
+    return d->format == SMEAR_L1_PAGES ? ((size_t)rows + 7) / 8 : (size_t)rows;
+}
+
+static void put_band(struct rig *r, const smear_band *band)
+{
+    const size_t pitch = pitch_of(&r->desc), left = pitch * (size_t)band->x / (size_t)r->desc.width;
+    const size_t rows = rows_of(&r->desc, band->height);
+    require(band->size == band->stride * rows && left + band->stride <= pitch);
+    for (size_t y = 0; y < rows; y++)
+        memcpy(r->shown + (rows_of(&r->desc, band->y) + y) * pitch + left,
+               (const uint8_t *)band->pixels + y * band->stride, band->stride);
+}
 
 static int take_band(void *user, const smear_band *band)
 {
     struct rig *r = user;
-    require(band->y == r->next_row && band->width == r->desc.width && band->height > 0);
-    r->next_row = band->y + band->height;
-    require(r->next_row <= r->desc.height);
     const uint8_t *bytes = band->pixels;
-    for (uint32_t i = 0; i < band->size; i++)
-        r->sum = (r->sum ^ bytes[i]) * 16777619u;
+    require(band->width > 0 && band->height > 0 && band->x >= 0 && band->x + band->width <= r->desc.width);
+    if (r->shown != NULL) {
+        require(band->y > r->next_row || (band->y == r->next_row && band->x >= r->next_column));
+        r->next_row = band->y;
+        r->next_column = band->x + band->width;
+        put_band(r, band);
+    } else {
+        require(band->y == r->next_row && band->width == r->desc.width);
+        r->next_row = band->y + band->height;
+        for (uint32_t i = 0; i < band->size; i++)
+            r->sum = add_byte(r->sum, bytes[i]);
+    }
+    require(band->y + band->height <= r->desc.height);
     if (r->band++ == r->fail_at)
         return -42;             /* a refused band counts as sent */
     if (r->desc.bands == 2)
@@ -363,6 +400,8 @@ static bool rig_open(struct rig *r, struct pool *p, const smear_desc *desc, bool
         return false;
     void *memory = pool_take(p, bytes);
     memset(memory, 0xa5, bytes);
+    if (desc->display_buffers)
+        r->shown = pool_take(p, pitch_of(desc) * rows_of(desc, desc->height));
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY);
     return smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK;
 }
@@ -370,19 +409,22 @@ static bool rig_open(struct rig *r, struct pool *p, const smear_desc *desc, bool
 /* Returns what smear_render returned; frames that are refused are no failure. */
 static int rig_frame(struct rig *r, const struct scene *scene)
 {
-    r->next_row = r->band = 0;
+    r->next_row = r->band = r->next_column = 0;
     r->sum = 0x811c9dc5u;
     if (smear_begin(r->ctx, &scene->frame) != SMEAR_OK)
         return SMEAR_ERR_ARG;
     for (int i = 0; i < scene->draws; i++)
         smear_submit(r->ctx, &scene->draw[i]);
-    return smear_render(r->ctx);
+    int result = smear_render(r->ctx);
+    for (size_t i = 0; r->shown != NULL && i < pitch_of(&r->desc) * rows_of(&r->desc, r->desc.height); i++)
+        r->sum = add_byte(r->sum, r->shown[i]);
+    return result;
 }
 
 static void filter_frame(struct rig *r, struct source *s, const struct scene *scene)
 {
     size_t w = (size_t)r->desc.width;
-    r->next_row = r->band = 0;
+    r->next_row = r->band = r->next_column = 0;
     r->fail_at = -1;
     if (smear_filter_begin(r->ctx, &scene->frame) != SMEAR_OK)
         return;
@@ -400,7 +442,7 @@ static void filter_frame(struct rig *r, struct source *s, const struct scene *sc
         }
         require(smear_filter_row(r->ctx, color, depth, velocity) == SMEAR_OK);
     }
-    require(r->next_row == r->desc.height);
+    require(r->shown != NULL || r->next_row == r->desc.height);
     free(color);
     free(depth);
     free(velocity);
@@ -424,8 +466,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (desc.scatter && desc.tile != 0)
             desc.reach = (int16_t)(desc.reach * 2 <= 64 ? desc.reach * 2 : 64);
     }
+    const uint8_t keeps = desc.timed ? take(s) & 3 : 0;
+    desc.display_buffers = keeps & 1;
+    desc.keep_still = keeps >> 1;
     bool open = rig_open(&rig, &pool, &desc, kind & 2);
-    /* The same picture from another context: more room, other cuts. */
+    /* The same picture from another context: more room, other cuts, all drawn and sent. */
+    desc.display_buffers = desc.keep_still = 0;
     desc.max_triangles = 3000;
     desc.vertex_cache = 256;
     if (desc.sharp && !desc.timed)
@@ -440,16 +486,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         take_camera(s, &scene.camera[i]);
     take_draws(s, &scene);
 
-    int frames = take_range(s, 1, 4);
+    int frames = take_range(s, 1, keeps != 0 ? 8 : 4);
     for (int k = 0; k < frames && open; k++) {
         int method = take_range(s, SMEAR_DEFAULT_METHOD, desc.timed ? SMEAR_AUTO : SMEAR_RECONSTRUCT);
         if (!desc.sharp && take_chance(s, 3))
             method = SMEAR_CAMERA + take(s) % 3;
-        take_frame(s, &scene, method);
+        if (keeps == 0 || k == 0 || take_chance(s, 3))
+            take_frame(s, &scene, method);
+        if (keeps != 0 && take_chance(s, 2))        /* one moves on, or stops: the rest stands still */
+            scene.pose[take(s) % DRAWS][0].origin[take(s) % 3] += (int32_t)take_word(s) >> 12;
         rig.fail_at = kind & 4 ? take(s) % 4 : -1;
         int result = rig_frame(&rig, &scene);
         require(result == SMEAR_ERR_ARG || result == SMEAR_OK || (result == -42 && rig.fail_at >= 0));
-        require(result != SMEAR_OK || rig.next_row == rig.desc.height);
+        require(result != SMEAR_OK || rig.shown != NULL || rig.next_row == rig.desc.height);
         if (compare) {
             smear_stats a, b;
             int other = rig_frame(&ample, &scene);
@@ -457,7 +506,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             smear_get_stats(rig.ctx, &a);
             smear_get_stats(ample.ctx, &b);
             if (result == SMEAR_OK && a.triangles_dropped == 0 && b.triangles_dropped == 0)
-                require(rig.sum == ample.sum && a.crc32 == b.crc32);
+                require(rig.sum == ample.sum && (rig.shown != NULL || a.crc32 == b.crc32));
         }
         if (kind & 8)
             filter_frame(&rig, s, &scene);

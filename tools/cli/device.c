@@ -20,27 +20,6 @@ static uint32_t clock_ticks(void *user)
                       (uint64_t)now.tv_nsec * DEVICE_TICKS_PER_US / 1000u);
 }
 
-/* Bands of whole tile rows, so that pages of 8 rows never straddle two. */
-static int take_band(void *user, const smear_band *band)
-{
-    struct device *device = user;
-    size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
-    if (!device->is_timed)
-        memcpy(device->pixels + row * device->stride, band->pixels, band->size);
-    if (device->setup.band != NULL)
-        device->setup.band(device->setup.band_user, band);
-    return 0;
-}
-
-static void inspect_row(void *user, int y, const uint32_t *color, const uint16_t *depth,
-                        const int32_t *velocity)
-{
-    const struct device *device = user;
-    device->setup.inspect(device->setup.inspect_user, y, color, depth, velocity);
-}
-
-/* ------------------------------------------------------------------ room */
-
 static size_t bytes_per_row(int width, smear_format format)
 {
     size_t w = (size_t)width;
@@ -54,6 +33,29 @@ static size_t bytes_per_row(int width, smear_format format)
     default: return w;
     }
 }
+
+/* Bands of whole tiles, so that pages of 8 rows never straddle two, nor bytes of several pixels. */
+static int take_band(void *user, const smear_band *band)
+{
+    struct device *device = user;
+    size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
+    uint8_t *to = device->pixels + row * device->stride + bytes_per_row(band->x, (smear_format)device->desc.format);
+    const uint8_t *from = band->pixels;
+    for (uint32_t done = 0; !device->is_timed && done < band->size; done += band->stride, to += device->stride)
+        memcpy(to, from + done, band->stride);
+    if (device->setup.band != NULL)
+        device->setup.band(device->setup.band_user, band);
+    return 0;
+}
+
+static void inspect_row(void *user, int y, const uint32_t *color, const uint16_t *depth,
+                        const int32_t *velocity)
+{
+    const struct device *device = user;
+    device->setup.inspect(device->setup.inspect_user, y, color, depth, velocity);
+}
+
+/* ------------------------------------------------------------------ room */
 
 bool device_open(struct device *device, const struct device_setup *setup, struct failure *f)
 {
@@ -99,6 +101,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.layers = s->layers;
     desc.scatter = s->scatter;
     desc.keep_still = s->keep_still;
+    desc.display_buffers = s->keep_display;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;
@@ -206,9 +209,8 @@ bool device_draw(struct device *device, const struct presented *presented, struc
     if (!use_crc(device, true, f))
         return false;
     for (;;) {
-        uint32_t ticks;
         smear_stats stats;
-        if (!draw(device, presented, &ticks, f))
+        if (!draw(device, presented, &device->submit_ticks, f))
             return false;
         smear_get_stats(device->ctx, &stats);
         smear_desc larger = device->desc;
@@ -220,13 +222,19 @@ bool device_draw(struct device *device, const struct presented *presented, struc
     }
 }
 
+/* What is kept from frame to frame would be lost in another context, and drawn again there is less to draw. */
+static bool is_drawn_once(const struct device *device)
+{
+    return device->desc.keep_still || device->desc.display_buffers != 0;
+}
+
 bool device_time(struct device *device, const struct presented *presented,
                  struct device_times *times, struct failure *f)
 {
-    uint32_t ticks;
+    uint32_t ticks = device->submit_ticks;
     smear_stats stats;
     device->is_timed = true;
-    if (!use_crc(device, false, f) || !draw(device, presented, &ticks, f))
+    if (!is_drawn_once(device) && (!use_crc(device, false, f) || !draw(device, presented, &ticks, f)))
         return false;
     smear_get_stats(device->ctx, &stats);
     *times = (struct device_times){ .submit = (double)stats.time_submit + ticks,
@@ -234,6 +242,20 @@ bool device_time(struct device *device, const struct presented *presented,
                                     .blur = stats.time_blur, .convert = stats.time_convert,
                                     .total = (double)stats.time_total + ticks };
     return true;
+}
+
+uint32_t device_crc(const struct device *device)
+{
+    uint32_t crc = 0;
+    if (device->desc.format != SMEAR_XRGB8888)
+        return crc32_update(crc, device->pixels, device->size);
+    for (size_t i = 0; i < device->size; i += 4) {
+        uint32_t pixel;
+        memcpy(&pixel, device->pixels + i, sizeof pixel);
+        const uint8_t rgb[3] = { (uint8_t)(pixel >> 16), (uint8_t)(pixel >> 8), (uint8_t)pixel };
+        crc = crc32_update(crc, rgb, sizeof rgb);
+    }
+    return crc;
 }
 
 /* A frame without motion goes through the filter unchanged, into the display's format. */

@@ -17,7 +17,7 @@ struct device_setup {
     int width, height, reach, tile;     /* reach and tile: 0 for the library's defaults */
     smear_format format;
     smear_dither dither;
-    bool sharp, accumulate, timed, layers, scatter, keep_still;
+    bool sharp, accumulate, timed, layers, scatter, keep_still, keep_display;
     int threads;                        /* 1..8 */
     size_t arena;                       /* bytes there are; 0: as many as it takes */
     uint32_t max_triangles;             /* 0: enough for every frame */
@@ -43,6 +43,7 @@ struct device {
     size_t memory_bytes;
     struct crew *crew;                  /* the other threads; null for one thread */
     bool is_timed;                      /* bands are thrown away */
+    uint32_t submit_ticks;              /* of the frame drawn last */
     uint8_t *pixels;                    /* the frame in the display's format, row after row */
     size_t stride, size;                /* bytes; of a page of 8 rows with SMEAR_L1_PAGES */
 };
@@ -58,11 +59,15 @@ void device_close(struct device *device);
  * where the list of triangles is cut short instead. */
 bool device_fit(struct device *device, const struct presented *presented, struct failure *f);
 
+/* Of device->pixels, as smear_stats.crc32. */
+uint32_t device_crc(const struct device *device);
+
 /* Draws a frame into device->pixels. With neither an arena nor a limit of triangles, memory grows
  * until the frame is drawn in one part. */
 bool device_draw(struct device *device, const struct presented *presented, struct failure *f);
 
-/* Draws the same frame again for its times alone: nothing is copied and no CRC is taken. */
+/* Draws the same frame again for its times alone: nothing is copied and no CRC is taken. Where something is kept from
+ * frame to frame, the times are those of the frame as it was drawn, its CRC among them. */
 bool device_time(struct device *device, const struct presented *presented,
                  struct device_times *times, struct failure *f);
 

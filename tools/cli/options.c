@@ -178,6 +178,13 @@ static const char *read_keep_still(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_keep_display(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->keep_display = true;
+    return NULL;
+}
+
 static bool read_departure(void *to, const char *name, const char *value)
 {
     static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
@@ -389,6 +396,7 @@ static const struct option table[] = {
     { "--weights", true, read_weights },
     { "--budget", true, read_budget },
     { "--keep-still", false, read_keep_still },
+    { "--keep-display", false, read_keep_display },
     { "--scatter", false, read_scatter },
     { "--scale", true, read_scale },
     { "--quality", true, read_quality },
@@ -457,6 +465,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--budget", "goes with --method auto");
     if (o->keep_still && !smear_method_is_timed(o->method))
         return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
+    if (o->keep_display && !smear_method_is_timed(o->method))
+        return say_bad_usage("--keep-display", "goes with --method auto, subframes and timemask");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (o->mask != NULL && o->method != SMEAR_OBJECT && o->method != SMEAR_LAYERED)

@@ -102,6 +102,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .timed = is_timed_method(o), .layers = is_layered_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
         .keep_still = o->keep_still && is_timed_method(o),
+        .keep_display = o->keep_display && is_timed_method(o),
         .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };
 }

@@ -71,7 +71,8 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             c->triangles_in, c->triangles_drawn, c->triangles_dropped, c->triangles_split);
     fprintf(s->stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
     fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
-            ",\"complex\":%" PRIu32 "},\n", c->tiles_still, c->tiles_uniform, c->tiles_complex);
+            ",\"complex\":%" PRIu32 ",\"kept\":%" PRIu32 "},\n",
+            c->tiles_still, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
     fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
             ",\"reconstruct\":%" PRIu32 ",\"smooth\":%" PRIu32 ",\"subframes\":%" PRIu32
             ",\"timemask\":%" PRIu32 ",\"camera\":%" PRIu32 ",\"pingpong\":%" PRIu32 ",\"half\":%" PRIu32
