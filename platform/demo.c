@@ -131,6 +131,31 @@ static void print_row(const char *name, struct sum s, uint32_t pixels)
     platform_print(" per pixel\n");
 }
 
+/* Frames in which more than half of the tiles move, as the camera does, or not. */
+struct shot {
+    uint32_t frames, thousands, moving, tiles;
+};
+
+static void add_frame(struct shot *s, uint32_t count, uint32_t moving, uint32_t tiles)
+{
+    s->frames++;
+    s->thousands += (count + 500) / 1000;
+    s->moving += moving;
+    s->tiles += tiles;
+}
+
+static void print_shot(const char *name, const struct shot *s, uint32_t pixels)
+{
+    if (s->frames == 0)
+        return;
+    print_row(name, (struct sum){ s->thousands / s->frames * 1000, s->thousands % s->frames * 1000, s->frames }, pixels);
+    platform_print("          in ");
+    print_decimal(s->frames);
+    platform_print(" frames, of whose tiles move ");
+    print_decimal(s->moving * 100 / s->tiles);
+    platform_print(" %\n");
+}
+
 /* Means over every stepth frame of the loop, from the middle of the first step on. Where the display keeps what it
  * is sent, frames before those are drawn, too, and not counted. */
 static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step)
@@ -139,6 +164,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     smear_stats stats;
     struct sum total = { 0, 0, DEMO_LOOP / step }, submit = total, raster = total, blur = total,
                convert = total;
+    struct shot shot[2] = { { 0, 0, 0, 0 }, { 0, 0, 0, 0 } };
     uint32_t worst = 0;
     uint32_t moving = 0, kept = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
@@ -163,9 +189,11 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
         add(&raster, platform_clock_count(stats.time_raster));
         add(&blur, platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce));
         add(&convert, platform_clock_count(stats.time_convert));
-        moving += stats.tiles_uniform + stats.tiles_complex;
+        const uint32_t there = stats.tiles_uniform + stats.tiles_complex, all = stats.tiles_still + there;
+        add_frame(&shot[2 * there > all], count, there, all);
+        moving += there;
         kept += stats.tiles_kept;
-        tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
+        tiles += all;
         triangles = stats.triangles_in;
         drawn += stats.triangles_drawn;
         split += stats.triangles_split;
@@ -185,6 +213,8 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     print_row(" raster  ", raster, pixels);
     print_row(" blur    ", blur, pixels);
     print_row(" convert ", convert, pixels);
+    print_shot("camera   ", &shot[1], pixels);
+    print_shot("objects  ", &shot[0], pixels);
     platform_print("worst    ");
     print_decimal(worst);
     platform_print("\ntiles moving ");
