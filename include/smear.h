@@ -80,6 +80,9 @@ typedef struct smear_mesh {
     uint8_t  uv_shift;          /* 0..15; 0 means 15 */
     int32_t  scale;             /* > 0; 0 means 1 */
     int32_t  offset[3];         /* in vertex steps, +-2^20 */
+    int16_t  bounds[6];         /* least x y z and most of all positions: draws whose bounds lie beyond a side of the
+                                 * view cost next to nothing; where positions differ from pose to pose they count for
+                                 * nothing. All 0: not known. smear_mesh_find_bounds */
 } smear_mesh;
 
 typedef enum smear_texel_format {
@@ -452,6 +455,8 @@ typedef struct smear_stats {
     uint32_t work;                      /* with a budget: areas of moving triangles x instants, saturated */
     uint32_t still_kept;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
                                          * desc.keep_still */
+    uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
+                                         * in parts, once per part */
     uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.display_buffers) */
 } smear_stats;
 
@@ -466,6 +471,9 @@ size_t smear_memory_size(const smear_desc *desc);
 #define SMEAR_MEMORY_SIZE(width, height, reach, triangles, draws) \
     SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, \
         ((reach) <= 8 ? 8 : (reach) <= 16 ? 16 : (reach) <= 32 ? 32 : 64))
+
+/* Finds mesh->bounds: once, where a mesh is made that brings none. Goes through all positions. */
+void smear_mesh_find_bounds(smear_mesh *mesh);
 
 /* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The
  * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. SMEAR_ERR_ARG

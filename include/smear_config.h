@@ -79,6 +79,9 @@
 #ifndef SMEAR_WITH_SCALES               /* turn_scale, way_scale, object_scale */
 #define SMEAR_WITH_SCALES SMEAR_WITH_ALL
 #endif
+#ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds */
+#define SMEAR_WITH_BOUNDS SMEAR_WITH_ALL
+#endif
 #ifndef SMEAR_WITH_SHUTTER_MODES        /* shutter_us, and shutters at another rate than the frames' */
 #define SMEAR_WITH_SHUTTER_MODES SMEAR_WITH_ALL
 #endif

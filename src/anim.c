@@ -468,6 +468,7 @@ int smear_actor_draw(smear_actor *a, int index, smear_draw *draw)
         return SMEAR_OK;
     smear_mesh *mesh = a->mesh + d->deformed;
     mesh->position = a->pose[SMEAR_POSE_NOW].position + 3 * d->vertex_first;
+    __builtin_memset(mesh->bounds, 0, sizeof mesh->bounds);
     draw->mesh = mesh;
     if (has_open)
         draw->open_position = a->pose[SMEAR_POSE_OPEN].position + 3 * d->vertex_first;

@@ -318,9 +318,9 @@ static void add_pose(struct smear_assembly *a, const struct smear_context *c, st
     a->rest[i] = both[1];
 }
 
-/* Everything the assembler needs of draw `i`, for the given instant. */
-static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
-                          struct smear_assembly *a)
+/* Everything the assembler needs of draw `i`, for the given instant. False where nothing of it is in view. */
+static SMEAR_NOINLINE bool make_assembly(struct smear_context *c, uint32_t i, const struct instant *instant,
+                                         struct smear_assembly *a)
 {
     static const smear_material plain = { 0 };
     const struct smear_submitted *s = &c->submitted[i];
@@ -332,33 +332,37 @@ static SMEAR_NOINLINE void make_assembly(struct smear_context *c, uint32_t i, co
     a->mirrored = is_mirrored(poses.object[0]);
     a->moves = 0;
     a->path = a->fixed = a->has_rest = false;
-    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
-                       SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
-
-#if SMEAR_LEVELS
-    /* In linear light, colours that are interpolated may round to other codes. */
-    a->level = a->material->alpha == SMEAR_OPAQUE
-            && !shading_is_linear(&a->shading) && smear_record_is_level(a->mesh, a->shading.lit);
-#endif
 
     bool moves = pose_differs(&poses, 1) || pose_differs(&poses, 2);
     place(&a->at, c, &poses, a->mesh, moves ? instant : &sharp_instant);
-    if (!moves)
-        return;
-    if (SMEAR_WITH_SUBFRAMES && c->assembler.keep_paths) {
+    if (SMEAR_WITH_SUBFRAMES && moves && c->assembler.keep_paths) {
         struct instant open = instant_at(c, -65536), close = instant_at(c, 65536);
         a->path = true;
         place(&a->key[0], c, &poses, a->mesh, &open);
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
+    /* Layers reach beyond the frame. */
+    if (SMEAR_WITH_BOUNDS && !has_layers(c) && smear_record_is_beside(a, &c->assembler.viewport))
+        return false;
+
+    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
+                       SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR);
+#if SMEAR_LEVELS
+    /* In linear light, colours that are interpolated may round to other codes. */
+    a->level = a->material->alpha == SMEAR_OPAQUE
+            && !shading_is_linear(&a->shading) && smear_record_is_level(a->mesh, a->shading.lit);
+#endif
+    if (!moves)
+        return true;
     a->fixed = c->raster_draw[i].fixed;
     if (!SMEAR_WITH_RECONSTRUCT || !c->assembler.keep_motion || !c->raster_draw[i].moves)
-        return;
+        return true;
     /* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the
      * later pose itself, one further pose is enough. */
     add_pose(a, c, &poses, 1);
     if (c->frame.shutter_poses || instant->weight[0] != 1 << 24)
         add_pose(a, c, &poses, c->frame.shutter_poses ? 2 : 0);
+    return true;
 }
 
 /* ------------------------------------------------------------------ assembling */
@@ -393,7 +397,11 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
         if (has_layers(c))
             c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
         const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
-        make_assembly(c, i, is_sharp ? &sharp_instant : instant, &a);
+        const bool is_in_view = make_assembly(c, i, is_sharp ? &sharp_instant : instant, &a);
+        if (SMEAR_WITH_BOUNDS && !is_in_view) {
+            c->stats.draws_beside++;
+            continue;
+        }
         if (group != NULL ? !smear_layers_assemble(c, &a, drop)
                           : !(SMEAR_WITH_SUBFRAMES && a.path ? smear_assemble_path(as, &a, drop)
                                                              : smear_assemble(as, &a, drop)))

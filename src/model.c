@@ -397,7 +397,7 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
         for (int k = 0; k < 4; k++)
             m->color[k] = material->color[k];
     }
-    for (uint32_t i = 0; i < blob_count(b, BLOB_MESH); i++, mesh++)
+    for (uint32_t i = 0; i < blob_count(b, BLOB_MESH); i++, mesh++) {
         t->mesh[i] = (smear_mesh){
             .position = blob_at(b, mesh->position), .normal = blob_at(b, mesh->normal),
             .uv = blob_at(b, mesh->uv), .color = blob_at(b, mesh->color),
@@ -406,6 +406,8 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
             .vertex_count = mesh->vertex_count, .shift = mesh->shift, .uv_shift = mesh->uv_shift,
             .scale = mesh->scale, .offset = { mesh->offset[0], mesh->offset[1], mesh->offset[2] }
         };
+        smear_mesh_find_bounds(&t->mesh[i]);
+    }
 }
 
 int smear_model_open(smear_model *model, const void *blob, size_t bytes, void *memory, size_t memory_bytes)

@@ -19,6 +19,33 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
     }
 }
 
+/* Of `sides` those that all corners of the mesh's bounds lie beyond. All that is between corners does, too: before
+ * they are divided by w, places are sums of theirs. */
+static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport,
+                        int sides)
+{
+    if (p->extra_count != 0 || p->position != m->position)
+        return 0;
+    for (int i = 0; i < 8 && sides != 0; i++) {
+        const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
+        struct smear_homogeneous h;
+        smear_transform_vertex(&h, &p->now, corner);
+        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.near_distance ? OUT_NEAR : 0);
+    }
+    return sides;
+}
+
+bool smear_record_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
+{
+    const int16_t *b = d->mesh->bounds;
+    if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0)
+        return false;
+    int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT & ~OUT_FAR);
+    for (int i = 0; SMEAR_WITH_SUBFRAMES && d->path && i < 2; i++)
+        sides = sides_beside(&d->key[i], d->mesh, viewport, sides);
+    return sides != 0;
+}
+
 struct smear_segment *smear_record_segment(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct smear_segment *s = smear_geometry_open(a->geometry);

@@ -147,6 +147,9 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
     return h->distance > p->now.far_distance ? code | OUT_FAR : code;
 }
 
+/* The bounds of the mesh lie beyond one side of the view wherever the assembly has it. */
+bool smear_record_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
+
 /* ------------------------------------------------------------------ records */
 
 static inline uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)

@@ -274,6 +274,26 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
 
+#if SMEAR_WITH_BOUNDS
+void smear_mesh_find_bounds(smear_mesh *mesh)
+{
+    int16_t *b = mesh->bounds;
+    for (int k = 0; k < 3; k++)
+        b[k] = b[k + 3] = mesh->vertex_count != 0 ? mesh->position[k] : 0;
+    for (uint32_t i = 3; i < mesh->vertex_count * 3u; i += 3)
+        for (uint32_t k = 0; k < 3; k++) {
+            const int16_t p = mesh->position[i + k];
+            b[k] = p < b[k] ? p : b[k];
+            b[k + 3] = p > b[k + 3] ? p : b[k + 3];
+        }
+}
+#else
+void smear_mesh_find_bounds(smear_mesh *mesh)
+{
+    (void)mesh;
+}
+#endif
+
 size_t smear_memory_size(const smear_desc *desc)
 {
     if (desc == NULL)

@@ -55,6 +55,8 @@ static void mix_mesh(uint32_t h[2], const smear_mesh *m)
     mix(h, (uint32_t)m->vertex_count << 16 | (uint32_t)(uint8_t)m->shift << 8 | m->uv_shift);
     mix(h, (uint32_t)m->scale);
     mix_words(h, m->offset, 3);
+    for (int i = 0; i < 6; i++)
+        mix(h, (uint32_t)m->bounds[i]);
 }
 
 static void mix_texture(uint32_t h[2], const smear_texture *t)

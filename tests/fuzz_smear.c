@@ -496,11 +496,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (keeps != 0 && take_chance(s, 2))        /* one moves on, or stops: the rest stands still */
             scene.pose[take(s) % DRAWS][0].origin[take(s) % 3] += (int32_t)take_word(s) >> 12;
         rig.fail_at = kind & 4 ? take(s) % 4 : -1;
+        for (int i = 0; i < MESHES; i++)        /* of which the other context knows nothing */
+            smear_mesh_find_bounds(&scene.mesh[i]);
         int result = rig_frame(&rig, &scene);
         require(result == SMEAR_ERR_ARG || result == SMEAR_OK || (result == -42 && rig.fail_at >= 0));
         require(result != SMEAR_OK || rig.shown != NULL || rig.next_row == rig.desc.height);
         if (compare) {
             smear_stats a, b;
+            for (int i = 0; i < MESHES; i++)
+                memset(scene.mesh[i].bounds, 0, sizeof scene.mesh[i].bounds);
             int other = rig_frame(&ample, &scene);
             require((other == SMEAR_ERR_ARG) == (result == SMEAR_ERR_ARG));
             smear_get_stats(rig.ctx, &a);

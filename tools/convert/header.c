@@ -188,7 +188,10 @@ static void put_meshes(struct header_writer *w)
         put(w, "%" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
             mesh->shift, mesh->uv_shift, mesh->scale);
         put_words(w, mesh->offset, 3);
-        put(w, " } },\n");
+        smear_mesh bounded = *mesh;
+        smear_mesh_find_bounds(&bounded);
+        const int16_t *b = bounded.bounds;
+        put(w, " }, { %d, %d, %d, %d, %d, %d } },\n", b[0], b[1], b[2], b[3], b[4], b[5]);
     }
     close_table(w);
 }

@@ -319,6 +319,12 @@ static int mesh(struct tape_writer *w, const smear_mesh *m)
     add_field(&text, "scale", m->scale);
     if (m->offset[0] != 0 || m->offset[1] != 0 || m->offset[2] != 0)
         add_int32s(&text, "offset", m->offset, 3);
+    smear_mesh bounded = *m;
+    smear_mesh_find_bounds(&bounded);
+    int32_t bounds[6];
+    for (int i = 0; i < 6; i++)
+        bounds[i] = bounded.bounds[i];
+    add_int32s(&text, "bounds", bounds, 6);
     add(&text, "}");
     return object(w, "smear_mesh", false, &text);
 }
