@@ -206,7 +206,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
                                  (uint8_t)(columns - 1), (uint8_t)w->tile_shift, false, NULL };
         c->still = arena_take(a, 1, sizeof *c->still);
         if (c->still != NULL)       /* not only measured */
-            *c->still = (struct smear_still){ .keeps = d->keep_still, .due = due, .seen = seen };
+            *c->still = (struct smear_still){ .keeps = keeps_still(d), .due = due, .seen = seen };
     }
     if (is_layered(d)) {
         struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);
