@@ -3,6 +3,7 @@
 #include "device.h"
 
 #include "crew.h"
+#include "picture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,29 +21,11 @@ static uint32_t clock_ticks(void *user)
                       (uint64_t)now.tv_nsec * DEVICE_TICKS_PER_US / 1000u);
 }
 
-static size_t bytes_per_row(int width, smear_format format)
-{
-    size_t w = (size_t)width;
-    switch (format) {
-    case SMEAR_XRGB8888: return w * 4;
-    case SMEAR_RGB565:
-    case SMEAR_RGB565_SWAPPED:
-    case SMEAR_RGB555: return w * 2;
-    case SMEAR_L4: return (w + 1) / 2;
-    case SMEAR_L1: return (w + 7) / 8;
-    default: return w;
-    }
-}
-
-/* Bands of whole tiles, so that pages of 8 rows never straddle two, nor bytes of several pixels. */
 static int take_band(void *user, const smear_band *band)
 {
     struct device *device = user;
-    size_t row = (size_t)band->y / (device->desc.format == SMEAR_L1_PAGES ? 8 : 1);
-    uint8_t *to = device->pixels + row * device->stride + bytes_per_row(band->x, (smear_format)device->desc.format);
-    const uint8_t *from = band->pixels;
-    for (uint32_t done = 0; !device->is_timed && done < band->size; done += band->stride, to += device->stride)
-        memcpy(to, from + done, band->stride);
+    if (!device->is_timed)
+        picture_put_band(device->pixels, device->stride, (smear_format)device->desc.format, band);
     if (device->setup.band != NULL)
         device->setup.band(device->setup.band_user, band);
     return 0;
@@ -61,7 +44,7 @@ bool device_open(struct device *device, const struct device_setup *setup, struct
 {
     *device = (struct device){ .setup = *setup };
     device->desc.format = (uint8_t)setup->format;
-    device->stride = bytes_per_row(setup->width, setup->format);
+    device->stride = picture_row_bytes(setup->width, setup->format);
     size_t rows = setup->format == SMEAR_L1_PAGES ? ((size_t)setup->height + 7) / 8
                                                   : (size_t)setup->height;
     device->size = device->stride * rows;
@@ -246,16 +229,7 @@ bool device_time(struct device *device, const struct presented *presented,
 
 uint32_t device_crc(const struct device *device)
 {
-    uint32_t crc = 0;
-    if (device->desc.format != SMEAR_XRGB8888)
-        return crc32_update(crc, device->pixels, device->size);
-    for (size_t i = 0; i < device->size; i += 4) {
-        uint32_t pixel;
-        memcpy(&pixel, device->pixels + i, sizeof pixel);
-        const uint8_t rgb[3] = { (uint8_t)(pixel >> 16), (uint8_t)(pixel >> 8), (uint8_t)pixel };
-        crc = crc32_update(crc, rgb, sizeof rgb);
-    }
-    return crc;
+    return picture_crc(device->pixels, device->size, (smear_format)device->desc.format);
 }
 
 /* A frame without motion goes through the filter unchanged, into the display's format. */

@@ -3,6 +3,45 @@
 #include "picture.h"
 
 #include <math.h>
+#include <string.h>
+
+size_t picture_row_bytes(int width, smear_format format)
+{
+    size_t w = (size_t)width;
+    switch (format) {
+    case SMEAR_XRGB8888: return w * 4;
+    case SMEAR_RGB565:
+    case SMEAR_RGB565_SWAPPED:
+    case SMEAR_RGB555: return w * 2;
+    case SMEAR_L4: return (w + 1) / 2;
+    case SMEAR_L1: return (w + 7) / 8;
+    default: return w;
+    }
+}
+
+void picture_put_band(uint8_t *pixels, size_t stride, smear_format format, const smear_band *band)
+{
+    /* Bands of whole tiles, so that pages of 8 rows never straddle two, nor bytes of several pixels. */
+    size_t row = (size_t)band->y / (format == SMEAR_L1_PAGES ? 8 : 1);
+    uint8_t *to = pixels + row * stride + picture_row_bytes(band->x, format);
+    const uint8_t *from = band->pixels;
+    for (uint32_t done = 0; done < band->size; done += band->stride, to += stride)
+        memcpy(to, from + done, band->stride);
+}
+
+uint32_t picture_crc(const uint8_t *pixels, size_t size, smear_format format)
+{
+    uint32_t crc = 0;
+    if (format != SMEAR_XRGB8888)
+        return crc32_update(crc, pixels, size);
+    for (size_t i = 0; i < size; i += 4) {
+        uint32_t pixel;
+        memcpy(&pixel, pixels + i, sizeof pixel);
+        const uint8_t rgb[3] = { (uint8_t)(pixel >> 16), (uint8_t)(pixel >> 8), (uint8_t)pixel };
+        crc = crc32_update(crc, rgb, sizeof rgb);
+    }
+    return crc;
+}
 
 static uint8_t expand(unsigned level, unsigned levels)
 {

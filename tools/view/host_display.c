@@ -39,10 +39,10 @@ static struct {
     smear_format format;
     bool has_two_bands;
     int width, height;
-    size_t stride;              /* bytes of a row, or of a page */
-    uint8_t *pixels;            /* the frame as the display has it */
+    size_t stride, size;        /* bytes of a row, or of a page; of the frame */
+    uint8_t *pixels;            /* the frame as the display has it, and keeps it */
+    bool has_frame;             /* something has been flushed */
     uint32_t *codes;
-    uint32_t crc32;
     struct panel_codes decoder;
     struct panel_look look;
     struct golden golden;
@@ -81,35 +81,11 @@ static void end(const char *what, const struct failure *why)
 
 /* ------------------------------------------------------------------ bands */
 
-static void add_crc(const smear_band *band)
-{
-    const uint8_t *bytes = band->pixels;
-    if (display.format != SMEAR_XRGB8888) {
-        display.crc32 = crc32_update(display.crc32, bytes, band->size);
-        return;
-    }
-    for (uint32_t i = 0; i < band->size / 4; i++) {
-        uint32_t p;
-        memcpy(&p, bytes + 4 * (size_t)i, 4);
-        const uint8_t rgb[3] = { (uint8_t)(p >> 16), (uint8_t)(p >> 8), (uint8_t)p };
-        display.crc32 = crc32_update(display.crc32, rgb, 3);
-    }
-}
-
 static int take_band(void *user, const smear_band *band)
 {
-    int row = display.format == SMEAR_L1_PAGES ? band->y / 8 : band->y;
-    int rows = display.format == SMEAR_L1_PAGES ? (display.height + 7) / 8 : display.height;
     (void)user;
-    if (display.stride != band->stride) {       /* known from the first band on */
-        free(display.pixels);
-        display.stride = band->stride;
-        display.pixels = calloc((size_t)rows, display.stride);
-    }
-    if (display.pixels == NULL)
-        return SMEAR_ERR_MEMORY;
-    memcpy(display.pixels + (size_t)row * display.stride, band->pixels, band->size);
-    add_crc(band);
+    picture_put_band(display.pixels, display.stride, display.format, band);
+    display.has_frame = true;
     if (display.has_two_bands)
         smear_band_done(display.ctx);
     return 0;
@@ -187,8 +163,11 @@ bool display_open(smear_desc *desc)
     display.period_us = fps > 0 ? 1e6 / (double)fps : 0.0;
     if (desc->width < 1 || desc->height < 1 || desc->width > MAX_EDGE || desc->height > MAX_EDGE)
         return false;
+    display.stride = picture_row_bytes(desc->width, display.format);
+    display.size = display.stride * (size_t)(display.format == SMEAR_L1_PAGES ? (desc->height + 7) / 8 : desc->height);
+    display.pixels = calloc(1, display.size);
     display.codes = calloc((size_t)desc->width * (size_t)desc->height, sizeof *display.codes);
-    if (display.codes == NULL || !panel_codes_open(&display.decoder, display.format, &f) ||
+    if (display.pixels == NULL || display.codes == NULL || !panel_codes_open(&display.decoder, display.format, &f) ||
         !open_files(&f, &what)) {
         say(what, &f);
         return false;
@@ -199,6 +178,8 @@ bool display_open(smear_desc *desc)
     }
     display.next_us = clock_us();
     display.has_two_bands = desc->bands == 2;
+    if (desc->display_buffers != 0)
+        desc->display_buffers = 1;
     desc->flush = take_band;
     return true;
 }
@@ -285,7 +266,8 @@ static void add_golden(struct failure *f)
         if (ok)
             picture_expand(&picture, display.pixels, display.stride, display.format);
     }
-    ok = ok && golden_add(&display.golden, display.frame, display.crc32, &picture, f);
+    ok = ok && golden_add(&display.golden, display.frame,
+                          picture_crc(display.pixels, display.size, display.format), &picture, f);
     image_free(&picture);
     if (!ok)
         end("SMEAR_CHECK", f);
@@ -311,11 +293,10 @@ void display_show(void)
 {
     struct failure f = { "" };
     double now = clock_us();
-    if (display.pixels == NULL)
+    if (!display.has_frame)
         return;                         /* nothing has been flushed yet */
     add_golden(&f);
     put(&f);
-    display.crc32 = 0;
     display.frame++;
     if (display.frames > 0 && display.frame >= display.frames)
         end(NULL, NULL);
