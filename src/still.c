@@ -11,80 +11,83 @@
 /* ------------------------------------------------------------------ hash */
 
 /* Two lanes, in each of which every step is a permutation of its state, and of the word. */
-static void mix(uint32_t h[2], uint32_t word)
+static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
 {
-    h[0] = (h[0] ^ word) * 0x85ebca6bu;
-    h[0] ^= h[0] >> 15;
-    h[1] = ((h[1] << 5 | h[1] >> 27) ^ word) * 0xc2b2ae35u;
-    h[1] ^= h[1] >> 13;
+    uint32_t h0 = h[0], h1 = h[1];
+    for (int i = 0; i < count; i++) {
+        h0 = (h0 ^ (uint32_t)word[i]) * 0x85ebca6bu;
+        h0 ^= h0 >> 15;
+        h1 = ((h1 << 5 | h1 >> 27) ^ (uint32_t)word[i]) * 0xc2b2ae35u;
+        h1 ^= h1 >> 13;
+    }
+    h[0] = h0;
+    h[1] = h1;
 }
 
-static void mix_pointer(uint32_t h[2], const void *p)
-{
-    const uint64_t place = (uintptr_t)p;
-    mix(h, (uint32_t)place);
-    if (sizeof p > 4)
-        mix(h, (uint32_t)(place >> 32));
-}
+/* A pointer as two words. */
+#define LOW(p) ((int32_t)(uint32_t)(uintptr_t)(p))
+#define HIGH(p) ((int32_t)(uint32_t)((uint64_t)(uintptr_t)(p) >> 32))
 
-static void mix_words(uint32_t h[2], const int32_t *word, int count)
+static int32_t bytes(int a, int b, int c, int d)
 {
-    for (int i = 0; i < count; i++)
-        mix(h, (uint32_t)word[i]);
+    return (int32_t)((uint32_t)a << 24 | (uint32_t)b << 16 | (uint32_t)c << 8 | (uint32_t)d);
 }
 
 static void mix_transform(uint32_t h[2], const smear_transform *t)
 {
-    mix_words(h, t->basis, 9);
-    mix_words(h, t->origin, 3);
-}
-
-static void mix_camera(uint32_t h[2], const smear_camera *c)
-{
-    mix_transform(h, &c->pose);
-    const int32_t lens[4] = { c->focal, c->half_height, c->near_plane, c->far_plane };
-    mix_words(h, lens, 4);
+    mix(h, t->basis, 9);
+    mix(h, t->origin, 3);
 }
 
 static void mix_mesh(uint32_t h[2], const smear_mesh *m)
 {
     const void *const part[6] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
-    for (int i = 0; i < 6; i++)
-        mix_pointer(h, part[i]);
-    mix(h, m->triangle_count);
-    mix(h, (uint32_t)m->vertex_count << 16 | (uint32_t)(uint8_t)m->shift << 8 | m->uv_shift);
-    mix(h, (uint32_t)m->scale);
-    mix_words(h, m->offset, 3);
-    for (int i = 0; i < 6; i++)
-        mix(h, (uint32_t)m->bounds[i]);
-}
-
-static void mix_texture(uint32_t h[2], const smear_texture *t)
-{
-    mix_pointer(h, t->texels);
-    mix_pointer(h, t->palette);
-    mix(h, (uint32_t)t->width << 16 | t->height);
-    mix(h, (uint32_t)t->format << 16 | (uint32_t)t->wrap_u << 8 | t->wrap_v);
+    int32_t word[24];
+    for (int i = 0; i < 6; i++) {
+        word[2 * i] = LOW(part[i]);
+        word[2 * i + 1] = HIGH(part[i]);
+        word[12 + i] = m->bounds[i];
+    }
+    word[18] = (int32_t)m->triangle_count;
+    word[19] = bytes(m->vertex_count >> 8, m->vertex_count & 255, (uint8_t)m->shift, m->uv_shift);
+    word[20] = m->scale;
+    for (int i = 0; i < 3; i++)
+        word[21 + i] = m->offset[i];
+    mix(h, word, 24);
 }
 
 static void mix_material(uint32_t h[2], const smear_material *m)
 {
-    const uint8_t *color = m->color;
-    mix(h, (uint32_t)color[0] << 24 | (uint32_t)color[1] << 16 | (uint32_t)color[2] << 8 | color[3]);
-    mix(h, (uint32_t)m->alpha << 24 | (uint32_t)m->cutoff << 16 | (uint32_t)m->unlit << 2
-               | (uint32_t)m->double_sided << 1 | m->bilinear);
-    mix(h, m->texture != NULL);
-    if (m->texture != NULL)
-        mix_texture(h, m->texture);
+    static const smear_texture none = { 0 };
+    const smear_texture *t = m->texture != NULL ? m->texture : &none;
+    const int32_t word[] = {
+        bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
+        bytes(m->alpha, m->cutoff, m->unlit, m->double_sided << 1 | m->bilinear),
+        LOW(t->texels), HIGH(t->texels), LOW(t->palette), HIGH(t->palette),
+        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(0, t->format, t->wrap_u, t->wrap_v)
+    };
+    mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
+/* As much of a draw as its picture depends on. */
 static void mix_draw(uint32_t h[2], const smear_draw *d)
 {
+    const int32_t look = (int32_t)d->billboard << 1 | (d->material != NULL);
     mix_mesh(h, d->mesh);
     mix_transform(h, d->now != NULL ? d->now : &smear_identity);
-    mix(h, (uint32_t)d->billboard << 1 | (d->material != NULL));
+    mix(h, &look, 1);
     if (d->material != NULL)
         mix_material(h, d->material);
+}
+
+/* And of a frame. */
+static void mix_frame(uint32_t h[2], const struct smear_context *c)
+{
+    const smear_camera *camera = &c->camera;
+    const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane,
+                             (int32_t)(c->frame.clear << 8 | c->frame.light) };
+    mix_transform(h, &camera->pose);
+    mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -95,8 +98,7 @@ void smear_still_begin(struct smear_context *c)
     if (s == NULL)
         return;
     uint32_t scene[2] = { 0, 0 };
-    mix_camera(scene, &c->camera);
-    mix(scene, c->frame.clear << 8 | c->frame.light);
+    mix_frame(scene, c);
     for (uint32_t i = 0; i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)
             mix_draw(scene, &c->submitted[i].draw);
