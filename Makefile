@@ -196,7 +196,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim api budget clip convert convert_tool fixed fixmath geometry jobs light matrix motion path present raster still \
+SAN_SUITES := $(filter anim api bounds budget clip convert convert_tool fixed fixmath geometry jobs light matrix motion path present raster still \
               subframes texture tilemax timemask transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
