@@ -25,8 +25,15 @@ static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
 }
 
 /* A pointer as two words. */
-#define LOW(p) ((int32_t)(uint32_t)(uintptr_t)(p))
-#define HIGH(p) ((int32_t)(uint32_t)((uint64_t)(uintptr_t)(p) >> 32))
+static int32_t low(const void *p)
+{
+    return (int32_t)(uint32_t)(uintptr_t)p;
+}
+
+static int32_t high(const void *p)
+{
+    return (int32_t)(uint32_t)((uint64_t)(uintptr_t)p >> 32);
+}
 
 static int32_t bytes(int a, int b, int c, int d)
 {
@@ -44,8 +51,8 @@ static void mix_mesh(uint32_t h[2], const smear_mesh *m)
     const void *const part[6] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
     int32_t word[24];
     for (int i = 0; i < 6; i++) {
-        word[2 * i] = LOW(part[i]);
-        word[2 * i + 1] = HIGH(part[i]);
+        word[2 * i] = low(part[i]);
+        word[2 * i + 1] = high(part[i]);
         word[12 + i] = m->bounds[i];
     }
     word[18] = (int32_t)m->triangle_count;
@@ -63,7 +70,7 @@ static void mix_material(uint32_t h[2], const smear_material *m)
     const int32_t word[] = {
         bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
         bytes(m->alpha, m->cutoff, m->unlit, m->double_sided << 1 | m->bilinear),
-        LOW(t->texels), HIGH(t->texels), LOW(t->palette), HIGH(t->palette),
+        low(t->texels), high(t->texels), low(t->palette), high(t->palette),
         (int32_t)((uint32_t)t->width << 16 | t->height), bytes(0, t->format, t->wrap_u, t->wrap_v)
     };
     mix(h, word, (int)(sizeof word / sizeof *word));
