@@ -31,16 +31,10 @@ $(error no TARGET=$(TARGET): make help lists them)
 endif
 include platform/$(TARGET)/target.mk
 
-# The library, bottom layer first: a file includes only headers of layers above its own. `make layers` checks it.
-LAYERS := base vector fixed noise tables fixmath pixel arena matrix arc reproject transform light clip geometry path shutter record \
-          tiny assemble assemble_path texture target mover setup course span rows rows_shade velocity raster subframes timemask_cover \
-          timemask_shade timemask_slots timemask_spread timemask choose layer object layered window camera half tilemax blur \
-          blur_uniform blur_reconstruct \
-          blur_weights pingpong convert jobs context \
-          band still timed layers frame smear
-# The optional module that opens and plays models; a firmware that does not call it does not link it.
-LAYERS += blob model skin anim
-LIB_SRC := $(wildcard $(LAYERS:%=src/%.c))
+# The library's rooms, the lowest first: a file includes only what lies in its own room or in those before it
+# (`make layers` checks it). Above them all: frame.c, smear.c.
+ROOMS   := base geometry raster filter ports display temporal layers model
+LIB_SRC := $(wildcard $(ROOMS:%=src/%/*.c) src/*.c)
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
@@ -142,11 +136,11 @@ readme-pictures: $(BIN)/smear-demo
 
 ## files of src/ include only what lies above them
 layers:
-	sh tests/layers.sh $(LAYERS)
+	sh tests/layers.sh $(ROOMS)
 
-## writes src/tables.c again
+## writes src/base/tables.c again
 tables: build/gentables
-	build/gentables > build/tables.c && mv build/tables.c src/tables.c
+	build/gentables > build/tables.c && mv build/tables.c src/base/tables.c
 
 build/gentables: tools/gentables.c
 	@mkdir -p $(@D)
@@ -162,7 +156,7 @@ dist-test: dist build/tapes/golden.c
 
 ## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
 dist: build/dist-single
-	sh tools/dist/dist.sh $< build/dist $(LAYERS)
+	sh tools/dist/dist.sh $< build/dist $(ROOMS)
 
 build/dist-single: tools/dist/single.c
 	@mkdir -p $(@D)
@@ -194,9 +188,9 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter anim clip convert fixed fixmath geometry path raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim bins clip convert fixed fixmath path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim api bounds budget clip convert convert_tool fixed fixmath geometry jobs light matrix motion path present raster still \
+SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs light matrix motion path present raster still \
               subframes texture tilemax timemask transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
@@ -237,7 +231,7 @@ test-headers:
 	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/header.c
 
 test-tables: build/gentables
-	build/gentables | cmp - src/tables.c
+	build/gentables | cmp - src/base/tables.c
 
 # The program of the README, between its markers.
 test-readme: $(LIB)
@@ -294,7 +288,7 @@ cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
 
 build/tapes/view_cost: tests/view_cost.c tools/view/cost.c $(TAPES_SRC)
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Itests -o $@ \
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -Itests -o $@ \
 	    $(filter-out tests/target_tapes.c,$^) -lm
 
 build/tapes/cost.c: build/tapes/view_cost

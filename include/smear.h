@@ -197,7 +197,7 @@ typedef enum smear_method {
 } smear_method;
 
 /* What a method needs of the desc: `timed`; a window (no `sharp`). */
-static inline uint8_t smear_method_is_timed(int method)
+static inline uint8_t smear_method_is_temporal(int method)
 {
     return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
 }
@@ -335,7 +335,7 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras;
                                  * null: one layer of all that moves */
     uint8_t layer_count;
-    uint8_t refresh;            /* with desc.keep_still or desc.display_buffers: 1: vertices, colours or texels
+    uint8_t refresh;            /* with desc.cache_static or desc.buffer_age: 1: vertices, colours or texels
                                  * that draws standing still point to have changed in place since the last
                                  * frame, or the display has lost what it was sent */
 } smear_frame;
@@ -358,7 +358,7 @@ typedef enum smear_format {
 typedef enum smear_dither { SMEAR_DITHER_ORDERED, SMEAR_DITHER_NONE, SMEAR_DITHER_BLUE } smear_dither;
 
 /* Finished pixels of columns x .. x + width - 1 and rows y .. y + height - 1: whole rows of the frame, x = 0,
- * but for a desc with `display_buffers`. */
+ * but for a desc with `buffer_age`. */
 typedef struct smear_band {
     const void *pixels;         /* valid until flush returns or, with two bands, until smear_band_done() */
     int16_t x, y, width, height;
@@ -406,11 +406,11 @@ typedef struct smear_desc {
                                  * all tiles on its way, and as many tile rows more are kept.
                                  * Not with timed, passes or half */
     uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    uint8_t keep_still;         /* 1: what does not move is kept from frame to frame, and drawn again only
+    uint8_t cache_static;         /* 1: what does not move is kept from frame to frame, and drawn again only
                                  * where camera, background or a draw that stands still is another: the same
                                  * pictures, for 6 bytes per pixel of the whole frame (with a window as many as
                                  * that takes). With timed; see smear_frame.refresh */
-    uint8_t display_buffers;    /* 1..7: the display keeps what it is sent, in so many buffers that are shown in
+    uint8_t buffer_age;    /* 1..7: the display keeps what it is sent, in so many buffers that are shown in
                                  * turn: 1 for a panel with memory of its own, 2 where pages flip. Then only
                                  * tiles that the buffer shows otherwise are drawn and sent: bands of tiles
                                  * beside each other, from left to right and top to bottom, as many as it
@@ -453,11 +453,11 @@ typedef struct smear_stats {
     uint32_t target;                    /* SMEAR_AUTO: smear_frame.target, or what the budget allowed; of a frame
                                          * drawn in parts, each of which has its share, the coarsest */
     uint32_t work;                      /* with a budget: areas of moving triangles x instants, saturated */
-    uint32_t still_kept;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
-                                         * desc.keep_still */
+    uint32_t static_cached;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
+                                         * desc.cache_static */
     uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
                                          * in parts, once per part */
-    uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.display_buffers) */
+    uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.buffer_age) */
 } smear_stats;
 
 typedef struct smear_context smear_context;
@@ -577,16 +577,16 @@ static inline uint32_t smear_depth_units(uint16_t code)
                     * SMEAR_SEGMENT_BYTES) \
      + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
 
-/* With `keep_still`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame. With `display_buffers`: its tiles,
+/* With `cache_static`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame. With `buffer_age`: its tiles,
  * and where draws are seen. */
-#define SMEAR_STILL_BYTES 56u
-#define SMEAR_KEEP_STILL_BYTES(width, height, tile) \
+#define SMEAR_DAMAGE_BYTES 56u
+#define SMEAR_CACHE_STATIC_BYTES(width, height, tile) \
     (SMEAR_ALIGN8((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u) + 8u \
-     + SMEAR_STILL_BYTES)
+     + SMEAR_DAMAGE_BYTES)
 #define SMEAR_TILES(pixels, tile) (((size_t)(pixels) + (size_t)(tile) - 1u) / (size_t)(tile))
-#define SMEAR_DISPLAY_BUFFERS_BYTES(width, height, draws, tile) \
+#define SMEAR_BUFFER_AGE_BYTES(width, height, draws, tile) \
     (SMEAR_ALIGN8((size_t)(draws) * 4u) + SMEAR_ALIGN8(SMEAR_TILES(width, tile) * SMEAR_TILES(height, tile)) \
-     + SMEAR_STILL_BYTES)
+     + SMEAR_DAMAGE_BYTES)
 
 /* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes
  * per pixel; what groups leave for others they pass through, 6 bytes per pixel of a tile row;

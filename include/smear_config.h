@@ -45,8 +45,8 @@
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
 #define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
-#ifndef SMEAR_WITH_STILL                /* desc.keep_still, desc.display_buffers */
-#define SMEAR_WITH_STILL (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#ifndef SMEAR_WITH_DAMAGE                /* desc.cache_static, desc.buffer_age */
+#define SMEAR_WITH_DAMAGE (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
 
 /* Surfaces. */
@@ -133,8 +133,8 @@
 #if SMEAR_WITH_TIMEMASK && !SMEAR_WITH_SUBFRAMES
 #error "SMEAR_WITH_TIMEMASK needs SMEAR_WITH_SUBFRAMES"
 #endif
-#if SMEAR_WITH_STILL && !SMEAR_WITH_SUBFRAMES
-#error "SMEAR_WITH_STILL needs SMEAR_WITH_SUBFRAMES"
+#if SMEAR_WITH_DAMAGE && !SMEAR_WITH_SUBFRAMES
+#error "SMEAR_WITH_DAMAGE needs SMEAR_WITH_SUBFRAMES"
 #endif
 #if (SMEAR_WITH_FILTERS || SMEAR_WITH_FILTER_ALONE || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
 #error "SMEAR_WITH_FILTERS, _FILTER_ALONE and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"

@@ -84,7 +84,7 @@ static int check(const struct demo_screen *screen, uint32_t step, bool with_stac
     smear_stats stats;
     desc.flush = swallow;
     desc.crc = 1;
-    desc.display_buffers = 0;       /* the CRC of all pixels */
+    desc.buffer_age = 0;       /* the CRC of all pixels */
     int result = start(screen, &desc);
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         result = demo_player_frame(&player, i, i % step == 0);
@@ -177,7 +177,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
         const bool counts = i % step == step / 2;
-        const bool leads = i % step < step / 2 && i % step + desc.display_buffers >= step / 2;
+        const bool leads = i % step < step / 2 && i % step + desc.buffer_age >= step / 2;
         result = demo_player_frame(&player, i, counts || leads);
         uint32_t count = platform_clock_count(platform_clock() - before);
         if (!counts)

@@ -12,17 +12,17 @@ const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2, .sharp = 1,
                 .timed = 1, .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS, .max_triangles = 268,
                 .vertex_cache = 32,
-                .display_buffers = 1 },
+                .buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-               .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300, .display_buffers = 2 },
+               .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300, .buffer_age = 2 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-                    .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .display_buffers = 1 },
+                    .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                 .sharp = 1, .timed = 1, .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS, .max_triangles = 520,
-                .display_buffers = 1 },
+                .buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
                  .max_draws = DEMO_DRAWS, .max_triangles = 530 },
@@ -73,15 +73,15 @@ const struct demo_blur *demo_blur_find(const char *name)
 void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc)
 {
     desc->sharp = !smear_method_is_filter(blur->method);
-    if (screen->sharp_tile != 0 && !smear_method_is_timed(blur->method))
+    if (screen->sharp_tile != 0 && !smear_method_is_temporal(blur->method))
         desc->tile = blur->method == SMEAR_NONE ? screen->sharp_tile : 0;
     desc->passes = blur->method == SMEAR_PINGPONG ? 2 : 0;
     /* Sums of whole frames where small boards have the memory, else of bands. */
     desc->accumulate = blur->method != SMEAR_ACCUMULATE ? 0 : desc->width * desc->height > 10000 ? 2 : 1;
     desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
-    desc->timed = smear_method_is_timed(blur->method);
+    desc->timed = smear_method_is_temporal(blur->method);
     if (!desc->timed)
-        desc->display_buffers = 0;
+        desc->buffer_age = 0;
 }
 
 /* The props are the only frame of the tape that is called like the level. */

@@ -50,7 +50,7 @@ for pair in "$@"; do
         END { printf "%d %d %d %d", code, tables, helpers, data }' "$build/demo.map")
     memory=$($run "$build/demo.elf" memory | awk '{ bytes[$1] = $2 }
         END { print bytes["oled"], bytes["gba"], bytes["pico"] }')
-    stack=$(awk -f platform/stack.awk "$build"/src/*.ci) || status=1
+    stack=$(awk -f platform/stack.awk "$build"/src/*.ci "$build"/src/*/*.ci) || status=1
     worst=$(echo "$stack" | awk '$2 == "smear_render" { print $1 }')
     [ -n "$worst" ] || { echo "$stack"; status=1; worst=0; }
     used=$($run "$build/demo.elf" check oled 6 stack | sed -n 's/^stack //p')

@@ -25,7 +25,7 @@ measure() {
     list=$out/$target$optimization-$name
     # shellcheck disable=SC2086
     sh tests/compile_cached.sh "$out/$target$optimization" "$list.list" $compile $optimization -Wall -Werror \
-        -fcallgraph-info=su "$@" -- src/*.c || exit 1
+        -fcallgraph-info=su "$@" -- src/*.c src/*/*.c || exit 1
     # shellcheck disable=SC2046,SC2086
     {
         $linker -r --gc-sections $roots -o "$list.o" $(cat "$list.list") || exit 1

@@ -38,7 +38,7 @@ $(BUILD)/$(TAPES)/%.o: CFLAGS += -Itests
 
 $(TAPES)/target_tapes: $(TAPES_SRC)
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Itests -o $@ $(TAPES_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -Itests -o $@ $(TAPES_SRC) -lm
 
 $(TAPES)/golden.c: $(TAPES)/target_tapes tests/golden.txt
 	$(TAPES)/target_tapes golden $@ tests/golden.txt
@@ -111,7 +111,7 @@ $(BUILD)/platform/demo.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"'
 
 $(PROPS)/demo_props: $(PROPS_SRC) platform/demo_scene.h
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -o $@ $(PROPS_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -o $@ $(PROPS_SRC) -lm
 
 $(PROPS)/props.c: $(PROPS)/demo_props
 	$(PROPS)/demo_props $@
@@ -124,7 +124,7 @@ SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c
               $(LIB_SRC) $(wildcard tools/image/*.c)
 
 $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(SCREEN_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -Itests -o $@ $(SCREEN_SRC) -lm
 
 .PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
 ## the demo as firmware for TARGET
@@ -199,7 +199,7 @@ tiny-cost: $(BUILD)/tiny$(EXE)
 ERROR_SRC := platform/device_error.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c $(LIB_SRC)
 
 $(PROPS)/device_error: $(ERROR_SRC) platform/demo_player.h platform/demo_scene.h
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Itests -o $@ $(ERROR_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -Itests -o $@ $(ERROR_SRC) -lm
 
 .PHONY: device-chart
 ## speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"

@@ -9,15 +9,15 @@
 #
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
-    reach["src/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
-    reach["src/convert.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
-    reach["src/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
-    reach["src/raster.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
+    reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
+    reach["src/display/pixel_format.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
+    reach["src/ports/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
+    reach["src/raster/raster.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
     if (root != "") {       # smear_jobs_run lies in its caller
-        reach["src/frame.c"] = reach["src/jobs.c"]
-        reach["src/band.c"] = "(^|:)flush(\\.|$)"
+        reach["src/frame.c"] = reach["src/base/jobs.c"]
+        reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
     }
-    is_callback["src/band.h"] = is_callback["src/band.c"] = is_callback["src/frame.c"] = 1
+    is_callback["src/display/band.h"] = is_callback["src/display/band.c"] = is_callback["src/frame.c"] = 1
 }
 function field(name,    text) {
     if (!match($0, name ": \"[^\"]*\""))

@@ -6,20 +6,20 @@
 
 #include "smear.h"
 
-#include "assemble.h"
-#include "assemble_path.h"
-#include "blur.h"
-#include "camera.h"
-#include "choose.h"
-#include "geometry.h"
-#include "half.h"
-#include "jobs.h"
-#include "layer.h"
-#include "pingpong.h"
-#include "raster.h"
-#include "shutter.h"
-#include "subframes.h"
-#include "window.h"
+#include "geometry/assemble.h"
+#include "geometry/assemble_path.h"
+#include "filter/filter.h"
+#include "ports/camera_velocity.h"
+#include "temporal/tile_method.h"
+#include "geometry/bins.h"
+#include "ports/half.h"
+#include "base/jobs.h"
+#include "layers/layer.h"
+#include "ports/pingpong.h"
+#include "raster/raster.h"
+#include "geometry/shutter.h"
+#include "temporal/subframes.h"
+#include "raster/window.h"
 
 static inline bool method_has_layers(uint8_t method)
 {
@@ -51,21 +51,21 @@ struct smear_submitted {
 enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
 
 /* What moves in a tile row. */
-struct smear_row_movers {
-    struct smear_mover *mover;
+struct smear_row_moving {
+    struct smear_moving_triangle *moving;
     uint32_t count;
     struct smear_tile_load *load;               /* per tile */
 };
 
-/* What stands still from frame to frame, and what shows it: with desc.keep_still or desc.display_buffers. */
-struct smear_still {
+/* What stands still from frame to frame, and what shows it: with desc.cache_static or desc.buffer_age. */
+struct smear_damage {
     uint32_t scene[2];              /* hash of all that a picture of it depends on */
-    bool keeps;                     /* desc.keep_still: the window has all rows of the frame */
+    bool keeps;                     /* desc.cache_static: the window has all rows of the frame */
     bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
     bool is_same;                   /* and it is what this frame wants */
-    /* desc.display_buffers, else null: */
-    struct smear_due due;           /* in how many frames each tile must be drawn, this one included, or
-                                     * TILE_DUE_NOW */
+    /* desc.buffer_age, else null: */
+    struct smear_damaged_tiles due;           /* in how many frames each tile must be drawn, this one included, or
+                                     * TILE_DAMAGED_NOW */
     struct smear_tile_box *seen;    /* where each draw that stands still is seen, in their order */
 };
 
@@ -99,7 +99,7 @@ struct smear_context {
     smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];
 
     /* stages */
-    struct smear_geometry geometry;
+    struct smear_bins bins;
     struct smear_assembler assembler;
     struct smear_window window;
     struct smear_window *half;              /* with desc.half */
@@ -117,13 +117,13 @@ struct smear_context {
     /* methods that look at several instants */
     struct smear_shutter shutter;
     struct smear_chooser chooser;
-    struct smear_row_movers row_movers;     /* of the row being drawn */
+    struct smear_row_moving row_moving;     /* of the row being drawn */
     uint8_t *work;                  /* work_bytes per worker */
     uint32_t work_bytes;
     int32_t strip;                  /* tiles that share instants are so many pixels wide together, at most */
     uint32_t moving;                /* list of the row being drawn */
     struct smear_layers *layers;        /* null without desc.layers */
-    struct smear_still *still;          /* null without desc.keep_still and desc.display_buffers */
+    struct smear_damage *still;          /* null without desc.cache_static and desc.buffer_age */
 
     int32_t *inspect;               /* wide velocities, a plane like the window's */
     bool blends;                    /* some draw is blended */
@@ -154,9 +154,9 @@ static inline bool has_layers(const struct smear_context *c)
 }
 
 /* Draws that stand still need not be drawn: the window shows them. */
-static inline bool still_holds(const struct smear_context *c)
+static inline bool static_is_cached(const struct smear_context *c)
 {
-    return SMEAR_WITH_STILL && c->still != NULL && c->still->keeps && c->still->is_same;
+    return SMEAR_WITH_DAMAGE && c->still != NULL && c->still->keeps && c->still->is_same;
 }
 
 static inline bool same_transform(const smear_transform *a, const smear_transform *b)

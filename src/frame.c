@@ -9,15 +9,15 @@
  *             finish      the row above, which now has neighbours on both sides:
  *                         neighbourhoods, then per tile: blur, blended draws, conversion; then flush
  */
-#include "layers.h"
-#include "still.h"
-#include "timed.h"
+#include "layers/layer_rows.h"
+#include "display/damage.h"
+#include "temporal/temporal_rows.h"
 
-#include "convert.h"
-#include "fixmath.h"
-#include "pixel.h"
-#include "tilemax.h"
-#include "velocity.h"
+#include "display/pixel_format.h"
+#include "base/fixmath.h"
+#include "base/pixel.h"
+#include "filter/tilemax.h"
+#include "raster/velocity.h"
 
 /* ------------------------------------------------------------------ poses */
 
@@ -342,7 +342,7 @@ static SMEAR_NOINLINE bool make_assembly(struct smear_context *c, uint32_t i, co
         place(&a->key[1], c, &poses, a->mesh, &close);
     }
     /* Layers reach beyond the frame. */
-    if (SMEAR_WITH_BOUNDS && !has_layers(c) && smear_record_is_beside(a, &c->assembler.viewport))
+    if (SMEAR_WITH_BOUNDS && !has_layers(c) && smear_vertex_is_beside(a, &c->assembler.viewport))
         return false;
 
     smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
@@ -350,7 +350,7 @@ static SMEAR_NOINLINE bool make_assembly(struct smear_context *c, uint32_t i, co
 #if SMEAR_LEVELS
     /* In linear light, colours that are interpolated may round to other codes. */
     a->level = a->material->alpha == SMEAR_OPAQUE
-            && !shading_is_linear(&a->shading) && smear_record_is_level(a->mesh, a->shading.lit);
+            && !shading_is_linear(&a->shading) && smear_vertex_is_level(a->mesh, a->shading.lit);
 #endif
     if (!moves)
         return true;
@@ -368,11 +368,11 @@ static SMEAR_NOINLINE bool make_assembly(struct smear_context *c, uint32_t i, co
 /* ------------------------------------------------------------------ assembling */
 
 /* Draws of a kind. */
-enum draws { DRAWS_ALL, DRAWS_IN_MOTION, DRAWS_AT_REST };
+enum draws { DRAWS_ALL, DRAWS_MOVING, DRAWS_STATIC };
 
 static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
 {
-    return kind == DRAWS_ALL || draw_stands_still(c, i) == (kind == DRAWS_AT_REST);
+    return kind == DRAWS_ALL || draw_is_static(c, i) == (kind == DRAWS_STATIC);
 }
 
 /* Assembles draws into what `as` names. False when the store is full. */
@@ -383,11 +383,11 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     for (uint32_t k = 0; k < c->draw_count; k++) {
         struct smear_assembly a;
         uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
-        if ((still_holds(c) && draw_stands_still(c, i)) || (SMEAR_WITH_STILL && !is_of_kind(c, i, kind)))
+        if ((static_is_cached(c) && draw_is_static(c, i)) || (SMEAR_WITH_DAMAGE && !is_of_kind(c, i, kind)))
             continue;
-        if (SMEAR_WITH_STILL && kind == DRAWS_AT_REST) {
+        if (SMEAR_WITH_DAMAGE && kind == DRAWS_STATIC) {
             seen = seen == NULL ? c->still->seen : seen + 1;
-            if (c->still->is_same && !tile_box_is_due(&c->still->due, *seen))
+            if (c->still->is_same && !tile_box_is_damaged(&c->still->due, *seen))
                 continue;
             c->still->due.only = c->still->is_same;
             c->still->due.seen = c->still->is_same ? NULL : seen;
@@ -415,12 +415,12 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
 static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct instant *instant,
                            bool drop)
 {
-    if (!SMEAR_WITH_STILL || as->due == NULL)
+    if (!SMEAR_WITH_DAMAGE || as->due == NULL)
         return assemble_kind(c, as, instant, drop, DRAWS_ALL);
     c->still->due.only = false;
     c->still->due.seen = NULL;
-    return assemble_kind(c, as, instant, drop, DRAWS_IN_MOTION)
-        && assemble_kind(c, as, instant, drop, DRAWS_AT_REST);
+    return assemble_kind(c, as, instant, drop, DRAWS_MOVING)
+        && assemble_kind(c, as, instant, drop, DRAWS_STATIC);
 }
 
 #if SMEAR_FAST_STACK
@@ -429,17 +429,17 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct i
 {
     enum { VERTICES = 64 };
     struct smear_cached_vertex cache[VERTICES];
-    struct smear_geometry geometry = c->geometry;
+    struct smear_bins bins = c->bins;
     struct smear_assembler as = c->assembler;
-    as.geometry = &geometry;
+    as.bins = &bins;
     as.cache = cache;
     as.cache_mask = VERTICES - 1;
     as.serial = 0;
     smear_assembler_reset(&as);
     const bool done = assemble_draws(c, &as, instant, drop);
-    c->geometry = geometry;
+    c->bins = bins;
     c->assembler.path_count = as.path_count;
-    c->assembler.path_still_count = as.path_still_count;
+    c->assembler.path_static_count = as.path_static_count;
     c->assembler.triangles_drawn = as.triangles_drawn;
     c->assembler.triangles_dropped = as.triangles_dropped;
     return done;
@@ -450,7 +450,7 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct i
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
                                          const struct instant *instant, bool drop)
 {
-    smear_geometry_reset(&c->geometry, first, end);
+    smear_bins_reset(&c->bins, first, end);
 #if SMEAR_FAST_STACK
     if (!has_layers(c))
         return assemble_fast(c, instant, drop);
@@ -462,7 +462,7 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
 static void cache_free_pool(struct smear_context *c)
 {
-    const struct smear_geometry *g = &c->geometry;
+    const struct smear_bins *g = &c->bins;
     uint32_t first = (g->vertex_words + 1u) & ~1u;
     uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
     size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
@@ -472,7 +472,7 @@ static void cache_free_pool(struct smear_context *c)
 /* What moves by less than a step of its vertices is drawn among what stands still, and in order with it. */
 static bool still_is_disturbed(const struct smear_context *c)
 {
-    return still_holds(c) && c->assembler.path_still_count != 0;
+    return static_is_cached(c) && c->assembler.path_static_count != 0;
 }
 
 /* Assembles as many tile rows of [first, end) as find room; returns their end. Rows above are included
@@ -490,8 +490,8 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
-        if (SMEAR_WITH_STILL && done) {
-            still_forget(c);
+        if (SMEAR_WITH_DAMAGE && done) {
+            damage_forget(c);
             continue;
         }
         if (end - first > 1)
@@ -505,7 +505,7 @@ static int assemble_part(struct smear_context *c, int *top, int least, int first
     if (SMEAR_RASTER_CACHE)
         cache_free_pool(c);
     for (int row = *top; row < first; row++)
-        c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+        c->opaque = smear_bins_advance(&c->bins, c->bins.opaque_last, c->opaque, row);
     stage_end(c, &c->stats.time_submit, start);
     return end;
 }
@@ -517,7 +517,7 @@ static void clear_rows(struct smear_context *c, int32_t y0, int32_t y1, int32_t 
     struct smear_window *w = &c->window;
     uint32_t clear = c->frame.clear & 0xffffffu;
     for (int32_t y = y0; y < y1; y++) {
-        int32_t at = window_slot(w, y) * w->width + x0, n = x1 - x0;
+        int32_t at = window_ring_row(w, y) * w->width + x0, n = x1 - x0;
         pixels_fill(w->color + at, clear, n);
         __builtin_memset(w->depth + at, 0, (size_t)n * 2);
         int velocity = SMEAR_WITH_FILTERS && c->raster.velocity_from_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0;
@@ -552,15 +552,15 @@ static void direct_job(void *argument, int job, int worker)
     }
     smear_raster_list(&c->raster, &t, c->opaque);
     at = t.x0;
-    if (smear_convert_is_swapped((smear_format)c->desc.format))
+    if (smear_format_is_swapped((smear_format)c->desc.format))
         for (int32_t y = t.y0; y < t.y1; y++, at += c->window.width)
-            smear_convert_swap(t.direct + at, n);
+            smear_format_swap(t.direct + at, n);
 }
 
 static int render_direct_row(struct smear_context *c, int row)
 {
     uint32_t start = stage_start(c);
-    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+    c->opaque = smear_bins_advance(&c->bins, c->bins.opaque_last, c->opaque, row);
     struct row_job job = { .c = c, .row = row, .band = smear_band_begin(c) };
     smear_jobs_run(&c->jobs, direct_job, &job, c->jobs.workers);
     stage_end(c, &c->stats.time_raster, start);
@@ -610,7 +610,7 @@ static void inspect_rows(struct smear_context *c, int row)
 {
     const struct smear_window *w = &c->window;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
-        int32_t at = window_slot(w, y) * w->width;
+        int32_t at = window_ring_row(w, y) * w->width;
         c->desc.inspect(c->desc.user, y, w->color + at, w->depth + at,
                         c->inspect + 2 * at);
     }
@@ -621,7 +621,7 @@ static void draw_row(struct smear_context *c, int row)
 {
     struct row_job job = { .c = c, .row = row };
     uint32_t start = stage_start(c);
-    c->opaque = smear_geometry_advance(&c->geometry, c->geometry.opaque_last, c->opaque, row);
+    c->opaque = smear_bins_advance(&c->bins, c->bins.opaque_last, c->opaque, row);
     for (int32_t i = 0; i < c->window.columns; i++)
         c->window.moving[i] = 0;
     smear_jobs_run(&c->jobs, raster_job, &job, c->jobs.workers);
@@ -635,7 +635,7 @@ static void blend_row(struct smear_context *c, int row)
     if (!SMEAR_WITH_ALPHA || !c->blends)
         return;
     struct row_job job = { .c = c, .row = row };
-    c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
+    c->blend = smear_bins_advance(&c->bins, c->bins.blend_last, c->blend, row);
     smear_jobs_run(&c->jobs, blend_job, &job, c->jobs.workers);
 }
 
@@ -724,7 +724,7 @@ static struct smear_row_table row_table(const struct smear_context *c, int row, 
 
 static bool is_still(const struct smear_window *w, int row, int column)
 {
-    return window_around(w, row)[column].kind == TILE_STILL;
+    return window_around(w, row)[column].kind == TILE_STATIC;
 }
 
 /* Still tiles go to the display as they lie in the window, a run of
@@ -755,7 +755,7 @@ static void filter_tile(struct smear_context *c, uint32_t *tile, int row, int co
     struct smear_row_table rows = row_table(c, row, y0, y1);
     uint8_t kind = window_around(w, row)[column].kind;
     uint32_t samples = 0;
-    if (kind == TILE_STILL)
+    if (kind == TILE_STATIC)
         smear_blur_copy(tile, w, &rows, column);
     else if (SMEAR_WITH_FILTERS && c->frame.filter == SMEAR_FILTER_PINGPONG)
         samples = smear_pingpong_pass(tile, w->tile, pass_input(c, c->filtering->passes - 1), w, &rows,
@@ -822,7 +822,7 @@ static void fill_row_table(struct smear_context *c, int row, int32_t end)
     const struct smear_window *w = c->filtered;
     int32_t first = filtered_top(c, row) - w->reach;
     for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
-        c->row_offset[i] = (uint32_t)(window_slot(w, clamp_i32(first + i, 0, end - 1)) * w->width);
+        c->row_offset[i] = (uint32_t)(window_ring_row(w, clamp_i32(first + i, 0, end - 1)) * w->width);
 }
 
 /* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays
@@ -862,7 +862,7 @@ static void count_tiles(struct smear_context *c, int row)
 {
     const struct smear_tile_neighborhood *around = window_around(c->filtered, row);
     for (int32_t i = 0; i < c->window.columns; i++) {
-        if (around[i].kind == TILE_STILL) {
+        if (around[i].kind == TILE_STATIC) {
             c->stats.tiles_still++;
             c->stats.tiles_none++;
         } else {
@@ -889,7 +889,7 @@ static int finish_blurred(struct smear_context *c, int row, int known)
         end = run_passes(c, known);
     fill_row_table(c, row, end);
     if (c->blends)
-        c->blend = smear_geometry_advance(&c->geometry, c->geometry.blend_last, c->blend, row);
+        c->blend = smear_bins_advance(&c->bins, c->bins.blend_last, c->blend, row);
 
     struct row_job job = { .c = c, .row = row };
     int result = SMEAR_OK;
@@ -983,11 +983,11 @@ static int render_filter(struct smear_context *c)
 static int render_timed(struct smear_context *c)
 {
     struct instant middle = middle_of(c);
-    if (SMEAR_WITH_STILL)
-        smear_still_begin(c);
-    int result = render_parts(c, &middle, smear_timed_rows);
-    if (SMEAR_WITH_STILL && result == SMEAR_OK)
-        smear_still_end(c);
+    if (SMEAR_WITH_DAMAGE)
+        smear_damage_begin(c);
+    int result = render_parts(c, &middle, smear_temporal_rows);
+    if (SMEAR_WITH_DAMAGE && result == SMEAR_OK)
+        smear_damage_end(c);
     return result;
 }
 
@@ -1043,7 +1043,7 @@ static void add_row(struct smear_context *c, int row)
     const struct smear_window *w = &c->window;
     bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
-        const uint32_t *in = w->color + window_slot(w, y) * w->width;
+        const uint32_t *in = w->color + window_ring_row(w, y) * w->width;
         smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t p = in[x];
@@ -1065,7 +1065,7 @@ static void average_row(struct smear_context *c, int row, uint32_t n)
     const struct smear_window *w = &c->window;
     bool linear = SMEAR_WITH_LINEAR && c->frame.light == SMEAR_LIGHT_LINEAR;
     for (int32_t y = row_top(c, row); y < row_bottom(c, row); y++) {
-        uint32_t *out = w->color + window_slot(w, y) * w->width;
+        uint32_t *out = w->color + window_ring_row(w, y) * w->width;
         const smear_sum *sum = sums_at(c, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t r = mean_of(sum[0], n), g = mean_of(sum[1], n), b = mean_of(sum[2], n);
@@ -1133,7 +1133,7 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
     c->raster.inspect_scale = c->frame.shutter_poses ? (int32_t)((360u << 16) / degrees) : 65536;
     c->raster.reach_q3 = w->reach * 8;
     c->assembler.keep_motion = SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(c->frame.method);
-    c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method);
+    c->assembler.keep_paths = SMEAR_WITH_SUBFRAMES && smear_method_is_temporal(c->frame.method);
     const bool view_moves = c->camera_moves && !(same_camera(&c->camera, &c->camera_open)
                                                  && same_camera(&c->camera, &c->camera_close));
 #ifndef __OPTIMIZE_SIZE__       /* else every draw finds it out (pose_differs) */
@@ -1149,8 +1149,8 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
-    if (SMEAR_WITH_STILL)
-        c->assembler.due = NULL;        /* until smear_still_begin */
+    if (SMEAR_WITH_DAMAGE)
+        c->assembler.due = NULL;        /* until smear_damage_begin */
 
     c->blur = (struct smear_blur_settings){
         .linear = linear, .orthographic = SMEAR_WITH_ORTHOGRAPHIC && c->camera.half_height > 0,
@@ -1175,7 +1175,7 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c)
 
     c->blends = false;
     c->direct = SMEAR_DIRECT && c->desc.sharp && c->frame.method == SMEAR_NONE
-             && (!SMEAR_WITH_STILL || c->still == NULL || !c->still->keeps)
+             && (!SMEAR_WITH_DAMAGE || c->still == NULL || !c->still->keeps)
              && c->desc.dither == SMEAR_DITHER_NONE
              && (c->desc.format == SMEAR_RGB565 || c->desc.format == SMEAR_RGB565_SWAPPED);
     for (uint32_t i = 0; i < c->draw_count; i++) {
@@ -1215,8 +1215,8 @@ int smear_frame_render(struct smear_context *c)
 {
     uint32_t start = stage_start(c);
     prepare(c);
-    if (SMEAR_WITH_STILL && !smear_method_is_timed(c->frame.method))
-        still_forget(c);
+    if (SMEAR_WITH_DAMAGE && !smear_method_is_temporal(c->frame.method))
+        damage_forget(c);
     /* What was not compiled in has been refused by smear_begin. */
     int result;
     if (SMEAR_WITH_ACCUMULATE && c->frame.method == SMEAR_ACCUMULATE)
@@ -1225,7 +1225,7 @@ int smear_frame_render(struct smear_context *c)
         result = render_filter(c);
     else if (SMEAR_WITH_LAYERS && method_has_layers(c->frame.method))
         result = render_layers(c);
-    else if (SMEAR_WITH_SUBFRAMES && smear_method_is_timed(c->frame.method))
+    else if (SMEAR_WITH_SUBFRAMES && smear_method_is_temporal(c->frame.method))
         result = render_timed(c);
     else
         result = render_parts(c, &sharp_instant, sharp_rows);
@@ -1241,8 +1241,8 @@ void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
     prepare(c);
-    if (SMEAR_WITH_STILL)
-        still_forget(c);
+    if (SMEAR_WITH_DAMAGE)
+        damage_forget(c);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->opaque = c->blend = SMEAR_NO_TRIANGLE;
     c->filter_row = 0;
@@ -1285,7 +1285,7 @@ int smear_frame_filter_row(struct smear_context *c, const uint32_t *color, const
                            const int16_t *velocity)
 {
     struct smear_window *w = &c->window;
-    int32_t y = c->filter_row++, at = window_slot(w, y) * w->width;
+    int32_t y = c->filter_row++, at = window_ring_row(w, y) * w->width;
     int row = y >> w->tile_shift;
     if ((y & (w->tile - 1)) == 0)
         for (int32_t i = 0; i < w->columns; i++)

@@ -2,12 +2,12 @@
 /* smear.c - the public functions: check, fill in defaults, cut memory, keep poses, call frame.c. */
 #include "context.h"
 
-#include "arc.h"
-#include "arena.h"
-#include "convert.h"
-#include "layered.h"
-#include "object.h"
-#include "fixmath.h"
+#include "geometry/arc.h"
+#include "base/arena.h"
+#include "display/pixel_format.h"
+#include "layers/layer_gather.h"
+#include "layers/streak.h"
+#include "base/fixmath.h"
 
 /* ------------------------------------------------------------------ desc */
 
@@ -22,7 +22,7 @@ static bool has_method(int method)
     return method == SMEAR_ACCUMULATE         ? SMEAR_WITH_ACCUMULATE
          : method == SMEAR_RECONSTRUCT        ? SMEAR_WITH_RECONSTRUCT
          : method == SMEAR_TIMEMASK           ? SMEAR_WITH_TIMEMASK
-         : smear_method_is_timed(method)      ? SMEAR_WITH_SUBFRAMES
+         : smear_method_is_temporal(method)      ? SMEAR_WITH_SUBFRAMES
          : method_has_layers((uint8_t)method) ? SMEAR_WITH_LAYERS
          : smear_method_is_filter(method)     ? SMEAR_WITH_FILTERS
                                               : true;
@@ -30,8 +30,8 @@ static bool has_method(int method)
 
 static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
 static inline bool is_timed(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
-static inline bool keeps_still(const smear_desc *d) { return SMEAR_WITH_STILL && d->keep_still; }
-static inline bool display_keeps(const smear_desc *d) { return SMEAR_WITH_STILL && d->display_buffers; }
+static inline bool keeps_still(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->cache_static; }
+static inline bool display_keeps(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->buffer_age; }
 static inline bool has_half(const smear_desc *d) { return SMEAR_WITH_FILTERS && d->half; }
 static inline bool is_layered(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
 
@@ -75,8 +75,8 @@ static bool resolve(smear_desc *d)
     if (has_tiles(d) && d->band_rows != d->tile
         && (d->tile % d->band_rows != 0 || is_timed(d) || is_layered(d) || d->half))
         return false;
-    if (SMEAR_WITH_SUBFRAMES && (d->keep_still || d->display_buffers)
-        && (!SMEAR_WITH_STILL || !d->timed || d->keep_still > 1 || d->display_buffers > 7))
+    if (SMEAR_WITH_SUBFRAMES && (d->cache_static || d->buffer_age)
+        && (!SMEAR_WITH_DAMAGE || !d->timed || d->cache_static > 1 || d->buffer_age > 7))
         return false;
     if (d->bands == 0)
         d->bands = 1;
@@ -97,7 +97,7 @@ static bool resolve(smear_desc *d)
         d->vertex_cache = 64;
     if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && !has_window(d)))
         return false;
-    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_convert_has(d->format, d->dither)
+    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_format_has(d->format, d->dither)
         && d->max_triangles <= 16u << 20
         && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
 }
@@ -114,7 +114,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_
 SMEAR_STATIC_ASSERT(sizeof(struct smear_filtering) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_still) <= SMEAR_STILL_BYTES, "SMEAR_STILL_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_damage) <= SMEAR_DAMAGE_BYTES, "SMEAR_DAMAGE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_cell) == 6, "SMEAR_LAYERS_BYTES");
@@ -191,8 +191,8 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
                                        * (size_t)(is_timed(d) ? strip_columns(c) : c->strip), 4);
     if (is_timed(d)) {
         c->assembler.path_limit = d->max_triangles;
-        c->row_movers.mover = arena_take(a, d->max_triangles, sizeof *c->row_movers.mover);
-        c->row_movers.load = arena_take(a, columns, sizeof *c->row_movers.load);
+        c->row_moving.moving = arena_take(a, d->max_triangles, sizeof *c->row_moving.moving);
+        c->row_moving.load = arena_take(a, columns, sizeof *c->row_moving.load);
         c->work_bytes = (uint32_t)smear_subframes_work(strip_columns(c), d->tile);
         if (SMEAR_WITH_TIMEMASK)
             c->work_bytes = max_u32(c->work_bytes, (uint32_t)smear_timemask_work(d->tile));
@@ -202,11 +202,11 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     if (keeps_still(d) || display_keeps(d)) {
         const bool tiles = display_keeps(d);
         struct smear_tile_box *seen = tiles ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
-        struct smear_due due = { tiles ? arena_take(a, columns * (size_t)w->rows, 1) : NULL,
+        struct smear_damaged_tiles due = { tiles ? arena_take(a, columns * (size_t)w->rows, 1) : NULL,
                                  (uint8_t)(columns - 1), (uint8_t)w->tile_shift, false, NULL };
         c->still = arena_take(a, 1, sizeof *c->still);
         if (c->still != NULL)       /* not only measured */
-            *c->still = (struct smear_still){ .keeps = keeps_still(d), .due = due, .seen = seen };
+            *c->still = (struct smear_damage){ .keeps = keeps_still(d), .due = due, .seen = seen };
     }
     if (is_layered(d)) {
         struct smear_layers measured, *l = arena_take(a, 1, sizeof *l);
@@ -250,7 +250,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
         c->sums = arena_take(a, (size_t)d->width * (size_t)(d->accumulate == 1 ? d->height : row_px(d)),
                              3 * sizeof *c->sums);
 
-    c->band_bytes = smear_convert_size(d->width, d->band_rows, (smear_format)d->format);
+    c->band_bytes = smear_format_size(d->width, d->band_rows, (smear_format)d->format);
     for (int i = 0; i < d->bands; i++)
         c->band[i] = arena_take(a, c->band_bytes, 1);
 
@@ -258,7 +258,7 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     c->kept = SMEAR_WITH_IDS ? arena_take(a, d->max_draws, sizeof *c->kept) : NULL;
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 
-    struct smear_geometry *g = &c->geometry;
+    struct smear_bins *g = &c->bins;
     g->row_px = row_px(d);
     g->row_count = w->rows;
     g->pool_words = pool_words(d);
@@ -267,9 +267,9 @@ static void layout(struct smear_context *c, struct smear_arena *a, const smear_d
     g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
     g->opaque_last = arena_take(a, (size_t)w->rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, (size_t)w->rows, sizeof *g->blend_last);
-    g->mover_rows = is_layered(d) ? 2 : 0;
-    g->mover_last = is_timed(d) || is_layered(d)
-                  ? arena_take(a, (size_t)(w->rows + g->mover_rows), sizeof *g->mover_last) : NULL;
+    g->moving_rows = is_layered(d) ? 2 : 0;
+    g->moving_last = is_timed(d) || is_layered(d)
+                  ? arena_take(a, (size_t)(w->rows + g->moving_rows), sizeof *g->moving_last) : NULL;
     c->assembler.cache = arena_take(a, d->vertex_cache, sizeof *c->assembler.cache);
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
@@ -326,8 +326,8 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     c->desc = d;
     c->stats.arena_bytes = (uint32_t)a.used;
     c->assembler.viewport = (struct smear_viewport){ d.width, d.height };
-    c->assembler.geometry = &c->geometry;
-    c->raster.geometry = &c->geometry;
+    c->assembler.bins = &c->bins;
+    c->raster.bins = &c->bins;
     c->raster.draw = c->raster_draw;
     c->raster.width = d.width;
     c->raster.height = d.height;
@@ -479,7 +479,7 @@ static bool resolve_frame(const struct smear_context *c, smear_frame *f)
         return false;
     if (SMEAR_WITH_LAYERS && method_has_layers(f->method) && !c->desc.layers)
         return false;
-    if (SMEAR_WITH_SUBFRAMES && smear_method_is_timed(f->method) && !c->desc.timed)
+    if (SMEAR_WITH_SUBFRAMES && smear_method_is_temporal(f->method) && !c->desc.timed)
         return false;
     return f->method != SMEAR_ACCUMULATE || (c->desc.accumulate != 0 && f->samples <= SUM_SAMPLES_MAX);
 }

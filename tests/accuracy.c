@@ -5,7 +5,7 @@
 
 #include "test.h"
 
-#include "../src/context.h"
+#include "context.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -334,7 +334,7 @@ static void look_at_row(void *user, int y, const uint32_t *color, const uint16_t
     struct taking *taking = user;
     struct shot *shot = taking->shot;
     const struct smear_window *w = &taking->ctx->window;
-    size_t row = (size_t)y * (size_t)shot->width, slot = (size_t)(window_slot(w, y) * w->width);
+    size_t row = (size_t)y * (size_t)shot->width, slot = (size_t)(window_ring_row(w, y) * w->width);
     for (size_t x = 0; x < (size_t)shot->width; x++) {
         store_rgb(shot->sharp + 3 * (row + x), color[x]);
         shot->depth[row + x] = depth[x];

@@ -814,7 +814,7 @@ crcs() { grep -o '"crc32":"[0-9a-f]*"' "$1"; }
 same_crcs() { [ -n "$(crcs "$1")" ] && [ "$(crcs "$1")" = "$(crcs "$2")" ]; }
 claim "of those that are not" same_crcs drawn.json kept.json
 claim "what stands still counts as kept" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still --stats kept.json -o kept%d.png
-claim "with statistics, too" grep -q '"still_kept":1' kept.json
+claim "with statistics, too" grep -q '"static_cached":1' kept.json
 claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
 claim "as coarse as a draft" render builtin:suite/cross --size 64x48 --quality draft -o drawn3.png
 claim "which it is" same drawn3.png kept3.png

@@ -86,7 +86,7 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
                        .accumulate = method->method == SMEAR_ACCUMULATE,
                        
                        .layers = method->method == SMEAR_OBJECT || method->method == SMEAR_LAYERED,
-                       .timed = smear_method_is_timed(method->method), .max_triangles = 16,
+                       .timed = smear_method_is_temporal(method->method), .max_triangles = 16,
                        .passes = method->method == SMEAR_PINGPONG ? 2 : 0,
                        .half = method->method == SMEAR_HALF,
                        .flush = keep_band, .user = rgb};

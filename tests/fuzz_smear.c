@@ -236,7 +236,7 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
         .shutter_degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
-    if (smear_method_is_timed(method)) {
+    if (smear_method_is_temporal(method)) {
         scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
         if (take_chance(s, 4)) {
             for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)
@@ -301,7 +301,7 @@ struct rig {
     smear_desc desc;
     int next_row, fail_at, band;
     uint32_t sum;               /* of the frame's bytes, in order */
-    uint8_t *shown;             /* with desc.display_buffers: all of them, as bands leave them */
+    uint8_t *shown;             /* with desc.buffer_age: all of them, as bands leave them */
     int next_column;
     uint32_t inspected;
 };
@@ -400,7 +400,7 @@ static bool rig_open(struct rig *r, struct pool *p, const smear_desc *desc, bool
         return false;
     void *memory = pool_take(p, bytes);
     memset(memory, 0xa5, bytes);
-    if (desc->display_buffers)
+    if (desc->buffer_age)
         r->shown = pool_take(p, pitch_of(desc) * rows_of(desc, desc->height));
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY);
     return smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK;
@@ -467,11 +467,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             desc.reach = (int16_t)(desc.reach * 2 <= 64 ? desc.reach * 2 : 64);
     }
     const uint8_t keeps = desc.timed ? take(s) & 3 : 0;
-    desc.display_buffers = keeps & 1;
-    desc.keep_still = keeps >> 1;
+    desc.buffer_age = keeps & 1;
+    desc.cache_static = keeps >> 1;
     bool open = rig_open(&rig, &pool, &desc, kind & 2);
     /* The same picture from another context: more room, other cuts, all drawn and sent. */
-    desc.display_buffers = desc.keep_still = 0;
+    desc.buffer_age = desc.cache_static = 0;
     desc.max_triangles = 3000;
     desc.vertex_cache = 256;
     if (desc.sharp && !desc.timed)

@@ -100,7 +100,7 @@ switches() { sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_
 # without SWITCH: compiler options that leave it out, with what cannot be without it
 without() {
     case $1 in
-    SMEAR_WITH_SUBFRAMES) echo "-D$1=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_STILL=0" ;;
+    SMEAR_WITH_SUBFRAMES) echo "-D$1=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_DAMAGE=0" ;;
     *) echo "-D$1=0" ;;
     esac
 }

@@ -67,7 +67,7 @@ arm-none-eabi-size -A "$out/all.o" | awk -v limit="${CODE_LIMIT:-0}" '
             bad = 1
         }
         exit bad
-    }' table="^\\.rodata\\.($(sed -n 's/^extern const .* \(smear_[a-z0-9_]*\)\[.*/\1/p' src/tables.h | tr '\n' '|')none)\$" || status=1
+    }' table="^\\.rodata\\.($(sed -n 's/^extern const .* \(smear_[a-z0-9_]*\)\[.*/\1/p' src/base/tables.h | tr '\n' '|')none)\$" || status=1
 
 [ "${LIST:-1}" = 0 ] || arm-none-eabi-size $objects | awk 'NR > 1 {
     file = $6; sub(/^.*\//, "", file); printf "    %-32s %6d\n", file, $1 }'

@@ -99,7 +99,7 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     struct demo_player player;
     smear_desc desc = which->desc;
     desc.bands = 1;
-    desc.display_buffers = 0;
+    desc.buffer_age = 0;
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
@@ -161,7 +161,7 @@ static bool start_kept(struct demo_player *player, const struct demo_screen *whi
 {
     smear_desc desc = which->desc;
     desc.bands = 1;
-    desc.display_buffers = (uint8_t)buffers;
+    desc.buffer_age = (uint8_t)buffers;
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
@@ -173,7 +173,7 @@ static bool kept(const struct demo_screen *which, struct failure *f)
 {
     static struct demo_player keeps, all;
     const size_t pixels = (size_t)which->desc.width * (size_t)which->desc.height;
-    const int buffers = which->desc.display_buffers;
+    const int buffers = which->desc.buffer_age;
     uint32_t *code = calloc(pixels * ((size_t)buffers + 1), sizeof *code);
     struct screen shown = { .code = code }, want = { .code = code != NULL ? code + pixels * (size_t)buffers : NULL };
     uint32_t tiles = 0;

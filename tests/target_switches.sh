@@ -16,7 +16,7 @@ draws() { # NAME FLAGS...
     shift
     rm -f "$base/$name.txt"
     # shellcheck disable=SC2046,SC2086
-    sh tests/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags "$@" -- src/*.c $programs &&
+    sh tests/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags "$@" -- src/*.c src/*/*.c $programs &&
         ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") && "$base/$name" >"$base/$name.txt" && return 0
     [ ! -e "$base/$name.txt" ] || grep -E 'WRONG|NOT|ERROR|golden frames' "$base/$name.txt"
     return 1

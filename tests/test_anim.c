@@ -5,8 +5,8 @@
 #include "arm.h"
 #include "arm_blob.h"
 
-#include "../src/convert.h"
-#include "../src/skin.h"
+#include "display/pixel_format.h"
+#include "model/skin.h"
 #include "test.h"
 
 void suite_anim(void);

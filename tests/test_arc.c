@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_arc.c - poses between two poses, against rotations in double precision. */
-#include "../src/arc.h"
+#include "geometry/arc.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* test_clip.c - cuts at the near and far plane and at the guard band: the same bits from both sides
  * of an edge, nothing left outside, everything carried along. Needs neither libc nor floating
  * point. */
-#include "../src/clip.h"
+#include "geometry/clip.h"
 
 #include "test.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_convert.c - every display format against a direct formula; dither keeps white, black and the
  * mean; packing; the CRC. Needs neither libc nor floating point. */
-#include "../src/convert.h"
+#include "display/pixel_format.h"
 
-#include "../src/tables.h"
+#include "base/tables.h"
 #include "test.h"
 
 void suite_convert(void);
@@ -56,7 +56,7 @@ static uint32_t half_at(int i, bool high_first)
 /* Converts `pixels` as one row at (0, y), its band beginning there. */
 static void convert(int n, int y, smear_format format, smear_dither dither)
 {
-    smear_convert_row(band, smear_convert_stride(n, format), pixels, n, 0, y, y & ~7, format, dither);
+    smear_format_row(band, smear_format_stride(n, format), pixels, n, 0, y, y & ~7, format, dither);
 }
 
 /* A row at the top of its band. */
@@ -116,7 +116,7 @@ static void test_32_bit_pixels_pass_in_the_machines_order_without_their_upper_by
     random_state = 2;
     random_pixels();
     static uint32_t words[MOST];
-    smear_convert_row((uint8_t *)words, MOST * 4, pixels, MOST, 0, 3, 3, SMEAR_XRGB8888, SMEAR_DITHER_ORDERED);
+    smear_format_row((uint8_t *)words, MOST * 4, pixels, MOST, 0, 3, 3, SMEAR_XRGB8888, SMEAR_DITHER_ORDERED);
     for (int i = 0; i < MOST; i++)
         CHECK_EQ(words[i], pixels[i] & 0xffffffu);
 }
@@ -175,14 +175,14 @@ static void test_pages_pack_eight_rows_with_the_top_one_in_bit_0(void)
     static uint32_t picture[N * ROWS];
     for (int i = 0; i < N * ROWS; i++)
         picture[i] = random_u32() & 1u ? 0xffffffu : 0;
-    CHECK_EQ(smear_convert_stride(N, SMEAR_L1_PAGES), N);
-    CHECK_EQ(smear_convert_size(N, ROWS, SMEAR_L1_PAGES), 3 * N);
+    CHECK_EQ(smear_format_stride(N, SMEAR_L1_PAGES), N);
+    CHECK_EQ(smear_format_size(N, ROWS, SMEAR_L1_PAGES), 3 * N);
     for (int order = 0; order < 2; order++) {           /* rows may come in any order, in pieces of 8 columns */
         band_fill(0);
         for (int k = 0; k < ROWS; k++) {
             int y = order == 0 ? k : ROWS - 1 - k;
             for (int x = 0; x < N; x += 8)
-                smear_convert_row(band, N, picture + y * N + x, x + 8 < N ? 8 : N - x, x, 40 + y, 40,
+                smear_format_row(band, N, picture + y * N + x, x + 8 < N ? 8 : N - x, x, 40 + y, 40,
                                   SMEAR_L1_PAGES, SMEAR_DITHER_NONE);
         }
         for (int y = 0; y < ROWS; y++)
@@ -202,14 +202,14 @@ static void test_pieces_of_a_row_give_the_bytes_of_the_row(void)
         for (int dither = SMEAR_DITHER_ORDERED; dither <= SMEAR_DITHER_BLUE; dither++) {
             random_pixels();
             int n = 8 * 9 + 5;
-            uint32_t stride = smear_convert_stride(n, (smear_format)format);
+            uint32_t stride = smear_format_stride(n, (smear_format)format);
             band_fill(0);
             convert_top(n, (smear_format)format, (smear_dither)dither);
             for (uint32_t i = 0; i < stride; i++)
                 whole[i] = band[i];
             band_fill(0);
             for (int x = 0; x < n; x += 24)
-                smear_convert_row(band, stride, pixels + x, x + 24 < n ? 24 : n - x, x, 0, 0, (smear_format)format,
+                smear_format_row(band, stride, pixels + x, x + 24 < n ? 24 : n - x, x, 0, 0, (smear_format)format,
                                   (smear_dither)dither);
             for (uint32_t i = 0; i < stride; i++)
                 if (!CHECK_EQ(band[i], whole[i]))
@@ -225,8 +225,8 @@ static void test_sizes_follow_from_width_and_rows(void)
         { SMEAR_L1, 2, 20 }, { SMEAR_L1_PAGES, 13, 26 }
     };
     for (int i = 0; i < 9; i++) {
-        CHECK_EQ(smear_convert_stride(13, want[i].format), want[i].stride);
-        CHECK_EQ(smear_convert_size(13, 10, want[i].format), want[i].size);
+        CHECK_EQ(smear_format_stride(13, want[i].format), want[i].stride);
+        CHECK_EQ(smear_format_size(13, 10, want[i].format), want[i].size);
     }
 }
 
@@ -244,12 +244,12 @@ static void test_white_and_black_are_exact_under_every_dither(void)
         for (int format = SMEAR_RGB565; format <= SMEAR_L1_PAGES; format++)
             for (int y = 0; y < 32; y++)
                 for (int white = 0; white < 2; white++) {
-                    uint32_t stride = smear_convert_stride(MOST, (smear_format)format);
+                    uint32_t stride = smear_format_stride(MOST, (smear_format)format);
                     uint32_t bytes = format == SMEAR_L1_PAGES ? MOST : stride;
                     for (int i = 0; i < MOST; i++)
                         pixels[i] = white ? 0xffffffu : 0;
                     band_fill(0);
-                    smear_convert_row(band, stride, pixels, MOST, 0, y, y, (smear_format)format,
+                    smear_format_row(band, stride, pixels, MOST, 0, y, y, (smear_format)format,
                                       (smear_dither)dither);
                     for (uint32_t i = 0; i < bytes; i++) {
                         uint32_t lit = format == SMEAR_L1_PAGES ? 1
@@ -269,7 +269,7 @@ static void test_ordered_16_bit_pixels_are_the_formulas_for_all_codes(void)
                 pixels[i] = code << 16 | ((code * 7 + 5) & 255u) << 8 | (255 - code);
             }
             for (int format = SMEAR_RGB565; format <= SMEAR_RGB555; format++) {
-                smear_convert_row(band, smear_convert_stride(MOST, (smear_format)format), pixels, MOST, 0, y, y,
+                smear_format_row(band, smear_format_stride(MOST, (smear_format)format), pixels, MOST, 0, y, y,
                                   (smear_format)format, SMEAR_DITHER_ORDERED);
                 for (int i = 0; i < MOST; i++) {
                     const uint32_t t = smear_dither_ordered[y << 3 | (i & 7)], p = pixels[i];
@@ -292,7 +292,7 @@ static uint32_t level_sum(uint32_t code, smear_format format, smear_dither dithe
         pixels[i] = code * 0x010101u;
     for (int y = 0; y < 32; y++) {
         band_fill(0);
-        smear_convert_row(band, smear_convert_stride(32, format), pixels, 32, 0, y, y, format, dither);
+        smear_format_row(band, smear_format_stride(32, format), pixels, 32, 0, y, y, format, dither);
         for (int i = 0; i < 32; i++)
             switch (format) {
             case SMEAR_RGB565: sum += half_at(i, false) >> 11; break;

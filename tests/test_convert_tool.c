@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_convert_tool.c - models as firmware data (tools/convert): every file at hand converts, and what comes out is
- * checked, opened, compiled and played by the animation module (src/anim.c), and looks like the file itself. Needs files, so it
+ * checked, opened, compiled and played by the animation module (src/model/anim.c), and looks like the file itself. Needs files, so it
  * runs on hosts only; test_anim.c plays the same data on every target. */
 #include "accuracy.h"
 
-#include "../src/blob.h"
+#include "model/blob.h"
 #include "../tools/convert/build.h"
 #include "../tools/convert/exact.h"
 #include "../tools/convert/track.h"

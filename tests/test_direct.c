@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_direct.c - sharp frames drawn as the display's pixels are those that were drawn as working
  * pixels and converted. A context with a window never draws directly. */
-#include "../src/context.h"
-#include "../src/pixel.h"
-#include "../src/texture.h"
+#include "context.h"
+#include "base/pixel.h"
+#include "raster/texture.h"
 #include "../tools/scenes/present.h"
 
 #include "test.h"

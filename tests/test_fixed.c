@@ -5,7 +5,7 @@
 /* Both forms of every product, whatever the target: first the wide ones under their own names. */
 #undef SMEAR_HAS_MUL64
 #define SMEAR_HAS_MUL64 1
-#include "../src/fixed.h"
+#include "base/fixed.h"
 
 #undef SMEAR_FIXED_H
 #undef SMEAR_HAS_MUL64
@@ -18,7 +18,7 @@
 #define mulh_u32 narrow_mulh_u32
 #define scale_sat narrow_scale_sat
 #define narrow_sat narrow_narrow_sat
-#include "../src/fixed.h"
+#include "base/fixed.h"
 #undef add_wrap
 #undef sub_wrap
 #undef mul_wrap

@@ -7,7 +7,7 @@
 #undef SMEAR_HAS_CLZ
 #define SMEAR_HAS_MUL64 1
 #define SMEAR_HAS_CLZ 1
-#include "../src/fixmath.h"
+#include "base/fixmath.h"
 
 #undef SMEAR_FIXED_H
 #undef SMEAR_FIXMATH_H
@@ -31,7 +31,7 @@
 #define ratio_q30 poor_ratio_q30
 #define sqrt_floor_64 poor_sqrt_floor_64
 #define sqrt_q3 poor_sqrt_q3
-#include "../src/fixmath.h"
+#include "base/fixmath.h"
 #undef add_wrap
 #undef sub_wrap
 #undef mul_wrap

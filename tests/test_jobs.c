@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jobs.c - independent jobs on one core and on several: each exactly once, all done when the
  * call returns. Host only: threads. */
-#include "../src/jobs.h"
+#include "base/jobs.h"
 
 #include "test.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_level.c - meshes whose vertices have normals or colours that are the same within every triangle: they are found, and
  * drawn as flat ones are (smear_segment.level), to the bit as by their vertices. Host only. */
-#include "../src/context.h"
-#include "../src/record.h"
+#include "context.h"
+#include "geometry/vertex.h"
 
 #include "rig.h"
 #include "test.h"
@@ -90,33 +90,33 @@ static void test_a_mesh_is_level_where_every_facet_has_one_normal_and_one_colour
     make_ball();
     smear_mesh bare = ball(false, false, false), normals = ball(true, false, false), colors = ball(false, true, false),
                both = ball(true, true, false);
-    CHECK(!smear_record_is_level(&bare, true));         /* is flat as it is */
-    CHECK(smear_record_is_level(&normals, true));
-    CHECK(!smear_record_is_level(&normals, false));     /* nobody looks at them: likewise */
-    CHECK(smear_record_is_level(&colors, true));
-    CHECK(smear_record_is_level(&both, true));
+    CHECK(!smear_vertex_is_level(&bare, true));         /* is flat as it is */
+    CHECK(smear_vertex_is_level(&normals, true));
+    CHECK(!smear_vertex_is_level(&normals, false));     /* nobody looks at them: likewise */
+    CHECK(smear_vertex_is_level(&colors, true));
+    CHECK(smear_vertex_is_level(&both, true));
     for (int k = 0; k < 7; k++) {       /* a component of a vertex other by one step */
         const int vertex = 3 * (FACETS / 2) + k % 3;
         if (k < 3)
             ball_normal[3 * vertex + k]--;
         else
             ball_color[4 * vertex + k - 3]--;
-        CHECK(!smear_record_is_level(&both, true));
-        CHECK_EQ(smear_record_is_level(&both, false), k < 3);
-        CHECK_EQ(smear_record_is_level(&normals, true), k >= 3);
-        CHECK_EQ(smear_record_is_level(&colors, true), k < 3);
+        CHECK(!smear_vertex_is_level(&both, true));
+        CHECK_EQ(smear_vertex_is_level(&both, false), k < 3);
+        CHECK_EQ(smear_vertex_is_level(&normals, true), k >= 3);
+        CHECK_EQ(smear_vertex_is_level(&colors, true), k < 3);
         if (k < 3)
             ball_normal[3 * vertex + k]++;
         else
             ball_color[4 * vertex + k - 3]++;
     }
     both.triangle_count = FACETS + 1;
-    CHECK(!smear_record_is_level(&both, true));
+    CHECK(!smear_vertex_is_level(&both, true));
     both.triangle_count = FACETS;
     for (int i = 0; i < 3; i++) {       /* a vertex that the mesh has not */
         const uint16_t kept = ball_index[CORNERS - 3 + i];
         ball_index[CORNERS - 3 + i] = CORNERS;
-        CHECK(!smear_record_is_level(&both, true));
+        CHECK(!smear_vertex_is_level(&both, true));
         ball_index[CORNERS - 3 + i] = kept;
     }
 }
@@ -160,8 +160,8 @@ static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, 
         }
         smear_stats stats;
         smear_get_stats(r.ctx, &stats);
-        t.level = r.ctx->geometry.segment[0].level != 0;
-        t.words = r.ctx->geometry.vertex_words;
+        t.level = r.ctx->bins.segment[0].level != 0;
+        t.words = r.ctx->bins.vertex_words;
         t.drawn = stats.triangles_drawn;
         t.split = stats.triangles_split;
     }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_light.c - light on vertices and faces against double precision: rotations, scales, shears,
  * mirrors; colours, alpha and packing. Host only. */
-#include "../src/light.h"
+#include "geometry/light.h"
 
-#include "../src/tables.h"
+#include "base/tables.h"
 #include "test.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_matrix.c - the rows of a projection: bounded for any input whatever, planes at their
  * distances, and sums of poses against the same sums in double precision. Host only. */
-#include "../src/matrix.h"
+#include "geometry/matrix.h"
 
-#include "../src/transform.h"
+#include "geometry/transform.h"
 #include "test.h"
 
 #include <math.h>

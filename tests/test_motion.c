@@ -4,7 +4,7 @@
 #include "rig.h"
 #include "test.h"
 
-#include "../src/context.h"
+#include "context.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_path.c - places between three instants: exact at these, to nearest between. */
-#include "../src/path.h"
+#include "geometry/path.h"
 
-#include "../src/transform.h"
+#include "geometry/transform.h"
 
 #include "test.h"
 
@@ -112,19 +112,19 @@ static void test_records_are_read_at_their_offsets(void)
         CHECK_EQ(at[PATH_Y], 180 + 20 * k);
         CHECK_EQ(at[PATH_DEPTH], 1000 + 2000 * k);
     }
-    CHECK_EQ(path_bend(record, &s), 0);
+    CHECK_EQ(path_curvature(record, &s), 0);
 }
 
 static void test_parts_of_the_exposure_follow_each_other(void)
 {
     for (int32_t time = 0; time < SHUTTER_CLOSE; time += 7) {
         int found = 0;
-        for (int piece = 1; piece <= PATH_PIECES; piece++) {
+        for (int piece = 1; piece <= PATH_INTERVALS; piece++) {
             int32_t in = time;
-            if (path_piece_time(&in, piece)) {
+            if (path_interval_time(&in, piece)) {
                 found++;
-                CHECK_EQ(in, (time * PATH_PIECES) & (SHUTTER_CLOSE - 1));
-                CHECK_EQ(piece - 1, time * PATH_PIECES / SHUTTER_CLOSE);
+                CHECK_EQ(in, (time * PATH_INTERVALS) & (SHUTTER_CLOSE - 1));
+                CHECK_EQ(piece - 1, time * PATH_INTERVALS / SHUTTER_CLOSE);
             }
         }
         CHECK_EQ(found, 1);

@@ -2,10 +2,10 @@
 /* test_raster.c - coverage, depth, colour, texels and velocity of triangles, against exact integer
  * arithmetic; and that cutting the frame into columns and bands never shows. Needs neither libc nor
  * floating point. */
-#include "../src/raster.h"
+#include "raster/raster.h"
 
-#include "../src/pixel.h"
-#include "../src/transform.h"
+#include "base/pixel.h"
+#include "geometry/transform.h"
 #include "test.h"
 
 void suite_raster(void);
@@ -25,7 +25,7 @@ static struct planes full, cut;
 static uint32_t pool[POOL_WORDS];
 static struct smear_segment segment[SEGMENTS];
 static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_geometry geometry;
+static struct smear_bins geometry;
 static struct smear_raster_frame frame;
 static uint8_t moving[W / 8];
 static uint32_t list_last;
@@ -60,7 +60,7 @@ static bool chance(int one_in)
  * otherwise (set_layout). All share one base, so offsets mean the same in each. */
 static void list_begin(void)
 {
-    geometry = (struct smear_geometry){
+    geometry = (struct smear_bins){
         .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
         .segment_limit = SEGMENTS
     };
@@ -71,7 +71,7 @@ static void list_begin(void)
         draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
     }
     frame = (struct smear_raster_frame){
-        .geometry = &geometry, .draw = draw, .width = W, .height = H, .velocity_scale = 32768,
+        .bins = &geometry, .draw = draw, .width = W, .height = H, .velocity_scale = 32768,
         .inspect_scale = 65536, .reach_q3 = 15 * 8
     };
     list_last = SMEAR_NO_TRIANGLE;
@@ -123,19 +123,19 @@ static uint32_t add_triangle(int at, uint16_t a, uint16_t b, uint16_t c, uint32_
         c = swap;
     }
     uint32_t i = geometry.triangle_count++;
-    struct smear_triangle *t = geometry_triangle(&geometry, i);
+    struct smear_triangle *t = bins_triangle(&geometry, i);
     *t = (struct smear_triangle){
         .vertex = { a, b, c }, .segment = (uint16_t)at, .next = SMEAR_NO_TRIANGLE, .color = color
     };
     if (list_last != SMEAR_NO_TRIANGLE)
-        geometry_triangle(&geometry, list_last)->next = i;
+        bins_triangle(&geometry, list_last)->next = i;
     list_last = i;
     return i;
 }
 
 static bool list_has_room(void)
 {
-    return geometry_has_room(&geometry, 3 * 16, 1) && geometry.vertex_words < 65000u;
+    return bins_has_room(&geometry, 3 * 16, 1) && geometry.vertex_words < 65000u;
 }
 
 static void planes_clear(struct planes *p)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_still.c - smear_desc.keep_still and smear_desc.display_buffers: the pictures are those of a context that draws and
+/* test_still.c - smear_desc.cache_static and smear_desc.buffer_age: the pictures are those of a context that draws and
  * sends everything in every frame, to the bit, and what stands still is drawn, and sent, only where it must be.
  * Host only. */
 #include "rig.h"
@@ -61,7 +61,7 @@ struct pair {
 static bool pair_begin(struct pair *p, smear_desc desc)
 {
     bool ok = rig_begin(&p->draws, &desc, false);
-    desc.keep_still = 1;
+    desc.cache_static = 1;
     return rig_begin(&p->keeps, &desc, false) && ok;
 }
 
@@ -83,12 +83,12 @@ static bool kept(struct pair *p, const struct set *s)
     free(want);
     smear_get_stats(p->keeps.ctx, &stats);
     smear_get_stats(p->draws.ctx, &full);
-    CHECK_EQ(full.still_kept, 0);
+    CHECK_EQ(full.static_cached, 0);
     CHECK_EQ(stats.triangles_in, full.triangles_in);
     CHECK(stats.triangles_split != 0
-          || (stats.still_kept ? stats.triangles_drawn <= full.triangles_drawn
+          || (stats.static_cached ? stats.triangles_drawn <= full.triangles_drawn
                                : stats.triangles_drawn == full.triangles_drawn));
-    return stats.still_kept != 0;
+    return stats.static_cached != 0;
 }
 
 static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
@@ -226,20 +226,20 @@ static void test_memory_is_as_the_macro_says_and_only_timed_contexts_keep(void)
                             .strip = 128, .timed = 1, .sharp = 1, .max_draws = 20, .max_triangles = 300,
                             .flush = take_band };
         const size_t without = smear_memory_size(&desc);
-        desc.keep_still = 1;
-        const size_t with = smear_memory_size(&desc), room = SMEAR_KEEP_STILL_BYTES(size[0], size[1], size[2]);
+        desc.cache_static = 1;
+        const size_t with = smear_memory_size(&desc), room = SMEAR_CACHE_STATIC_BYTES(size[0], size[1], size[2]);
         CHECK(with > without && with - without <= room && with - without + 40 >= room);
-        desc.keep_still = 0;
-        desc.display_buffers = 2;
-        const size_t tiles = smear_memory_size(&desc), most = SMEAR_DISPLAY_BUFFERS_BYTES(size[0], size[1], 20, size[2]);
+        desc.cache_static = 0;
+        desc.buffer_age = 2;
+        const size_t tiles = smear_memory_size(&desc), most = SMEAR_BUFFER_AGE_BYTES(size[0], size[1], 20, size[2]);
         CHECK(tiles > without && tiles - without <= most && tiles - without + 40 >= most);
     }
     smear_desc desc = desc_of(400, true);
     desc.flush = take_band;
     for (int i = 0; i < 4; i++) {
         smear_desc wrong = desc;
-        wrong.keep_still = i == 0 ? 2 : i == 1;
-        wrong.display_buffers = i == 2 ? 8 : i == 3;
+        wrong.cache_static = i == 0 ? 2 : i == 1;
+        wrong.buffer_age = i == 2 ? 8 : i == 3;
         wrong.timed = i != 1 && i != 3;
         CHECK(smear_memory_size(&wrong) == 0);
     }
@@ -292,7 +292,7 @@ static bool display_begin(struct display *d, smear_desc desc, int buffers)
     *d = (struct display){ .buffers = buffers };
     bool ok = rig_begin(&d->all, &desc, false);
     desc.flush = put_band;
-    desc.display_buffers = (uint8_t)buffers;
+    desc.buffer_age = (uint8_t)buffers;
     ok = rig_begin(&d->sends, &desc, false) && ok;
     for (int i = 0; i < buffers; i++)
         ok = CHECK((d->buffer[i] = calloc(1, BYTES)) != NULL) && ok;
@@ -346,7 +346,7 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
                     s.pose[FLOOR].basis[k] *= 8;        /* on beneath the camera: its triangles are cut */
                 smear_desc desc = desc_of(buffers == 2 ? 16 : 400, keeps == 0);
                 desc.format = format;
-                desc.keep_still = keeps;
+                desc.cache_static = keeps;
                 desc.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
                 if (display_begin(&d, desc, buffers))
                     for (int i = 0; i < 14; i++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_subframes.c - tiles of moving triangles against the plain way: every instant drawn over the whole frame from a
  * list of its own, summed, divided. Bit for bit. Needs neither libc nor floating point. */
-#include "../src/subframes.h"
+#include "temporal/subframes.h"
 
-#include "../src/pixel.h"
-#include "../src/raster.h"
-#include "../src/transform.h"
+#include "base/pixel.h"
+#include "raster/raster.h"
+#include "geometry/transform.h"
 #include "test.h"
 
 void suite_subframes(void);
@@ -16,10 +16,10 @@ enum { W = 70, H = 44, RING = 51, POOL_WORDS = 16000, SEGMENTS = 10, MOVERS = 40
 static uint32_t pool[POOL_WORDS];
 static struct smear_segment segment[SEGMENTS];
 static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_geometry geometry;
+static struct smear_bins geometry;
 static struct smear_raster_frame frame;
 static struct smear_shutter shutter;
-static struct smear_mover mover[MOVERS];
+static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, still_head, still_last, blend_head, blend_last;
 static uint32_t texels[32 * 16];
 static uint8_t piece;           /* of the exposure, in which triangles with a path are there; 0: all of it */
@@ -30,7 +30,7 @@ static uint16_t still_depth[W * RING];
 
 /* An instant as a scene of its own. */
 static uint32_t posed_pool[POOL_WORDS];
-static struct smear_geometry posed;
+static struct smear_bins posed;
 static uint32_t instant_color[W * H], want[W * H];
 static uint16_t instant_depth[W * H];
 static uint32_t sum[W * H * 3];
@@ -63,7 +63,7 @@ static bool chance(int one_in)
 
 static void scene_begin(bool linear)
 {
-    geometry = (struct smear_geometry){
+    geometry = (struct smear_bins){
         .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
         .segment_limit = SEGMENTS
     };
@@ -71,12 +71,12 @@ static void scene_begin(bool linear)
         segment[i] = (struct smear_segment){ .draw = (uint16_t)i, .stride = VERTEX_BASE_WORDS, .shade = SHADE_FLAT };
         draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
     }
-    frame = (struct smear_raster_frame){ .geometry = &geometry, .draw = draw, .linear = linear, .width = W, .height = H };
+    frame = (struct smear_raster_frame){ .bins = &geometry, .draw = draw, .linear = linear, .width = W, .height = H };
     mover_count = 0;
     piece = 0;
     still_head = still_last = blend_head = blend_last = SMEAR_NO_TRIANGLE;
-    for (int i = 0; i <= SHUTTER_SLOTS; i++)
-        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SLOTS);
+    for (int i = 0; i <= SHUTTER_SAMPLES; i++)
+        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     for (int i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
 }
@@ -120,7 +120,7 @@ static int64_t area_at(const struct corners *c, int pose)
 
 static bool has_room(void)
 {
-    return geometry_has_room(&geometry, 3 * 16, 2) && mover_count < MOVERS;
+    return bins_has_room(&geometry, 3 * 16, 2) && mover_count < MOVERS;
 }
 
 /* Pixels near its way, and the part of the exposure in which it is there. */
@@ -136,7 +136,7 @@ static struct smear_path_bounds bounds_of(const struct corners *c)
             }
     return (struct smear_path_bounds){
         .x0 = (int16_t)((low[0] + 125) >> 8), .y0 = (int16_t)((low[1] + 125) >> 8),
-        .x1 = (int16_t)((high[0] + 129) >> 8), .y1 = (int16_t)((high[1] + 129) >> 8), .piece = piece
+        .x1 = (int16_t)((high[0] + 129) >> 8), .y1 = (int16_t)((high[1] + 129) >> 8), .interval = piece
     };
 }
 
@@ -145,11 +145,11 @@ static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
 {
     const struct smear_segment *s = &segment[at];
     if (s->path) {
-        void *entry = geometry_triangle(&geometry, geometry.triangle_count++);
+        void *entry = bins_triangle(&geometry, geometry.triangle_count++);
         *(struct smear_path_bounds *)entry = bounds_of(c);
     }
     uint32_t i = geometry.triangle_count++;
-    struct smear_triangle *t = geometry_triangle(&geometry, i);
+    struct smear_triangle *t = bins_triangle(&geometry, i);
     *t = (struct smear_triangle){ .segment = (uint16_t)at, .next = SMEAR_NO_TRIANGLE, .color = color };
     for (int k = 0; k < 3; k++) {
         uint32_t word = geometry.vertex_words;
@@ -175,7 +175,7 @@ static void link_in(uint32_t *head, uint32_t *last, uint32_t i)
     if (*head == SMEAR_NO_TRIANGLE)
         *head = i;
     else
-        geometry_triangle(&geometry, *last)->next = i;
+        bins_triangle(&geometry, *last)->next = i;
     *last = i;
 }
 
@@ -186,7 +186,7 @@ static void add_mover(int at, const struct corners *c, uint32_t color)
     int32_t first = b.x0 >> 3, last = (b.x1 - 1) >> 3;
     if (last < 0 || first > W / 8)
         return;
-    mover[mover_count++] = (struct smear_mover){
+    mover[mover_count++] = (struct smear_moving_triangle){
         .triangle = add_triangle(at, c, color), .first = (uint8_t)(first < 0 ? 0 : first),
         .last = (uint8_t)(last > W / 8 ? W / 8 : last), .nearest = UINT16_MAX
     };
@@ -197,7 +197,7 @@ static void add_mover(int at, const struct corners *c, uint32_t color)
 /* The time of instant k of n: where (k + 1/2) / n of the light has come in. */
 static int32_t time_of(int32_t k, int32_t n)
 {
-    int64_t place = ((int64_t)(2 * k + 1) * SHUTTER_SLOTS << 15) / n;
+    int64_t place = ((int64_t)(2 * k + 1) * SHUTTER_SAMPLES << 15) / n;
     int32_t slot = (int32_t)(place >> 16);
     int64_t step = shutter.time[slot + 1] - shutter.time[slot];
     return shutter.time[slot] + (int32_t)(step * (place & 0xffff) >> 16);
@@ -206,9 +206,9 @@ static int32_t time_of(int32_t k, int32_t n)
 /* A triangle of the scene at a time, at the end of the instant's list. */
 static void pose_triangle(uint32_t i, int32_t time)
 {
-    const struct smear_triangle *from = geometry_triangle(&geometry, i);
+    const struct smear_triangle *from = bins_triangle(&geometry, i);
     const struct smear_segment *s = &segment[from->segment];
-    int32_t place[3][3], part = s->path ? geometry_bounds(&geometry, i)->piece : 0;
+    int32_t place[3][3], part = s->path ? bins_bounds(&geometry, i)->interval : 0;
     if (part != 0) {        /* a 16th of the exposure */
         if (time >> 12 != part - 1)
             return;
@@ -229,7 +229,7 @@ static void pose_triangle(uint32_t i, int32_t time)
         <= (int64_t)(place[2][0] - place[0][0]) * (place[1][1] - place[0][1]))
         return;
     uint32_t n = posed.triangle_count++;
-    struct smear_triangle *t = geometry_triangle(&posed, n);
+    struct smear_triangle *t = bins_triangle(&posed, n);
     *t = *from;
     t->next = SMEAR_NO_TRIANGLE;
     for (int k = 0; k < 3; k++) {
@@ -240,7 +240,7 @@ static void pose_triangle(uint32_t i, int32_t time)
             posed_pool[word + j] = j < 3 ? (uint32_t)place[k][j] : pool[from->vertex[k] + j];
     }
     if (n > 0)
-        geometry_triangle(&posed, n - 1)->next = n;
+        bins_triangle(&posed, n - 1)->next = n;
 }
 
 static void draw_posed(void)
@@ -250,7 +250,7 @@ static void draw_posed(void)
     const struct smear_raster_target target = {
         .x1 = W, .y1 = H, .color = instant_color, .color_rows = rows, .depth = instant_depth, .window_rows = rows
     };
-    f.geometry = &posed;
+    f.bins = &posed;
     if (posed.triangle_count != 0)
         smear_raster_list(&f, &target, 0);
 }
@@ -285,13 +285,13 @@ static void draw_want(int32_t instants)
             instant_depth[i] = 0;
         }
         posed_begin();
-        for (uint32_t i = still_head; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(&geometry, i)->next)
+        for (uint32_t i = still_head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(&geometry, i)->next)
             pose_triangle(i, time);
         for (uint32_t i = 0; i < mover_count; i++)
             pose_triangle(mover[i].triangle, time);
         draw_posed();
         posed_begin();
-        for (uint32_t i = blend_head; i != SMEAR_NO_TRIANGLE; i = geometry_triangle(&geometry, i)->next)
+        for (uint32_t i = blend_head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(&geometry, i)->next)
             pose_triangle(i, time);
         draw_posed();
         for (int i = 0; i < W * H; i++)
@@ -351,13 +351,13 @@ static void draw_still(void)
 
 static uint32_t samples;
 
-static struct smear_moving_tile tiles_at(int32_t tile, int32_t column, int32_t tiles, int32_t row, const struct smear_mover *movers)
+static struct smear_moving_tile tiles_at(int32_t tile, int32_t column, int32_t tiles, int32_t row, const struct smear_moving_triangle *movers)
 {
     return (struct smear_moving_tile){
         .frame = &frame, .shutter = &shutter,
         .still = ring_target(column * tile, row * tile, (column + tiles) * tile, (row + 1) * tile),
         .x0 = column * tile, .x1 = (column + tiles) * tile,
-        .mover = movers, .mover_count = mover_count, .column = column, .last_column = column + tiles - 1,
+        .moving = movers, .moving_count = mover_count, .column = column, .last_column = column + tiles - 1,
         .blend = blend_head, .out = memory.out, .pitch = tiles * tile, .tile = tile, .work = memory.work
     };
 }
@@ -365,7 +365,7 @@ static struct smear_moving_tile tiles_at(int32_t tile, int32_t column, int32_t t
 /* Tiles beside each other against `want`. */
 static bool check_tiles(int32_t tile, int32_t column, int32_t tiles, int32_t row, int32_t instants)
 {
-    static struct smear_mover movers[MOVERS];
+    static struct smear_moving_triangle movers[MOVERS];
     for (uint32_t i = 0; i < mover_count; i++) {
         movers[i] = mover[i];
         movers[i].first = (uint8_t)(mover[i].first * 8 / tile);
@@ -476,7 +476,7 @@ static void random_scene(bool blends)
         if (area_at(&c, 1) == 0)
             continue;
         uint32_t color = random_u32();
-        piece = (uint8_t)(chance(4) ? between(1, PATH_PIECES) : 0);
+        piece = (uint8_t)(chance(4) ? between(1, PATH_INTERVALS) : 0);
         if (kind == 2 || kind == 9) {
             uint32_t i = add_triangle(kind, &c, color);
             link_in(&blend_head, &blend_last, i);
@@ -565,7 +565,7 @@ static void test_tiles_together_are_what_they_are_alone(void)
 /* The middle row of tiles with `instants`, and what lies between them closed: the largest distance from 64 instants. */
 static int32_t closed_error(int32_t instants, const struct smear_step *step)
 {
-    static struct smear_mover movers[MOVERS];
+    static struct smear_moving_triangle movers[MOVERS];
     int32_t worst = 0;
     for (uint32_t i = 0; i < mover_count; i++) {
         movers[i] = mover[i];
@@ -693,7 +693,7 @@ static void test_shutters_weigh_by_their_slots(void)
     for (int n = 0; n < 40; n++) {
         random_scene(n & 1);
         shutter.time[0] = between(0, 3000);
-        for (int i = 1; i <= SHUTTER_SLOTS; i++)
+        for (int i = 1; i <= SHUTTER_SAMPLES; i++)
             shutter.time[i] = shutter.time[i - 1] + between(0, (SHUTTER_CLOSE - shutter.time[i - 1]) / 4);
         if (!check_scene(16, between(1, 40)))
             return;
@@ -835,7 +835,7 @@ static void test_movers_of_the_background_s_colour_hide_panes(void)
     for (int linear = 0; linear < 2; linear++) {
         square_scene(linear, 9);
         for (uint32_t m = 0; m < mover_count; m++)
-            geometry_triangle(&geometry, mover[m].triangle)->color = 0xff305070u;
+            bins_triangle(&geometry, mover[m].triangle)->color = 0xff305070u;
         draw[2].alpha = SMEAR_BLEND;
         const struct corners pane = sheet(1 << 27);
         uint32_t at = add_triangle(2, &pane, 0x80ff8000u);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_tables.c - what the constants promise each other. That a fresh run of tools/gentables gives
  * the same file is a rule of the Makefile. Needs neither libc nor floating point. */
-#include "../src/pixel.h"
-#include "../src/tables.h"
+#include "base/pixel.h"
+#include "base/tables.h"
 
 #include "test.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_texture.c - texels by every wrap mode, format and size, against direct arithmetic on the
  * coordinate. Needs neither libc nor floating point. */
-#include "../src/texture.h"
+#include "raster/texture.h"
 
-#include "../src/tables.h"
+#include "base/tables.h"
 #include "test.h"
 
 void suite_texture(void);

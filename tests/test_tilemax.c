@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_tilemax.c - the longest velocity of a tile and of its neighbourhood: ties, borders, odd
  * sizes, the corner rule, the classes. Needs neither libc nor floating point. */
-#include "../src/tilemax.h"
+#include "filter/tilemax.h"
 
 #include "test.h"
 
@@ -221,7 +221,7 @@ static void test_rows_not_yet_known_are_not_looked_at(void)
 {
     make_window(24, 24, 24, false);
     set_motion(2, 1, 120, 0);
-    CHECK_EQ(neighborhood_of(1, 1, 1, false)->kind, TILE_STILL);
+    CHECK_EQ(neighborhood_of(1, 1, 1, false)->kind, TILE_STATIC);
     CHECK_EQ(neighborhood_of(1, 1, 1, false)->x, 0);
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->x, shortened(120));
 }
@@ -266,7 +266,7 @@ static void test_classes_tell_still_alike_and_mixed_motion(void)
 {
     make_window(24, 24, 24, false);
     set_all(0, 0);
-    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_STILL);
+    CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_STATIC);
     set_all(80, -40);
     CHECK_EQ(neighborhood_of(1, 1, 2, false)->kind, TILE_UNIFORM);
     set_motion(2, 2, 82, -42);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_timemask.c - the time mask against what it stands for: the same triangles drawn at the middle of every slot by exact
  * integer arithmetic, and averaged. Needs neither libc nor floating point. */
-#include "../src/timemask.h"
+#include "temporal/timemask.h"
 
-#include "../src/pixel.h"
-#include "../src/raster.h"
-#include "../src/transform.h"
+#include "base/pixel.h"
+#include "raster/raster.h"
+#include "geometry/transform.h"
 #include "test.h"
 
 void suite_timemask(void);
@@ -18,10 +18,10 @@ enum {
 static uint32_t pool[POOL_WORDS];
 static struct smear_segment segment[SEGMENTS];
 static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_geometry geometry;
+static struct smear_bins geometry;
 static struct smear_raster_frame frame;
 static struct smear_shutter shutter;
-static struct smear_mover mover[MOVERS];
+static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, list_last;
 
 static uint32_t still_color[W * H], result[W * H];
@@ -61,7 +61,7 @@ struct path { struct place open, middle, close; };
 
 static void scene_begin(bool linear)
 {
-    geometry = (struct smear_geometry){
+    geometry = (struct smear_bins){
         .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
         .segment_limit = SEGMENTS
     };
@@ -82,11 +82,11 @@ static void scene_begin(bool linear)
         draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
     }
     frame = (struct smear_raster_frame){
-        .geometry = &geometry, .draw = draw, .width = W, .height = H, .linear = linear, .velocity_scale = 32768,
+        .bins = &geometry, .draw = draw, .width = W, .height = H, .linear = linear, .velocity_scale = 32768,
         .inspect_scale = 65536, .reach_q3 = 120
     };
-    for (int i = 0; i <= SHUTTER_SLOTS; i++)
-        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SLOTS);
+    for (int i = 0; i <= SHUTTER_SAMPLES; i++)
+        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     mover_count = 0;
     list_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i < W * H; i++) {
@@ -158,13 +158,13 @@ static struct smear_path_bounds bounds_of(int at, const int32_t *const v[3])
         }
         int32_t dx = abs_i32(pose[2][PATH_X] - pose[1][PATH_X]), dy = abs_i32(pose[2][PATH_Y] - pose[1][PATH_Y]);
         travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
-        bend = max_i32(bend, path_bend(v[i], &segment[at]));
+        bend = max_i32(bend, path_curvature(v[i], &segment[at]));
     }
     int32_t margin = bend >> 3;
     return (struct smear_path_bounds){
         .x0 = (int16_t)((x0 - margin + 127) >> 8), .y0 = (int16_t)((y0 - margin + 127) >> 8),
         .x1 = (int16_t)((x1 + margin + 255) >> 8), .y1 = (int16_t)((y1 + margin + 255) >> 8),
-        .travel = (uint16_t)min_i32((travel + 15) >> 4, 65535), .bend = (uint16_t)min_i32((bend + 15) >> 4, 65535),
+        .travel = (uint16_t)min_i32((travel + 15) >> 4, 65535), .curvature = (uint16_t)min_i32((bend + 15) >> 4, 65535),
         .nearest = 65535
     };
 }
@@ -176,13 +176,13 @@ static void add_mover(int at, uint16_t a, uint16_t b, uint16_t c, uint32_t color
     int64_t area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1])
                  - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
     const struct smear_path_bounds bounds = bounds_of(at, v);
-    struct smear_triangle *t = geometry_add_path(&geometry, &list_last, &bounds);
+    struct smear_triangle *t = bins_add_path(&geometry, &list_last, &bounds);
     t->vertex[0] = a;
     t->vertex[1] = area < 0 ? c : b;
     t->vertex[2] = area < 0 ? b : c;
     t->segment = (uint16_t)at;
     t->color = 0xff000000u | color;
-    mover[mover_count++] = (struct smear_mover){ list_last, 0, 255, bounds.nearest };
+    mover[mover_count++] = (struct smear_moving_triangle){ list_last, 0, 255, bounds.nearest };
 }
 
 static struct path path_moved(struct place p, int32_t dx, int32_t dy, int32_t depth)
@@ -205,7 +205,7 @@ static bool draw_sparse(int32_t slots, int32_t tile, int32_t bend, int32_t tap, 
     for (int32_t y = 0; y < H; y += tile)
         for (int32_t x = 0; x < W; x += tile) {
             struct smear_moving_tile t = {
-                .frame = &frame, .shutter = &shutter, .mover = mover, .mover_count = mover_count, .column = x / tile,
+                .frame = &frame, .shutter = &shutter, .moving = mover, .moving_count = mover_count, .column = x / tile,
                 .last_column = x / tile, .blend = SMEAR_NO_TRIANGLE, .out = out, .pitch = tile, .tile = tile, .work = work + CANARY
             };
             t.still = (struct smear_raster_target){
@@ -318,7 +318,7 @@ static void truth_draw(const struct smear_triangle *t, int32_t time)
     const struct smear_segment *s = &segment[t->segment];
     int32_t p[3][3], depth[3];
     for (int i = 0; i < 3; i++) {
-        path_at(p[i], geometry_vertex(&geometry, s, t->vertex[i]), s, time);
+        path_at(p[i], bins_vertex(&geometry, s, t->vertex[i]), s, time);
         depth[i] = p[i][2];
     }
     for (int32_t y = 0; y < H; y++)
@@ -342,14 +342,14 @@ static void truth(int32_t slots)
     for (int i = 0; i < W * H; i++)
         sum[i][0] = sum[i][1] = sum[i][2] = 0;
     for (int32_t k = 0; k < slots; k++) {
-        int32_t step = SHUTTER_SLOTS / slots;
+        int32_t step = SHUTTER_SAMPLES / slots;
         int32_t time = (shutter.time[k * step] + shutter.time[(k + 1) * step]) / 2;
         for (int i = 0; i < W * H; i++) {
             instant_color[i] = still_color[i];
             instant_depth[i] = still_depth[i] == 0 ? 0 : (int32_t)(smear_depth_units(still_depth[i]) << 11);
         }
         for (uint32_t i = 0; i < mover_count; i++)
-            truth_draw(geometry_triangle(&geometry, mover[i].triangle), time);
+            truth_draw(bins_triangle(&geometry, mover[i].triangle), time);
         for (int i = 0; i < W * H; i++)
             for (int c = 0; c < 3; c++) {
                 uint32_t code = instant_color[i] >> (16 - 8 * c) & 255u;
@@ -548,11 +548,11 @@ static void test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them(v
             .window_rows = rows
         };
         for (uint32_t i = 0; i < mover_count; i++) {
-            const struct smear_triangle *t = geometry_triangle(&geometry, mover[i].triangle);
+            const struct smear_triangle *t = bins_triangle(&geometry, mover[i].triangle);
             const struct smear_segment *s = &segment[t->segment];
             const int32_t *v[3];
             for (int k = 0; k < 3; k++)
-                v[k] = geometry_vertex(&geometry, s, t->vertex[k]);
+                v[k] = bins_vertex(&geometry, s, t->vertex[k]);
             int64_t area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1])
                          - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
             struct bounds box = { v[0][0], v[0][1], v[0][0], v[0][1] };
@@ -833,7 +833,7 @@ static void test_the_order_of_movers_does_not_matter_while_there_are_entries(voi
                     return;
                 before[i] = result[i];
             }
-            struct smear_mover swap = mover[turn & 1];
+            struct smear_moving_triangle swap = mover[turn & 1];
             mover[turn & 1] = mover[1 + (turn & 1)];
             mover[1 + (turn & 1)] = swap;
         }
@@ -994,7 +994,7 @@ static void test_a_shutter_that_is_not_a_box_weighs_time(void)
     for (int n = 0; n < 20; n++) {
         scene_begin(n & 1);
         /* Open in the middle: half the slots in a quarter of the time. */
-        for (int i = 0; i <= SHUTTER_SLOTS; i++) {
+        for (int i = 0; i <= SHUTTER_SAMPLES; i++) {
             int32_t u = i * 4096 - 65536;                               /* -1 .. 1 */
             shutter.time[i] = 32768 + ((u >> 1) + (int32_t)((int64_t)u * u / 65536 * u / 65536 >> 1)) / 2;
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_transform.c - screen positions and depth of vertices against the same numbers in double
  * precision: rigid, scaled, sheared, mirrored, tiny and huge transforms. Host only. */
-#include "../src/transform.h"
+#include "geometry/transform.h"
 
 #include "test.h"
 

@@ -587,7 +587,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
     desc.max_triangles *= 4;
     desc.sharp = sharp;
-    desc.timed = smear_method_is_timed(o->method);
+    desc.timed = smear_method_is_temporal(o->method);
     desc.passes = o->method == SMEAR_PINGPONG ? 2 : 0;
     desc.half = o->method == SMEAR_HALF;
     desc.accumulate = o->method == SMEAR_ACCUMULATE;

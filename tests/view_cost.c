@@ -83,7 +83,7 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
         desc.sharp = !smear_method_is_filter(methods[m].method);
-        desc.timed = smear_method_is_timed(methods[m].method);
+        desc.timed = smear_method_is_temporal(methods[m].method);
         desc.accumulate = methods[m].method == SMEAR_ACCUMULATE;
         desc.passes = methods[m].method == SMEAR_PINGPONG ? 2 : 0;
         desc.half = methods[m].method == SMEAR_HALF;

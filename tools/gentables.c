@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* gentables.c - writes src/tables.c to standard output: `make tables`. The only place where the library's
+/* gentables.c - writes src/base/tables.c to standard output: `make tables`. The only place where the library's
  * constants meet floating point; `make test` compares a fresh run with the committed file. */
 #include <math.h>
 #include <stdint.h>

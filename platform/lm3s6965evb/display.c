@@ -144,7 +144,7 @@ bool display_open(smear_desc *desc)
     if (desc->width != 2 * ROW_BYTES || desc->height != ROWS || desc->format != SMEAR_L4)
         return false;
     desc->bands = 2;
-    desc->display_buffers = desc->timed;        /* the panel's memory */
+    desc->buffer_age = desc->timed;        /* the panel's memory */
     desc->flush = flush;
     desc->idle = wait_for_event;
 

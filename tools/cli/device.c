@@ -83,8 +83,8 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.timed = s->timed;
     desc.layers = s->layers;
     desc.scatter = s->scatter;
-    desc.keep_still = s->keep_still;
-    desc.display_buffers = s->keep_display;
+    desc.cache_static = s->cache_static;
+    desc.buffer_age = s->keep_display;
     desc.accumulate = s->accumulate;
     desc.crc = 1;
     desc.flush = take_band;
@@ -208,7 +208,7 @@ bool device_draw(struct device *device, const struct presented *presented, struc
 /* What is kept from frame to frame would be lost in another context, and drawn again there is less to draw. */
 static bool is_drawn_once(const struct device *device)
 {
-    return device->desc.keep_still || device->desc.display_buffers != 0;
+    return device->desc.cache_static || device->desc.buffer_age != 0;
 }
 
 bool device_time(struct device *device, const struct presented *presented,

@@ -174,7 +174,7 @@ static const char *read_budget(void *to, const char *value)
 static const char *read_keep_still(void *to, const char *value)
 {
     (void)value;
-    ((struct render_options *)to)->keep_still = true;
+    ((struct render_options *)to)->cache_static = true;
     return NULL;
 }
 
@@ -463,9 +463,9 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--exact", "goes with --method accumulate");
     if (o->budget != 0 && o->method != SMEAR_AUTO)
         return say_bad_usage("--budget", "goes with --method auto");
-    if (o->keep_still && !smear_method_is_timed(o->method))
+    if (o->cache_static && !smear_method_is_temporal(o->method))
         return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
-    if (o->keep_display && !smear_method_is_timed(o->method))
+    if (o->keep_display && !smear_method_is_temporal(o->method))
         return say_bad_usage("--keep-display", "goes with --method auto, subframes and timemask");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");

@@ -38,8 +38,8 @@ struct render_options {
     smear_weights weights;
     bool scatter;               /* the reach may exceed the tile */
     uint32_t budget;            /* of auto, pixels x instants; 0: none */
-    bool keep_still;            /* from frame to frame */
-    bool keep_display;          /* the display keeps its picture: smear_desc.display_buffers */
+    bool cache_static;            /* from frame to frame */
+    bool keep_display;          /* the display keeps its picture: smear_desc.buffer_age */
     int turn_scale, way_scale, object_scale;    /* as in smear_frame */
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light light;

@@ -14,7 +14,7 @@ static bool is_sharp_method(const struct render_options *o)
 
 static bool is_timed_method(const struct render_options *o)
 {
-    return o->shutter_degrees > 0 && smear_method_is_timed(o->method);
+    return o->shutter_degrees > 0 && smear_method_is_temporal(o->method);
 }
 
 static bool is_layered_method(const struct render_options *o)
@@ -101,7 +101,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
         .timed = is_timed_method(o), .layers = is_layered_method(o),
         .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
-        .keep_still = o->keep_still && is_timed_method(o),
+        .cache_static = o->cache_static && is_timed_method(o),
         .keep_display = o->keep_display && is_timed_method(o),
         .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
     };

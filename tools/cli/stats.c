@@ -80,8 +80,8 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             c->tiles_none, c->tiles_accumulate, c->tiles_reconstruct, c->tiles_smooth, c->tiles_subframes,
             c->tiles_timemask, c->tiles_camera, c->tiles_pingpong, c->tiles_half,
             c->tiles_object, c->tiles_layered);
-    fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"still_kept\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
-            c->draws_moved, c->draws_beside, c->still_kept, c->target / 64.0, c->work);
+    fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
+            c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);
     fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
             c->crc32);
     s->frames++;

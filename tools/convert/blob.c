@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* blob.c - a conversion as a .smr file: src/blob.h has the layout. Written byte by byte, low byte first, so
+/* blob.c - a conversion as a .smr file: src/model/blob.h has the layout. Written byte by byte, low byte first, so
  * that the host's byte order does not matter. */
 #include "build.h"
 
-#include "../../src/blob.h"
+#include "model/blob.h"
 #include "../image/buffer.h"
 #include "../image/image.h"
 

@@ -12,7 +12,7 @@
  *       shape.c     draws of one kind become one mesh; grids; int16 vertices
  *       weld.c      equal vertices become one; order.c: triangles in an order that reuses vertices
  *       deform.c    skins and morph targets
- *       measure.c   plays the result (src/anim.c) and compares it with the model's own poses
+ *       measure.c   plays the result (src/model/anim.c) and compares it with the model's own poses
  *       blob.c, header.c                     files */
 #ifndef SMEAR_TOOLS_CONVERT_H
 #define SMEAR_TOOLS_CONVERT_H

@@ -2,7 +2,7 @@
 /* exact.c - see exact.h. */
 #include "exact.h"
 
-#include "../../src/tables.h"
+#include "base/tables.h"
 
 #include <math.h>
 #include <string.h>

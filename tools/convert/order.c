@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* order.c - triangles in an order that finds transformed vertices again.
  *
- * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64 (src/assemble.c). So
+ * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64 (src/geometry/assemble.c). So
  * both orders matter: that of the triangles, and the numbers of the vertices. Vertices are numbered as they
  * come first, which makes the cache hold the newest 64 as long as nothing older is asked for. Triangles are
  * taken one by one: of those at a vertex in the cache the one that has to transform the fewest vertices;

@@ -5,7 +5,7 @@
 
 #include "exact.h"
 
-#include "../../src/tables.h"
+#include "base/tables.h"
 
 #include <math.h>
 #include <stdlib.h>

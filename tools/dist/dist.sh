@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# dist.sh SINGLE-TOOL OUT LAYER...
+# dist.sh SINGLE-TOOL OUT ROOM...
 # Writes the forms in which people take a library: OUT/single (smear.c and smear.h), and OUT/FORM/smear for CMake,
-# PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests. LAYER... are the library's files, bottom
-# first.
+# PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests. ROOM... are the folders of src/,
+# the lowest first.
 set -eu
 tool=$1 out=$2
 shift 2
@@ -11,14 +11,9 @@ from=tools/dist
 rm -rf "$out"
 version=$(sh "$from/version.sh")
 
-headers= sources= names=
-for layer; do
-    [ ! -e "src/$layer.h" ] || headers="$headers src/$layer.h"
-    if [ -e "src/$layer.c" ]; then
-        sources="$sources src/$layer.c"
-        names="$names $layer.c"
-    fi
-done
+headers=$(sh tests/layers.sh --order "$@" | grep '\.h$')
+sources=$(sh tests/layers.sh --order "$@" | grep '\.c$')
+names=$(echo "$sources" | sed 's|^src/||')
 switches=$(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_config.h | grep -v _ALL)
 
 # fill TEMPLATE FILE PREFIX-OF-SOURCES: version, list of sources, definitions from Kconfig
@@ -40,7 +35,10 @@ tree() {
     mkdir -p "$out/$1/smear/include" "$out/$1/smear/src"
     cp include/*.h "$out/$1/smear/include"
     # shellcheck disable=SC2086
-    cp $headers $sources "$out/$1/smear/src"
+    for file in $headers $sources; do
+        mkdir -p "$out/$1/smear/${file%/*}"
+        cp "$file" "$out/$1/smear/$file"
+    done
     cp LICENSE "$out/$1/smear"
 }
 
@@ -51,7 +49,7 @@ kconfig() {
         for switch in $switches; do
             printf '\nconfig %s\n\tbool "%s"\n\tdefault y\n' "$switch" "$switch"
             case $switch in
-            *_TIMEMASK | *_SMOOTH) printf '\tdepends on SMEAR_WITH_SUBFRAMES\n' ;;
+            *_TIMEMASK | *_DAMAGE) printf '\tdepends on SMEAR_WITH_SUBFRAMES\n' ;;
             *_FILTERS | *_FILTER_ALONE | *_LAYERS) printf '\tdepends on SMEAR_WITH_RECONSTRUCT\n' ;;
             *_BILINEAR) printf '\tdepends on SMEAR_WITH_TEXTURE\n' ;;
             *_BLUE_DITHER) printf '\tdepends on SMEAR_WITH_DITHER\n' ;;

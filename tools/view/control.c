@@ -130,7 +130,7 @@ static void do_samples(struct view *v, int way)
     const bool is_slots = o.method == SMEAR_TIMEMASK;
     const int *list = is_slots ? slots : taps;
     int count = is_slots ? 3 : (int)(sizeof taps / sizeof *taps), at = 0;
-    int now = o.samples > 0 ? o.samples : smear_method_is_timed(o.method) ? 32 : 8;
+    int now = o.samples > 0 ? o.samples : smear_method_is_temporal(o.method) ? 32 : 8;
     while (at < count - 1 && list[at] < now)
         at++;
     at += way;

@@ -3,7 +3,7 @@
  * count tiles, but do not say where they are. */
 #include "tiles.h"
 
-#include "../../src/context.h"
+#include "context.h"
 
 #include <stdlib.h>
 
@@ -31,7 +31,7 @@ static struct tile_note timed_tile(const smear_context *c, const struct smear_ti
     struct smear_tile_choice choice;
     if (load_method(load) == TILE_COPY)
         return still;
-    smear_choose(&choice, &c->chooser, load);
+    smear_tile_method_choose(&choice, &c->chooser, load);
     if (load_method(load) == TILE_SUBFRAMES)
         return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
     if (load_method(load) == TILE_SMOOTH)
@@ -47,7 +47,7 @@ static struct tile_note filtered_tile(const smear_context *c, int row, int colum
                      : c->frame.method == SMEAR_PINGPONG ? TILES_PINGPONG
                      : c->frame.method == SMEAR_HALF     ? TILES_HALF
                                                          : TILES_RECONSTRUCT;
-    if (kind == TILE_STILL)
+    if (kind == TILE_STATIC)
         return still;
     return (struct tile_note){ method, kind == TILE_UNIFORM ? TILES_UNIFORM : TILES_COMPLEX,
                                c->frame.samples > 1 ? c->frame.samples : 2 };
@@ -78,7 +78,7 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO:
-        return timed_tile(c, &c->row_movers.load[column]);
+        return timed_tile(c, &c->row_moving.load[column]);
     case SMEAR_OBJECT:
     case SMEAR_LAYERED:
         return layers_tile(c, column);

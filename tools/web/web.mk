@@ -16,9 +16,8 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
-WEB_FAST := $(filter src/blur% src/camera.c src/convert.c src/half.c src/layer% src/light.c src/object.c src/pingpong.c \
-    src/raster.c src/reproject.c src/span.c src/subframes.c src/texture.c src/rows% src/timemask% src/tilemax.c src/setup.c \
-    src/band.c src/timed.c,$(LIB_SRC))
+WEB_FAST := $(filter src/filter/% src/ports/% src/layers/% src/raster/% src/temporal/subframes.c src/temporal/timemask% \
+    src/temporal/temporal_rows.c src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
     -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
@@ -48,7 +47,7 @@ $(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
 $(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -Oz -fno-builtin
 $(foreach v,scalar simd,$(WEB)/$(v)/tools/web/libc/libc.o): WEB_OPT = -O2 -fno-builtin
 # Loops over pixels that the compiler makes vectors of; nothing else gains.
-WEB_VECTORS := $(filter src/blur% src/convert.c src/band.c src/tilemax.c src/frame.c,$(LIB_SRC))
+WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/weights.c src/display/pixel_format.c src/display/band.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
 $(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
 
 $(WEB)/scalar/%.o: %.c

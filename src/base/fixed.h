@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* fixed.h - fixed-point types and the only helpers that narrow, saturate, wrap or take high products.
+ *
+ * A type is storage plus fraction bits: i32q16 holds value x 2^16. No suffix: cannot overflow for the stated
+ * ranges (a CHECK=1 build asserts it), rounds toward minus infinity. _rn: to nearest, ties up. _sat: clamps.
+ * _wrap: overflow is meant, computed through unsigned. */
+#ifndef SMEAR_FIXED_H
+#define SMEAR_FIXED_H
+
+#include "base/base.h"
+
+typedef int32_t i32q8;      /* [-2^23, 2^23)      step 1/256 px      screen positions (guard band: 4096 px) */
+typedef int32_t i32q11;     /* [-2^20, 2^20)      step 1/2048        depth units, 1/w */
+typedef int32_t i32q16;     /* [-32768, 32768)    step 1/65536       world units, colours, texels */
+typedef int32_t i32q24;     /* [-128, 128)        step 2^-24         basis of a transform */
+typedef int64_t i64q32;     /* [-2^31, 2^31)      step 2^-32         composed transforms, once per draw */
+typedef uint16_t u16lin;    /* [0, 1]             step 1/65535       linear light */
+typedef uint8_t u8code;     /* [0, 255]                              sRGB-encoded light */
+
+/* Sums and products that may wrap: the planes of a triangle are exact modulo 2^32. */
+static inline int32_t add_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
+static inline int32_t sub_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
+static inline int32_t mul_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
+static inline int32_t shl_wrap(int32_t a, int shift) { return (int32_t)((uint32_t)a << shift); }
+
+#if SMEAR_ONE_COPY
+#define mulh_i32 smear_mulh_i32
+#define mulh_u32 smear_mulh_u32
+#define scale_sat smear_scale_sat
+#endif
+#if SMEAR_ONE_COPY && !defined(SMEAR_COPY_IS_HERE)
+int32_t mulh_i32(int32_t a, int32_t b);
+uint32_t mulh_u32(uint32_t a, uint32_t b);
+int32_t scale_sat(int32_t a, int shift);
+#else
+/* High word of the signed product: floor(a b / 2^32). */
+SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * b >> 32);
+#else
+    /* a = ah 2^16 + al, likewise b; |ah bl| < 2^31 because al, bl < 2^16 and |ah|, |bh| <= 2^15. */
+    int32_t ah = a >> 16, bh = b >> 16;
+    uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu;
+    int32_t cross1 = ah * (int32_t)bl, cross2 = (int32_t)al * bh;
+    uint32_t low = (al * bl >> 16) + ((uint32_t)cross1 & 0xffffu) + ((uint32_t)cross2 & 0xffffu);
+    return ah * bh + (cross1 >> 16) + (cross2 >> 16) + (int32_t)(low >> 16);
+#endif
+}
+
+/* High word of the unsigned product. */
+SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (uint32_t)((uint64_t)a * b >> 32);
+#else
+    uint32_t ah = a >> 16, bh = b >> 16, al = a & 0xffffu, bl = b & 0xffffu;
+    uint32_t cross1 = ah * bl, cross2 = al * bh;
+    uint32_t low = (al * bl >> 16) + (cross1 & 0xffffu) + (cross2 & 0xffffu);
+    return ah * bh + (cross1 >> 16) + (cross2 >> 16) + (low >> 16);
+#endif
+}
+
+/* a 2^shift for shift in -31 .. 31, rounded to nearest when it shrinks, clamped when it grows. */
+SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
+{
+    if (shift <= 0) {
+        if (shift == 0)
+            return a;
+        return (a >> -shift) + (int32_t)((uint32_t)a >> (-shift - 1) & 1u);
+    }
+    int32_t limit = INT32_MAX >> shift;
+    return a > limit ? INT32_MAX : a < -limit ? -INT32_MAX : shl_wrap(a, shift);
+}
+#endif
+
+static inline int32_t narrow_sat(int64_t a)
+{
+    return a > INT32_MAX ? INT32_MAX : a < -INT32_MAX ? -INT32_MAX : (int32_t)a;
+}
+
+#endif

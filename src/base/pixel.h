@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+/* pixel.h - the working pixel: 0xAARRGGBB, r g b as sRGB codes in both light modes.
+ *
+ * A working pixel is what the display would show, in 8 bits. Linear light is a matter of how values are
+ * multiplied, interpolated and averaged (through smear_srgb_decode and back), not of how they are kept: so a
+ * window costs the same in both modes, and a still pixel passes every filter unchanged. */
+#ifndef SMEAR_PIXEL_H
+#define SMEAR_PIXEL_H
+
+#include "base/fixed.h"
+#include "base/tables.h"
+
+static inline uint32_t pixel_red(uint32_t p) { return p >> 16 & 255u; }
+static inline uint32_t pixel_green(uint32_t p) { return p >> 8 & 255u; }
+static inline uint32_t pixel_blue(uint32_t p) { return p & 255u; }
+static inline uint32_t pixel_alpha(uint32_t p) { return p >> 24; }
+
+static inline uint32_t pixel_make(uint32_t a, uint32_t r, uint32_t g, uint32_t b)
+{
+    return a << 24 | r << 16 | g << 8 | b;
+}
+
+/* a b / 255 to nearest, a and b codes; exact for all pairs. */
+static inline uint32_t code_times(uint32_t a, uint32_t b)
+{
+    uint32_t t = a * b + 128u;
+    return (t + (t >> 8)) >> 8;
+}
+
+/* A code times linear light (65535 is one), as a code again. */
+static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
+{
+    return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
+}
+
+/* smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
+ * of two codes' light; at three values that is off by one. */
+static inline uint32_t srgb_encode_searched(uint32_t light)
+{
+    uint32_t code = 0;
+    for (uint32_t step = 128; step != 0; step >>= 1)
+        if ((uint32_t)smear_srgb_decode[code + step - 1] + smear_srgb_decode[code + step] < 32u * light + 16u)
+            code += step;
+    return code + (light == 527u || light == 1116u) - (light == 2146u);
+}
+
+/* src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
+static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
+{
+    uint32_t a = alpha + (alpha >> 7), b = 256u - a;
+    if (!linear) {      /* two channels per word; a lane is at most 0xff80 before the shift */
+        uint32_t rb = ((src & 0xff00ffu) * a + (dst & 0xff00ffu) * b + 0x800080u) >> 8 & 0xff00ffu;
+        uint32_t g = (pixel_green(src) * a + pixel_green(dst) * b + 0x80u) >> 8;
+        return rb | g << 8;
+    }
+    if (a == 256u)
+        return src & 0xffffffu;
+    if (a == 0)
+        return dst;
+    uint32_t out[3];
+    for (int i = 0; i < 3; i++) {
+        int shift = 16 - 8 * i;
+        out[i] = smear_srgb_encode[(smear_srgb_decode[src >> shift & 255u] * a
+                                    + smear_srgb_decode[dst >> shift & 255u] * b) >> 12];
+    }
+    return pixel_make(0, out[0], out[1], out[2]);
+}
+
+/* Nearest levels, red on top. Red and blue in one product: 255 x 249 + 1014 stays below 2^16. */
+static inline uint32_t rgb565_nearest(uint32_t p)
+{
+    uint32_t rb = (p & 0xff00ffu) * 249u + 0x03f603f6u;
+    uint32_t g = pixel_green(p) * 253u + 505u;
+    return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
+}
+
+typedef uint32_t __attribute__((may_alias)) pixel_word;
+
+static inline void eight_words(pixel_word *p, uint32_t value)
+{
+    p[0] = value;
+    p[1] = value;
+    p[2] = value;
+    p[3] = value;
+    p[4] = value;
+    p[5] = value;
+    p[6] = value;
+    p[7] = value;
+}
+
+/* Sets n words. */
+static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
+{
+    int32_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        eight_words(p + i, value);
+    for (; i < n; i++)
+        p[i] = value;
+}
+
+/* Sets n pixels of 16 bits. */
+static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
+{
+    if (n > 0 && ((uintptr_t)p & 2u) != 0) {
+        *p++ = (uint16_t)value;
+        n--;
+    }
+    pixel_word *pairs = (pixel_word *)(void *)p;
+    value |= value << 16;
+    for (; n >= 16; n -= 16, pairs += 8)
+        eight_words(pairs, value);
+    for (; n >= 2; n -= 2)
+        *pairs++ = value;
+    if (n > 0)
+        *(uint16_t *)(void *)pairs = (uint16_t)value;
+}
+
+#endif

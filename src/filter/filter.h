@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/* filter.h - what a blur reads and writes.
+ *
+ * A blur reads the window (only), writes one tile of finished pixels into memory of the job's
+ * own, and never works in place: what a neighbour still has to read is never overwritten.
+ * Tiles may be done in any order on any core. */
+#ifndef SMEAR_FILTER_H
+#define SMEAR_FILTER_H
+
+#include "base/noise.h"
+#include "base/tables.h"
+#include "raster/window.h"
+
+struct smear_blur_settings {
+    bool linear;                /* average linear light, else codes */
+    bool orthographic;          /* depth units are even in distance */
+    int32_t samples;            /* wanted taps */
+    bool dense;                 /* plain means: a tap per pixel of the way, not one per two */
+    bool held;                  /* something stays where it is before a moving
+                                 * camera: nothing is mixed with it */
+    uint8_t flags;              /* SMEAR_FENCE | ... */
+    uint8_t weights;            /* smear_weights */
+    /* Orthographic only: distance over range at units 0, in q16: where "5 % nearer" is. */
+    uint32_t far_over_range;
+};
+
+/* Rows of the window by pixel row: offset of its first pixel in the planes, with rows beyond the frame
+ * standing for the nearest inside it. Entry i is row first + i. Of a tile, rows [y0, y1) are to be done. */
+struct smear_row_table {
+    const uint32_t *offset;
+    int32_t first;
+    int32_t y0, y1;
+};
+
+/* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
+ * centres are at 1/2. */
+static inline int32_t tile_jump(int32_t x, int32_t sine, int shift)
+{
+    return ((x << 8) + 128 + (sine * 258 * (64 << shift) >> 15)) >> (shift + 8);
+}
+
+/* The neighbourhood that pixel (x, y) of a tile takes its direction from: one a quarter tile away
+ * in a random direction, which hides the tiles' borders [Guertin14]. Of the row below, the window
+ * knows only what the rows drawn so far tell. */
+static inline const struct smear_tile_neighborhood *tile_looked_up(const struct smear_window *w, int32_t row,
+                                                                   int32_t column, int32_t x, int32_t y,
+                                                                   uint32_t inner)
+{
+    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
+    row += tile_jump(y, smear_sine[angle & 255u], w->tile_shift);
+    column += tile_jump(x, smear_sine[(angle + 64u) & 255u], w->tile_shift);
+    return &window_around(w, clamp_i32(row, 0, w->rows - 1))[clamp_i32(column, 0, w->columns - 1)];
+}
+
+/* Reconstruction filter [McGuire12], [Guertin14], as in Post Processing Stack v2. Writes the tile's rows
+ * (what is inside the frame) to `out`, `tile` apart. Returns the taps taken. */
+uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
+                                const struct smear_row_table *rows, int32_t row, int32_t column,
+                                const struct smear_blur_settings *settings);
+
+/* Plain mean along each pixel's own velocity, for tiles in whose reach all motion is alike or changes without
+ * a step. */
+uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
+                            const struct smear_row_table *rows, int32_t row, int32_t column,
+                            const struct smear_blur_settings *settings);
+
+/* The gather with the weights of other filters (settings->weights). */
+uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
+                            int32_t row, int32_t column, const struct smear_blur_settings *settings);
+
+/* The tile as it is. */
+void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
+                     int32_t column);
+
+#endif

@@ -1,0 +1,483 @@
+/* SPDX-License-Identifier: MIT */
+/* reconstruct.c - the reconstruction filter, for tiles with different motions in reach.
+ *
+ * [McGuire12] "A Reconstruction Filter for Plausible Motion Blur", I3D 2012; [Guertin14] "A Fast and Stable
+ * Feature-Aware Motion Blur Filter", HPG 2014; [Jimenez14] for the noise. The variant is that of Unity's
+ * Post Processing Stack v2: taps outermost first, alternating between the neighbourhood's direction and the
+ * pixel's own; a tap in front weighs by its own speed, any other by the greatest speed met so far.
+ *
+ * Ours differs: velocity has an exact zero (so a speed is at least 1/16 px where it divides); all is integer,
+ * weights in 1/4096, directions in 1/256 px; whether a tap is in front is decided on depth codes, and its
+ * velocity is only read if it is.
+ *
+ * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction,
+ * from the pixel's velocity, from its depth and from the velocity of the last tap in front. */
+#include "filter/filter.h"
+
+#include "base/fixmath.h"
+#include "base/noise.h"
+#include "base/pixel.h"
+#include "smear.h"
+
+struct vector {
+    int32_t x, y;               /* q8 px */
+};
+
+/* ------------------------------------------------------------------ lengths */
+
+/* |v| for lengths below 2^15, to nearest from 2^6 on: the table's root, good to 2^-8, and a Newton step. */
+static int32_t length_of(int32_t x, int32_t y)
+{
+    uint32_t square = (uint32_t)(x * x + y * y);
+    if (square < 1u << 12)
+        return (int32_t)((sqrt_q3(square) + 4u) >> 3);
+    uint32_t root = square < 1u << 20 ? sqrt_q3(square) >> 3 : sqrt_q3(square >> 10) << 2;
+    int zeros = count_leading_zeros(root);
+    uint32_t quotient = mulh_u32(square, recip_norm(root << zeros)) >> (29 - zeros);
+    return (int32_t)((root + quotient + 1u) >> 1);
+}
+
+/* |v| in q8 px. */
+static inline int32_t speed_of(struct smear_pixel_velocity v)
+{
+    return (int32_t)sqrt_q3((uint32_t)(v.x * v.x + v.y * v.y)) << 2;
+}
+
+/* 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4: enough for a
+ * weight. */
+static inline uint32_t inverse_speed(int32_t speed)
+{
+    int zeros = count_leading_zeros((uint32_t)speed);
+    return (uint32_t)smear_recip_seed[(uint32_t)speed << zeros >> 22 & 511u] << (zeros - 14);
+}
+
+/* v scaled to `length` from its own, `speed`; lengths below 2^15, `speed` at least 32. */
+static struct vector stretch(struct vector v, int32_t length, int32_t speed)
+{
+    int zeros = count_leading_zeros((uint32_t)speed);
+    uint32_t r = recip_norm((uint32_t)speed << zeros);                      /* 2^(61 - zeros) / speed */
+    int32_t factor = (int32_t)(mulh_u32((uint32_t)length << 16, r) >> (29 - zeros));    /* q16 */
+    return (struct vector){ (v.x * factor + 0x8000) >> 16, (v.y * factor + 0x8000) >> 16 };
+}
+
+/* ------------------------------------------------------------------ what is shared */
+
+/* A neighbourhood's direction. */
+struct direction {
+    struct vector v;
+    int32_t length;             /* |v|, q8 */
+    int32_t pairs;              /* 0: shorter than 2 px, nothing is gathered */
+    int32_t spacing;            /* 2^12 / pairs: distance of pairs in units of v */
+    uint32_t center;            /* the centre's weight times its speed: 1.2 / (2 pairs), q12 */
+};
+
+/* A pixel's velocity in a neighbourhood. */
+struct own_motion {
+    const struct direction *around;     /* what it is valid for: null at first */
+    uint32_t word;
+    struct vector second;       /* the second direction, as long as the first */
+    int32_t background;         /* speed that taps not in front start with, q8 */
+    uint32_t over;              /* its inverse_speed */
+    bool slow;                  /* at most 1/2 px */
+};
+
+/* A pixel's depth: what lies in front and behind, each once it is needed. */
+struct own_depth {
+    uint32_t units;
+    uint32_t front, front_scale;        /* fully in front from here on; 2^30 / (front - units) */
+    uint32_t behind, behind_scale;      /* fully behind down to here; 2^30 / (units - behind) */
+    uint16_t code;
+    bool has_front, has_behind;
+};
+
+struct gathering {
+    const struct smear_window *w;
+    const struct smear_row_table *rows;
+    bool linear, box, fence, guertin, orthographic;
+    int32_t wanted;             /* pairs */
+    uint32_t far_units;         /* orthographic: depth units from the eye to the far plane */
+    const uint32_t *color;      /* the window's planes from the tile's first column on */
+    const uint16_t *depth_code;
+    int32_t x0;                 /* that column */
+    struct own_motion motion;
+    struct own_depth depth;
+    uint32_t front_word;        /* velocity of the last tap in front */
+    int32_t front_speed;        /* q8 */
+    int32_t background;         /* of the pixel: greatest speed so far, q8 */
+    uint32_t over;              /* its inverse_speed */
+};
+
+static void direction_make(struct direction *d, const struct gathering *g,
+                           const struct smear_tile_neighborhood *around)
+{
+    static const uint16_t inverse[33] = {       /* 2^12 / pairs */
+        0, 4096, 2048, 1365, 1024, 819, 683, 585, 512, 455, 410, 372, 341, 315, 293, 273, 256, 241,
+        228, 216, 205, 195, 186, 178, 171, 164, 158, 152, 146, 141, 137, 132, 128
+    };
+    d->v = (struct vector){ around->x, around->y };
+    d->length = length_of(around->x, around->y);
+    /* What makes all taps lie in the table of rows: less than the half pixel from a centre to the border. */
+    SMEAR_ASSERT(d->length <= (g->w->reach << 8) + 64);
+    /* A pair per 2 px; whether it is that long, the exact square decides. */
+    int32_t pairs = (d->length + 1) >> 9;
+    if (around->x * around->x + around->y * around->y < pairs * pairs << 18)
+        pairs--;
+    d->pairs = min_i32(g->wanted, pairs);
+    d->spacing = inverse[d->pairs];
+    d->center = (g->box ? 2048u : 2458u) * (uint32_t)d->spacing >> 12;
+}
+
+static struct vector second_direction(struct vector own, int32_t speed, const struct direction *top,
+                                      bool guertin)
+{
+    if (!guertin) {
+        int32_t at_least = max_i32(speed, 128);
+        if (2 * at_least <= top->length)
+            return top->v;
+        return stretch(own, top->length, max_i32(length_of(own.x, own.y), 128));
+    }
+    /* From the perpendicular of `top` on the own velocity's side to the own direction, as the pixel gets
+     * faster. */
+    struct vector normal = { -top->v.y, top->v.x };
+    if (normal.x * own.x + normal.y * own.y < 0)
+        normal = (struct vector){ top->v.y, -top->v.x };
+    int32_t share = clamp_i32((speed - 128) * 2 / 3, 0, 256);
+    struct vector along = speed > 0 ? stretch(own, top->length, speed) : (struct vector){ 0, 0 };
+    struct vector mixed = { (normal.x * (256 - share) + along.x * share) >> 8,
+                            (normal.y * (256 - share) + along.y * share) >> 8 };
+    return stretch(mixed, top->length, max_i32(length_of(mixed.x, mixed.y), 32));
+}
+
+static SMEAR_NOINLINE void own_motion_make(struct gathering *g, const struct direction *around, uint32_t at,
+                                           uint32_t word)
+{
+    struct own_motion *m = &g->motion;
+    struct smear_pixel_velocity v = window_velocity(g->w, at);
+    int32_t speed = speed_of(v);
+    m->around = around;
+    m->word = word;
+    m->second = second_direction((struct vector){ v.x * 32, v.y * 32 }, speed, around, g->guertin);
+    m->background = max_i32(speed, 256);
+    m->over = inverse_speed(m->background);
+    m->slow = speed <= 128;
+}
+
+/* 2^30 / x for 0 < x < 2^20. */
+static uint32_t inverse_q30(uint32_t x)
+{
+    int zeros = count_leading_zeros(x);
+    return recip_norm(x << zeros) >> (31 - zeros);
+}
+
+/* 1/20 and 1/19 of units up to 2^20, in products of 32 bits. */
+static const uint32_t share_20 = 52429, share_19 = 55188;      /* q20 */
+
+static inline uint32_t part_of(uint32_t units, uint32_t share_q20)
+{
+    return units < 1u << 16 ? units * share_q20 >> 20 : (units >> 4) * share_q20 >> 16;
+}
+
+/* Fully in front is 5 % nearer: z_q = 0.95 z_p. Perspective: units are 1 / z. Orthographic: z is far_units -
+ * units. */
+static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
+{
+    struct own_depth *d = &g->depth;
+    uint32_t step = 1;
+    if (d->units != 0)
+        step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic ? part_of(g->far_units - d->units, share_20)
+                                       : part_of(d->units, share_19), 1);
+    d->front = d->units + step;
+    d->front_scale = inverse_q30(step);
+    d->has_front = true;
+}
+
+static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
+{
+    struct own_depth *d = &g->depth;
+    uint32_t step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic
+                                ? part_of(g->far_units - d->units, share_19)
+                                : part_of(d->units, share_20),
+                            1);
+    d->behind = d->units > step ? d->units - step : 0;
+    d->behind_scale = inverse_q30(d->units - d->behind);
+    d->has_behind = true;
+}
+
+/* ------------------------------------------------------------------ the gather */
+
+/* Running sums; weights q12. The taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
+ * its distance), so sums of 16-bit values fit 32 bits. */
+struct sum {
+    uint32_t r, g, b, weight;
+};
+
+SMEAR_INLINE void sum_add(struct sum *s, uint32_t pixel, uint32_t weight, bool linear)
+{
+    if (linear) {
+        s->r += smear_srgb_decode[pixel_red(pixel)] * weight;
+        s->g += smear_srgb_decode[pixel_green(pixel)] * weight;
+        s->b += smear_srgb_decode[pixel_blue(pixel)] * weight;
+    } else {
+        s->r += pixel_red(pixel) * weight;
+        s->g += pixel_green(pixel) * weight;
+        s->b += pixel_blue(pixel) * weight;
+    }
+    s->weight += weight;
+}
+
+SMEAR_INLINE uint32_t sum_pixel(const struct sum *s, bool linear)
+{
+    int zeros = count_leading_zeros(s->weight);
+    uint32_t r = recip_norm(s->weight << zeros);            /* 2^(61 - zeros) / weight */
+    if (linear) {
+        /* Sums use 16 bits more than the weight: their quotients come out in q13. */
+        int up = zeros - 16;
+        uint32_t red = mulh_u32(s->r << up, r) >> 17, green = mulh_u32(s->g << up, r) >> 17;
+        uint32_t blue = mulh_u32(s->b << up, r) >> 17;
+        return pixel_make(0, smear_srgb_encode[min_u32(red, 4095u)],
+                          smear_srgb_encode[min_u32(green, 4095u)],
+                          smear_srgb_encode[min_u32(blue, 4095u)]);
+    }
+    /* 8 bits more: brought to 20 bits, times 12 bits, in q23. */
+    int down = 20 - zeros;
+    uint32_t r12 = r >> 18, half = 1u << 22;
+    uint32_t red, green, blue;
+    if (down >= 0) {
+        red = s->r >> down;
+        green = s->g >> down;
+        blue = s->b >> down;
+    } else {
+        red = s->r << -down;
+        green = s->g << -down;
+        blue = s->b << -down;
+    }
+    return pixel_make(0, (red * r12 + half) >> 23, (green * r12 + half) >> 23, (blue * r12 + half) >> 23);
+}
+
+/* How far in front the tap is, 0 .. 256. */
+SMEAR_INLINE uint32_t front_share(struct gathering *g, uint32_t code)
+{
+    uint32_t units = smear_depth_units((uint16_t)code);
+    if (!g->depth.has_front)
+        own_depth_front(g);
+    if (units >= g->depth.front)
+        return 256u;
+    return (units - g->depth.units) * g->depth.front_scale >> 22;
+}
+
+SMEAR_INLINE uint32_t behind_share(struct gathering *g, uint32_t code)
+{
+    uint32_t units = smear_depth_units((uint16_t)code);
+    if (!g->depth.has_behind)
+        own_depth_behind(g);
+    if (units <= g->depth.behind)
+        return 256u;
+    return (g->depth.units - units) * g->depth.behind_scale >> 22;
+}
+
+/* Weight of a tap from the inverse of its speed, its shape (q12) and its cover (q8). */
+static inline uint32_t weight_of(uint32_t inverse, uint32_t shape, int32_t cover)
+{
+    return ((inverse >> 6) * shape >> 10) * (uint32_t)min_i32(cover, 256) >> 12;
+}
+
+static SMEAR_NOINLINE void front_speed_update(struct gathering *g, uint32_t at, uint32_t word)
+{
+    g->front_word = word;
+    g->front_speed = speed_of(window_velocity(g->w, at));
+}
+
+/* Weight of a tap in front, at least in part: its own speed decides, and from now on the background's. */
+static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
+                                            int32_t distance)
+{
+    int32_t speed = g->front_speed;
+    uint32_t front = front_share(g, code);
+    if (front != 256u)
+        speed = g->background + ((speed - g->background) * (int32_t)front >> 8);
+    speed = max_i32(speed, 16);
+    int32_t cover = speed - (distance >> 12);
+    if (speed <= g->background)
+        return cover > 0 ? weight_of(inverse_speed(speed), shape, cover) : 0;
+    g->background = speed;
+    g->over = inverse_speed(speed);
+    return cover > 0 ? weight_of(g->over, shape, cover) : 0;
+}
+
+/* What the taps of a pixel share. Columns count from the tile's first, rows from the table's. */
+struct tap_frame {
+    const uint32_t *row;        /* offsets of rows */
+    uint32_t own_code;
+    bool fence;
+    int32_t left, right;        /* columns of the frame */
+};
+
+/* x, y and distance in q20 px. */
+SMEAR_INLINE void tap(struct gathering *g, struct sum *sum, const struct tap_frame *f, int32_t x, int32_t y,
+                      int32_t distance, uint32_t shape, bool edge)
+{
+    int32_t column = x >> 20;
+    if (edge)
+        column = clamp_i32(column, f->left, f->right);
+    int32_t at = (int32_t)f->row[y >> 20] + column;
+    uint32_t code = g->depth_code[at], weight;
+    int32_t cover = g->background - (distance >> 12);           /* q8 */
+    if (code > f->own_code) {
+        uint32_t word = window_velocity_word(g->w, (uint32_t)(g->x0 + at));
+        if (word != g->front_word)
+            front_speed_update(g, (uint32_t)(g->x0 + at), word);
+        if (cover <= 0 && g->front_speed <= g->background)
+            return;
+        weight = front_weight(g, code, shape, distance);
+        if (weight == 0)
+            return;
+    } else {
+        if (cover <= 0)
+            return;
+        weight = weight_of(g->over, shape, cover);
+        if (f->fence && code < f->own_code)
+            weight = weight * (256u - behind_share(g, code)) >> 8;
+    }
+    sum_add(sum, g->color[at], weight, g->linear);
+}
+
+/* The pixel in column x of the tile and row y of the table. */
+SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise,
+                             bool edge)
+{
+    const struct own_motion *m = &g->motion;
+    const struct direction *top = m->around;
+    const struct tap_frame f = { g->rows->offset, g->depth.code, g->fence && m->slow, -g->x0,
+                                 g->w->width - 1 - g->x0 };
+    struct sum sum = { 0, 0, 0, 0 };
+    g->background = m->background;
+    g->over = m->over;
+
+    int32_t offset = ((int32_t)noise - 32768) * top->spacing >> 16;         /* q12, within half a spacing */
+    int32_t shift = top->length * offset;                                   /* q20 px */
+    x = (x << 20) + (1 << 19);
+    y = (y << 20) + (1 << 19);
+    const struct vector d[2] = { top->v, m->second };
+    const struct vector base[2] = { { x + d[0].x * offset, y + d[0].y * offset },
+                                    { x + d[1].x * offset, y + d[1].y * offset } };
+    int32_t t = 4096 - top->spacing / 2, length = top->length;
+    uint32_t shape = g->box ? 4096u : (uint32_t)(4915 - t);                 /* 1 or 1.2 - t, q12 */
+    uint32_t wider = g->box ? 0 : (uint32_t)top->spacing;
+    for (int k = 0; t > 0; t -= top->spacing, shape += wider, k ^= 1) {
+        int32_t dx = d[k].x * t, dy = d[k].y * t, distance = length * t;
+        tap(g, &sum, &f, base[k].x + dx, base[k].y + dy, distance + shift, shape, edge);
+        tap(g, &sum, &f, base[k].x - dx, base[k].y - dy, distance - shift, shape, edge);
+    }
+    uint32_t pixel = g->color[here];
+    if (sum.weight == 0)
+        return pixel;
+    /* The centre last: 1.2 / (2 B pairs). */
+    sum_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->linear);
+    return sum_pixel(&sum, g->linear);
+}
+
+/* ------------------------------------------------------------------ the tile */
+
+/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up a quarter tile away
+ * in a random direction, which hides the tiles' borders [Guertin14]. Of the row below, the window knows only
+ * what the rows drawn so far tell (smear_neighbormax_row). */
+struct choice {
+    struct direction direction[9];
+    const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */
+    bool alike;                         /* no need to look */
+    bool gathers;                       /* one of them is long enough */
+};
+
+static void choice_make(struct choice *c, const struct gathering *g, int32_t row, int32_t column)
+{
+    const struct smear_window *w = g->w;
+    const struct smear_tile_neighborhood *own = &window_around(w, row)[column];
+    c->alike = true;
+    direction_make(&c->direction[4], g, own);
+    c->gathers = c->direction[4].pairs != 0;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            int32_t line = clamp_i32(row + dy, 0, w->rows - 1);
+            const struct smear_tile_neighborhood *other =
+                &window_around(w, line)[clamp_i32(column + dx, 0, w->columns - 1)];
+            struct direction *d = &c->direction[4];
+            if (other->x != own->x || other->y != own->y) {
+                d = &c->direction[3 * dy + dx + 4];
+                direction_make(d, g, other);
+                c->gathers = c->gathers || d->pairs != 0;
+                c->alike = false;
+            }
+            c->at[dy + 1][dx + 1] = d;
+        }
+}
+
+static inline const struct direction *choose(const struct choice *c, const struct smear_window *w,
+                                             int32_t x, int32_t y, uint32_t inner)
+{
+    if (c->alike)
+        return &c->direction[4];
+    int shift = w->tile_shift;
+    uint32_t quarter = (uint32_t)w->tile >> 2, half = 2u * quarter;
+    bool inside_x = (uint32_t)x - quarter < half, inside_y = (uint32_t)y - quarter < half;
+    if (inside_x && inside_y)
+        return &c->direction[4];
+    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
+    int32_t dx = inside_x ? 0 : tile_jump(x, smear_sine[(angle + 64u) & 255u], shift);
+    int32_t dy = inside_y ? 0 : tile_jump(y, smear_sine[angle & 255u], shift);
+    return c->at[dy + 1][dx + 1];
+}
+
+SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out,
+                                  int32_t x0, int32_t y0, bool edge)
+{
+    const struct smear_window *w = g->w;
+    int32_t x1 = min_i32(x0 + w->tile, w->width);
+    uint32_t taps = 0;
+    for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
+        uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
+        uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
+        for (int32_t x = x0; x < x1; x++, at++, inner += NOISE_X) {
+            const struct direction *top = choose(choice, w, x - x0, y - y0, inner);
+            if (top->pairs == 0) {
+                out[x - x0] = w->color[at];
+                continue;
+            }
+            uint32_t word = window_velocity_word(w, at);
+            if (word != g->motion.word || top != g->motion.around)
+                own_motion_make(g, top, at, word);
+            uint16_t code = w->depth[at];
+            if (code != g->depth.code)
+                g->depth = (struct own_depth){ .units = smear_depth_units(code), .code = code };
+            out[x - x0] = gather(g, (int32_t)at - x0, x - x0, y - g->rows->first, noise_of(inner), edge);
+            taps += 2u * (uint32_t)top->pairs + 1u;
+        }
+    }
+    return taps;
+}
+
+uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
+                                const struct smear_row_table *rows, int32_t row, int32_t column,
+                                const struct smear_blur_settings *settings)
+{
+    struct gathering g = {
+        .w = w, .rows = rows, .linear = settings->linear,
+        .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
+        .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
+        .wanted = clamp_i32(settings->samples / 2, 1, 64)
+    };
+    struct choice choice;
+    if (SMEAR_WITH_ORTHOGRAPHIC && settings->orthographic)
+        g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
+    choice_make(&choice, &g, row, column);
+    if (!choice.gathers) {
+        smear_blur_copy(out, w, rows, column);
+        return 0;
+    }
+    int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift;
+    bool edge = x0 < w->reach || x0 + w->tile + w->reach > w->width;
+    g.x0 = x0;
+    g.color = w->color + x0;
+    g.depth_code = w->depth + x0;
+    return edge ? gather_tile(&g, &choice, out, x0, y0, true)
+                : gather_tile(&g, &choice, out, x0, y0, false);
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+/* arc.c - interpolation of poses by rotation: once per draw and pose, so 64-bit products are fine here.
+ *
+ * With Q the rotation from `before` to `now`, a pose at time t is Q^t (now + t (now - Q before)): what is
+ * left when the turn is taken out changes linearly, then the turn is put back. */
+#include "geometry/arc.h"
+
+#include "base/fixmath.h"
+
+/* Axes count as orthogonal up to this cosine, q30: 2^-12. */
+enum { ARC_SKEW = 1 << 18 };
+
+enum { CORDIC_STEPS = 26, CORDIC_GAIN = 652032874 };       /* the inverse of the gain, q30 */
+
+static const int32_t arctangent[CORDIC_STEPS] = {          /* of 2^-i */
+    536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245, 2670163, 1335087,
+    667544, 333772, 166886, 83443, 41722, 20861, 10430, 5215, 2608, 1304, 652, 326, 163, 81, 41, 20
+};
+
+/* Angle of (x, y), both >= 0, of length 2^29 to 2^30: 0 .. a quarter turn. Good to 2^-24 radians. */
+static uint32_t angle_of(int32_t x, int32_t y)
+{
+    int32_t angle = 0;
+    for (int i = 0; i < CORDIC_STEPS; i++) {
+        int32_t dx = y >> i, dy = x >> i;
+        if (y > 0) {
+            x += dx;
+            y -= dy;
+            angle += arctangent[i];
+        } else {
+            x -= dx;
+            y += dy;
+            angle -= arctangent[i];
+        }
+    }
+    return (uint32_t)max_i32(angle, 0);
+}
+
+/* Cosine and sine, q30. Good to 2^-24. */
+static void cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
+{
+    /* Half turns away, what is left lies within a quarter. */
+    bool turned = angle - 0x40000000u < 0x80000000u;
+    int32_t rest = (int32_t)(turned ? angle - 0x80000000u : angle), x = CORDIC_GAIN, y = 0;
+    for (int i = 0; i < CORDIC_STEPS; i++) {
+        int32_t dx = y >> i, dy = x >> i;
+        if (rest >= 0) {
+            x -= dx;
+            y += dy;
+            rest -= arctangent[i];
+        } else {
+            x += dx;
+            y -= dy;
+            rest += arctangent[i];
+        }
+    }
+    *cosine = turned ? -x : x;
+    *sine = turned ? -y : y;
+}
+
+/* ------------------------------------------------------------------ the turn between two poses */
+
+struct turn {
+    int32_t axis[3];        /* q30 */
+    uint32_t angle;         /* q32 turns, 0 .. half a turn; others wrap by themselves */
+};
+
+/* `in`, brought to length one, q30. `length` is what it was after a shift to 30 bits: left, or
+ * right if negative. False when it has none. */
+static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int *shift)
+{
+    uint64_t largest = 0;
+    for (int i = 0; i < 3; i++) {
+        uint64_t size = in[i] < 0 ? 0u - (uint64_t)in[i] : (uint64_t)in[i];
+        largest = size > largest ? size : largest;
+    }
+    if (largest == 0)
+        return false;
+    *shift = count_leading_zeros_64(largest) - 34;          /* 30 bits */
+    uint64_t square = 0;
+    for (int i = 0; i < 3; i++) {
+        out[i] = (int32_t)(*shift >= 0 ? in[i] * ((int64_t)1 << *shift) : in[i] >> -*shift);
+        square += (uint64_t)((int64_t)out[i] * out[i]);
+    }
+    *length = sqrt_floor_64(square);
+    int zeros = count_leading_zeros(*length);
+    int32_t r = (int32_t)recip_norm_precise(*length << zeros);      /* 1 / length = r 2^(zeros - 61) */
+    for (int i = 0; i < 3; i++)
+        out[i] = (int32_t)((int64_t)out[i] * r >> (31 - zeros));
+    return true;
+}
+
+/* Products of q30 vectors, q30. */
+static int32_t dot(const int32_t a[3], const int32_t b[3])
+{
+    return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> 30);
+}
+
+/* The axes of a pose, their scales taken out: axis[j] is where x, y or
+ * z points. False unless they are orthogonal. */
+static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform *t)
+{
+    for (int j = 0; j < 3; j++) {
+        const int64_t column[3] = { t->basis[j], t->basis[3 + j], t->basis[6 + j] };
+        uint32_t length;
+        int shift;
+        if (!normalize(axis[j], column, &length, &shift))
+            return false;
+    }
+    for (int j = 0; j < 3; j++)
+        if (abs_i32(dot(axis[j], axis[j == 2 ? 0 : j + 1])) > ARC_SKEW)
+            return false;
+    int32_t cross[3];
+    for (int i = 0; i < 3; i++) {
+        int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
+        cross[i] = (int32_t)(((int64_t)axis[0][i1] * axis[1][i2] - (int64_t)axis[0][i2] * axis[1][i1]) >> 30);
+    }
+    *mirrored = dot(cross, axis[2]) < 0;
+    return true;
+}
+
+/* A quaternion of any length, w x y z, of a rotation in q28; its largest component is 4 c^2 >= 1, the others
+ * 4 c times theirs, so nothing cancels. w >= 0: the shorter way. */
+static void quaternion_of(int32_t q[4], int32_t m[3][3])
+{
+    const int32_t one = 1 << 28;
+    const int32_t square[4] = {
+        one + m[0][0] + m[1][1] + m[2][2], one + m[0][0] - m[1][1] - m[2][2],
+        one - m[0][0] + m[1][1] - m[2][2], one - m[0][0] - m[1][1] + m[2][2]
+    };
+    int largest = 0;
+    for (int i = 1; i < 4; i++)
+        if (square[i] > square[largest])
+            largest = i;
+    for (int i = 0; i < 4; i++) {
+        if (i == largest) {
+            q[i] = square[i];
+        } else if (i == 0 || largest == 0) {
+            int axis = i + largest - 1, j = axis == 2 ? 0 : axis + 1, k = axis == 0 ? 2 : axis - 1;
+            q[i] = m[k][j] - m[j][k];
+        } else {
+            q[i] = m[i - 1][largest - 1] + m[largest - 1][i - 1];
+        }
+    }
+    if (q[0] < 0)
+        for (int i = 0; i < 4; i++)
+            q[i] = -q[i];
+}
+
+/* The turn that takes `before` to `now`. False when there is none, or none to speak of. */
+static bool find_turn(struct turn *turn, const smear_transform *before, const smear_transform *now)
+{
+    int32_t a[3][3], b[3][3], m[3][3], q[4];
+    bool mirrored_a, mirrored_b;
+    if (!find_axes(a, &mirrored_a, before) || !find_axes(b, &mirrored_b, now) || mirrored_a != mirrored_b)
+        return false;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            m[i][j] = (int32_t)(((int64_t)b[0][i] * a[0][j] + (int64_t)b[1][i] * a[1][j]
+                                 + (int64_t)b[2][i] * a[2][j])
+                                >> 32);
+    quaternion_of(q, m);
+    const int64_t v[3] = { q[1], q[2], q[3] };
+    uint32_t length;
+    int shift;
+    if (!normalize(turn->axis, v, &length, &shift) || shift > 13)       /* |v| < 2^-13 of w: no turn */
+        return false;
+    turn->angle = 2 * angle_of(q[0], (int32_t)(shift >= 0 ? length >> shift : length << -shift));
+    return true;
+}
+
+/* ------------------------------------------------------------------ poses */
+
+/* Q - 1 for a turn by `angle` about `axis`, q29: sin [n] + (1 - cos) (n n' - 1). */
+static void rotation(int32_t m[3][3], const int32_t axis[3], uint32_t angle)
+{
+    int32_t c, s;
+    cosine_sine(angle, &c, &s);
+    int64_t versine = ((int64_t)1 << 30) - c;               /* 0 .. 2, q30 */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int64_t nn = ((int64_t)axis[i] * axis[j] >> 30) - (i == j ? 1 << 30 : 0);
+            m[i][j] = (int32_t)(nn * versine >> 31);
+        }
+    for (int i = 0; i < 3; i++) {
+        int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        int32_t sn = (int32_t)((int64_t)s * axis[i] >> 31);
+        m[k][j] += sn;
+        m[j][k] -= sn;
+    }
+}
+
+static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
+{
+    for (int j = 0; j < 3; j++) {
+        int64_t x = basis[j], y = basis[3 + j], z = basis[6 + j];
+        for (int i = 0; i < 3; i++) {
+            int64_t sum = m[i][0] * x + m[i][1] * y + m[i][2] * z + (1 << 28);
+            out[3 * i + j] = narrow_sat(basis[3 * i + j] + (sum >> 29));
+        }
+    }
+}
+
+/* now + (now - before) time */
+static int32_t extended(int32_t before, int32_t now, int32_t time)
+{
+    SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
+    return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
+}
+
+void smear_arc_between(smear_transform *out, const smear_transform *before, const smear_transform *now,
+                       int32_t time)
+{
+    struct turn turn;
+    int32_t m[3][3], turned[9], rest[9];
+    if (time == 0 || time == -(1 << 24)) {
+        *out = time == 0 ? *now : *before;
+        return;
+    }
+    bool turns = find_turn(&turn, before, now);
+    for (int i = 0; i < 9; i++)
+        turned[i] = before->basis[i];
+    if (turns) {
+        rotation(m, turn.axis, turn.angle);
+        turn_basis(turned, m, before->basis);
+    }
+    for (int i = 0; i < 9; i++)
+        rest[i] = extended(turned[i], now->basis[i], time);
+    for (int i = 0; i < 3; i++)
+        out->origin[i] = extended(before->origin[i], now->origin[i], time);
+    for (int i = 0; i < 9; i++)
+        out->basis[i] = rest[i];
+    if (turns) {
+        rotation(m, turn.axis, (uint32_t)((int64_t)turn.angle * time >> 24));
+        turn_basis(out->basis, m, rest);
+    }
+}

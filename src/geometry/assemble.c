@@ -1,0 +1,497 @@
+/* SPDX-License-Identifier: MIT */
+/* assemble.c - the loop over a draw's triangles.
+ *
+ * Order of work, cheapest rejection first: share an outcode, need clipping, face away, touch no pixel centre.
+ * Only then are vertices shaded, moved to the other poses and stored, once each. Triangles of one or two
+ * plain pixels are finished here: they become points. */
+#include "geometry/assemble.h"
+
+#include "geometry/clip.h"
+#include "base/fixmath.h"
+#include "geometry/tiny.h"
+
+static void forget_all(struct smear_assembler *a)
+{
+    for (uint32_t i = 0; i <= a->cache_mask; i++)
+        a->cache[i].tag = 0;
+    a->serial = 0;
+    a->cache_has_paths = false;
+}
+
+void smear_assembler_reset(struct smear_assembler *a)
+{
+    a->path_count = 0;
+    if (a->serial == 0)         /* later, serial numbers tell old vertices from new ones */
+        forget_all(a);
+}
+
+static uint32_t index_of(const struct smear_cached_vertex *v)
+{
+    return v->tag & 0xffffu;
+}
+
+/* Where the vertex is now, before the division: remembered, or found again. */
+static const struct smear_homogeneous *now_of(struct smear_homogeneous *found, const struct smear_assembly *d,
+                                              const struct smear_cached_vertex *v)
+{
+#if SMEAR_FAST_STACK
+    placement_transform(found, &d->at, index_of(v));
+    return found;
+#else
+    (void)found;
+    (void)d;
+    return &v->now;
+#endif
+}
+
+static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
+{
+    const int64_t far_out = (1 << 27) - 1;
+    int64_t d = there - ((int64_t)ratio * now >> 20);
+    return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
+}
+
+/* The words of MOTION_*: the point of the surface that is at `now`
+ * on the screen, seen at `h` in another pose. */
+static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
+                         const struct smear_homogeneous *h, const struct smear_homogeneous *now,
+                         const struct smear_screen *screen, const struct smear_viewport *viewport)
+{
+    /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
+    int scale = d->at.now.scale - d->pose[pose].scale;
+    int zeros = count_leading_zeros((uint32_t)now->w);
+    int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
+    /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
+    int up = count_leading_zeros((uint32_t)(abs_i32(h->x) | abs_i32(h->y) | abs_i32(h->w) | 1)) - 1;
+    int shift = zeros - 29 + scale - up;
+    int32_t x = scale_sat(mulh_i32(shl_wrap(h->x, up), r), clamp_i32(shift + 8, -31, 31));
+    int32_t y = scale_sat(mulh_i32(shl_wrap(h->y, up), r), clamp_i32(shift + 8, -31, 31));
+    int32_t ratio = scale_sat(mulh_i32(shl_wrap(h->w, up), r), clamp_i32(shift + 20, -31, 31));
+    out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
+    out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
+    out[MOTION_RATIO] = (uint32_t)ratio;
+}
+
+/* The display has not all tiles that it reaches into. */
+static inline bool is_due(const struct smear_assembler *a, const struct box *box)
+{
+    if (!SMEAR_WITH_DAMAGE || a->due == NULL)
+        return true;
+    const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
+    if (a->due->seen != NULL)
+        tile_box_add(a->due->seen, tiles);
+    return !a->due->only || tile_box_is_damaged(a->due, tiles);
+}
+
+/* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
+static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
+                                       struct smear_segment **segment, uint32_t triangle,
+                                       const struct smear_cached_vertex *corner[3])
+{
+    struct smear_clip_polygon polygon;
+    struct smear_screen screen[SMEAR_CLIP_MAX];
+    const smear_mesh *mesh = d->mesh;
+    const bool textured = segment_textured(*segment), colored = segment_colored(*segment);
+    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
+    const int codes = corner[0]->outcode | corner[1]->outcode | corner[2]->outcode;
+    struct smear_face face;
+    int64_t area;
+    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: where
+     * it is the back, once more. */
+    for (bool back = false, known = !colored;; known = true) {
+        if (colored)
+            face = smear_face_of(d, triangle, back);
+        for (int i = 0; i < 3; i++) {
+            struct smear_clip_vertex *v = &polygon.vertex[i];
+            uint32_t index = index_of(corner[i]);
+            v->now = *now_of(&v->now, d, corner[i]);
+            for (int pose = 0; pose < poses; pose++)
+                pose_transform(&v->pose[pose], d, pose, index);
+            if (textured) {
+                v->uv[0] = mesh->uv[2 * index];
+                v->uv[1] = mesh->uv[2 * index + 1];
+            }
+            if (colored) {
+                struct smear_color color;
+                smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    v->color[c] = color.channel[c];
+            }
+        }
+        smear_clip_start(&polygon, poses, textured, colored);
+        smear_clip_polygon(&polygon, &d->at.now, codes);
+        area = 0;
+        for (int i = 0; i < polygon.count; i++) {
+            smear_project(&screen[i], &d->at.now, &clip_corner(&polygon, i)->now, &a->viewport);
+            if (i >= 2)
+                area += area_of(&screen[0], &screen[i - 1], &screen[i]);
+        }
+        back = (area > 0) != d->mirrored;
+        if (area == 0 || (back && !d->material->double_sided))
+            return true;
+        if (!colored)
+            face = smear_face_of(d, triangle, back);
+        if (known || !back)
+            break;
+    }
+
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
+    for (int i = 0; i < polygon.count; i++) {
+        screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
+        screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
+    }
+    for (int i = 2; i < polygon.count; i++) {
+        const int fan[3] = { 0, i - 1, i };
+        const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
+        /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
+        int64_t part = area_of(place[0], place[1], place[2]);
+        if (part == 0 || (part > 0) != (area > 0))
+            continue;
+        struct box box = box_of(place[0], place[1], place[2]);
+        box_cut(&box, a);
+        if (box_is_empty(&box) || !is_due(a, &box))
+            continue;
+        struct smear_segment *s = make_room(a, d, *segment, 1);
+        if (s == NULL)
+            return false;
+        *segment = s;
+        uint16_t offset[3];
+        for (int k = 0; k < 3; k++) {
+            const struct smear_clip_vertex *v = clip_corner(&polygon, fan[k]);
+            uint32_t *record = a->bins->pool + a->bins->vertex_words;
+            offset[k] = (uint16_t)(a->bins->vertex_words - s->base);
+            a->bins->vertex_words += s->stride;
+            store_place(record, place[k]);
+            if (segment_textured(s))
+                store_uv(record + s->uv, v->uv[0], v->uv[1]);
+            if (segment_colored(s)) {
+                uint16_t channel[4] = { 0, 0, 0, 0 };
+                for (int c = 0; c < CLIP_COLORS; c++)
+                    channel[c] = (uint16_t)v->color[c];
+                store_color(record + s->color, channel);
+            }
+            for (int pose = 0; pose < segment_moves(s); pose++)
+                store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
+                             &v->now, place[k], &a->viewport);
+        }
+        struct smear_bins *g = a->bins;
+        struct smear_triangle *t = bins_add(g, row_list(g, d, bins_row(g, box.y0)));
+        a->triangles_drawn++;
+        t->segment = (uint16_t)(s - a->bins->segment);
+        t->color = smear_face_color(d, s, &face);
+        t->vertex[0] = offset[0];
+        t->vertex[1] = offset[area > 0 ? 1 : 2];
+        t->vertex[2] = offset[area > 0 ? 2 : 1];
+    }
+    return true;
+}
+
+/* A draw on its way: what the loop over its triangles needs at every turn. */
+struct batch {
+    struct smear_assembler *a;
+    const struct smear_assembly *d;
+    struct smear_segment *segment;      /* the newest */
+    bool shares;                        /* vertices are the same for all faces */
+    bool cut;                           /* only a part of the frame is being filled */
+    bool points;                        /* nothing but a colour and depth: may become points */
+    const uint8_t *face_color;          /* flat colours as they are; null: shaded */
+    const uint8_t *vertex_color;        /* codes of vertices as they are; null: shaded, or none */
+};
+
+/* The pixel a triangle covers and its weights there. */
+struct covered {
+    int32_t x, y, e1, e2;
+};
+
+/* Triangles of up to this many covered pixels become points; in memory they
+ * are no larger than a triangle with vertices. */
+enum { POINTS_MAX = 2, TINY_BOX = 2 };
+
+/* How many centres in the box a triangle covers; the first POINTS_MAX of them. */
+static inline int cover(struct covered out[POINTS_MAX], const struct tiny_edges *e, const struct box *box)
+{
+    int count = 0;
+    int32_t row0 = e->e0, row1 = e->e1, row2 = e->e2;
+    for (int32_t y = box->y0;;) {
+        int32_t e0 = row0, e1 = row1, e2 = row2;
+        for (int32_t x = box->x0;;) {
+            if ((e0 | e1 | e2) >= 0) {
+                if (count < POINTS_MAX)
+                    out[count] = (struct covered){ x, y, e1, e2 };
+                count++;
+            }
+            if (++x == box->x1)
+                break;
+            e0 += e->right0;
+            e1 += e->right1;
+            e2 += e->right2;
+        }
+        if (++y == box->y1)
+            return count;
+        row0 += e->down0;
+        row1 += e->down1;
+        row2 += e->down2;
+    }
+}
+
+static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    struct smear_face face = smear_face_of(b->d, triangle, back);
+    return smear_face_color(b->d, b->segment, &face);
+}
+
+static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    if (b->face_color != NULL) {
+        const uint8_t *c = b->face_color + 4 * triangle;
+        return pixel_make(c[3], c[0], c[1], c[2]);
+    }
+    return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
+}
+
+/* Stores a vertex; returns its first word. */
+static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct smear_cached_vertex *v,
+                                            uint32_t triangle, bool back)
+{
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    const smear_mesh *mesh = d->mesh;
+    struct smear_bins *g = b->a->bins;
+    uint32_t word = g->vertex_words, index = index_of(v);
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_place(record, &v->screen);
+    if (segment_textured(s))
+        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
+    if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
+        const uint8_t *c = b->vertex_color + 4 * index;
+        record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
+        record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
+    } else if (segment_colored(s)) {
+        struct smear_color color;
+        struct smear_face face = smear_face_of(d, triangle, back);
+        smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
+        store_color(record + s->color, color.channel);
+    }
+    for (int pose = 0; pose < segment_moves(s); pose++) {
+        struct smear_homogeneous h, now;
+        pose_transform(&h, d, pose, index);
+        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, now_of(&now, d, v), &v->screen,
+                     &b->a->viewport);
+    }
+    return word;
+}
+
+/* First word of the vertex's record; stores it when that has not been done. */
+static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
+                                     bool back)
+{
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    bool shares = b->shares && (!back || !segment_by_vertices(b->segment));
+    if (shares && v->stored > b->segment->base)
+        return v->stored - 1;
+    uint32_t word = store_vertex(b, v, triangle, back);
+    if (shares)
+        v->stored = word + 1;
+    return word;
+}
+
+static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+{
+    struct smear_bins *g = b->a->bins;
+    const struct smear_segment *s = b->segment;
+    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    uint32_t color = 0;
+    if (!segment_colored(s))
+        color = color_of_face(b, triangle, back);
+    if (segment_by_vertices(s))
+        for (int i = 0; i < 3; i++)
+            channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+    struct tiny_scale scale = tiny_scale_make(area);
+    int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
+    for (int i = 0; i < count; i++) {
+        const struct covered *p = &covered[i];
+        uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
+        struct smear_triangle *t = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
+        t->vertex[POINT_X] = (uint16_t)p->x;
+        t->vertex[POINT_Y] = (uint16_t)p->y;
+        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->segment = SMEAR_POINT;
+        t->color = !segment_colored(s) ? color
+                                       : tiny_color(channels[0], channels[1], channels[2], w1, w2,
+                                                    shading_is_linear(&b->d->shading));
+    }
+}
+
+/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of
+ * the frame that is being filled. False when there is no room. */
+static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
+                                     struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
+                                     uint32_t triangle, bool back, bool cut)
+{
+    struct box box = box_of(&v0->screen, &v1->screen, &v2->screen);
+    bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
+    if (cut)
+        box_cut(&box, b->a);
+    if (box_is_empty(&box) || !is_due(b->a, &box))
+        return true;
+    struct covered covered[POINTS_MAX];
+    int count = POINTS_MAX + 1;
+    int32_t area = 0;
+    if (tiny) {
+        int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
+        int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
+        struct tiny_edges e;
+        area = x1 * y2 - x2 * y1;
+        tiny_start(&e, v0->screen.x, v0->screen.y, x1, y1, x2, y2, area, box.x0, box.y0);
+        count = cover(covered, &e, &box);
+        if (count == 0)
+            return true;
+    }
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
+    if (s == NULL)
+        return false;
+    b->segment = s;
+    b->a->triangles_drawn++;
+    if (count <= POINTS_MAX && b->points
+        && (!segment_by_vertices(s) || segment_flat_depth(s)
+            || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
+        struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
+        add_points(b, v, triangle, back, covered, count, area);
+        return true;
+    }
+    struct smear_bins *g = b->a->bins;
+    uint32_t base = s->base;
+    uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
+    struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
+    t->vertex[0] = offset0;
+    t->vertex[1] = offset1;
+    t->vertex[2] = offset2;
+    t->segment = (uint16_t)(s - g->segment);
+    t->color = color_of_face(b, triangle, back);
+    return true;
+}
+
+/* Transforms a vertex. */
+static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
+                               struct smear_cached_vertex *v, uint32_t tag)
+{
+#if SMEAR_FAST_STACK
+    struct smear_homogeneous passing, *now = &passing;
+#else
+    struct smear_homogeneous *now = &v->now;
+#endif
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+}
+
+#ifndef __OPTIMIZE_SIZE__
+/* All of a mesh whose vertices find room: one after the other they cost less. */
+static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
+                                    uint32_t tag)
+{
+    struct smear_cached_vertex *v = a->cache;
+    for (const uint32_t end = tag + d->mesh->vertex_count; tag != end; tag++, v++)
+        find_vertex(a, d, v, tag);
+}
+#endif
+
+/* Transforms a vertex that is not remembered. An index the mesh does not have gives OUT_UNKNOWN. */
+static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
+                                                      const struct smear_assembly *d, uint32_t tag,
+                                                      const struct smear_cached_vertex *in_use1,
+                                                      const struct smear_cached_vertex *in_use2,
+                                                      struct smear_cached_vertex *spare)
+{
+    struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
+    if ((tag & 0xffffu) >= d->mesh->vertex_count) {
+        spare->outcode = OUT_UNKNOWN;
+        return spare;
+    }
+    /* A slot that this triangle already uses for another vertex must not be overwritten. */
+    if (v == in_use1 || v == in_use2)
+        v = spare;
+    find_vertex(a, d, v, tag);
+    return v;
+}
+
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+{
+    const smear_mesh *mesh = d->mesh;
+    const struct smear_bins *g = a->bins;
+    struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
+    if (b.segment == NULL) {
+        if (drop)
+            a->triangles_dropped += mesh->triangle_count;
+        return drop;
+    }
+    b.shares = shares_vertices(d, b.segment);
+    b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
+    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment)
+            && segment_moves(b.segment) == 0 && !d->fixed;
+    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white && mesh->color == NULL)
+        b.face_color = mesh->face_color;
+    if (segment_colored(b.segment) && !d->shading.lit && d->shading.white && !shading_is_linear(&d->shading)
+        && mesh->face_color == NULL)
+        b.vertex_color = mesh->color;
+    if (a->serial == 0xffffu || a->cache_has_paths)
+        forget_all(a);
+    uint32_t tag = ++a->serial << 16;
+    struct smear_cached_vertex spare[3];
+    struct smear_cached_vertex *const cache = a->cache;
+    const uint32_t mask = a->cache_mask;
+    const bool double_sided = d->material->double_sided;
+    /* Vertices are taken in the order that is clockwise on the screen for front faces. */
+    const int second = d->mirrored ? 1 : 2, third = 3 - second;
+    const uint16_t *index = mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (mesh->vertex_count <= mask + 1u)
+        find_all(a, d, tag);
+#endif
+
+    for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+        uint32_t tag0 = tag | index[0], tag1 = tag | index[second], tag2 = tag | index[third];
+        struct smear_cached_vertex *v0 = cache + (tag0 & mask), *v1 = cache + (tag1 & mask);
+        struct smear_cached_vertex *v2 = cache + (tag2 & mask);
+        if (v0->tag != tag0)
+            v0 = miss(a, d, tag0, NULL, NULL, &spare[0]);
+        if (v1->tag != tag1)
+            v1 = miss(a, d, tag1, v0, NULL, &spare[1]);
+        if (v2->tag != tag2)
+            v2 = miss(a, d, tag2, v0, v1, &spare[2]);
+        int any = v0->outcode | v1->outcode | v2->outcode;
+        bool added;
+        if (any != 0) {
+            if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
+                continue;
+            if ((any & OUT_UNKNOWN) != 0) {
+                a->triangles_dropped++;
+                continue;
+            }
+        }
+        if ((any & OUT_CLIP) != 0) {
+            const struct smear_cached_vertex *corner[3] = { v0, d->mirrored ? v1 : v2,
+                                                            d->mirrored ? v2 : v1 };
+            added = add_clipped(a, d, &b.segment, i, corner);
+        } else {
+            int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
+            if (area > 0)
+                added = add_whole(&b, v0, v1, v2, i, false, any != 0 || b.cut);
+            else if (area == 0 || !double_sided)
+                continue;
+            else
+                added = add_whole(&b, v0, v2, v1, i, true, any != 0 || b.cut);
+        }
+        if (!added) {
+            if (!drop)
+                return false;
+            a->triangles_dropped++;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* assemble.h - from a draw to the triangles of the frame: transform, cull, clip, shade, bin. */
+#ifndef SMEAR_ASSEMBLE_H
+#define SMEAR_ASSEMBLE_H
+
+#include "geometry/vertex.h"
+
+/* Before the draws of a frame, or of a part of it. */
+void smear_assembler_reset(struct smear_assembler *a);
+
+/* Adds the draw's triangles to the geometry. Returns false when the store is full: what
+ * was added stays, and the caller draws the frame in parts. With `drop`, triangles that
+ * find no room are counted and left out instead. */
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *draw, bool drop);
+
+#endif

@@ -1,0 +1,687 @@
+/* SPDX-License-Identifier: MIT */
+/* assemble_path.c - the loop over a moving draw's triangles: as assemble.c, at three instants at once.
+ *
+ * A triangle is kept if it may be seen at any time of the exposure. It is listed under the
+ * first tile row it may touch, together with the bounds of its way (struct smear_path_bounds):
+ * all that a tile needs to choose its method. */
+#include "geometry/assemble_path.h"
+
+#include "geometry/clip.h"
+#include "geometry/path.h"
+
+#if SMEAR_WITH_SUBFRAMES
+
+enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
+
+/* A vertex at all three instants, remembered under its index:
+ * direct mapped, in the memory of the other cache. */
+struct path_vertex {
+    uint32_t tag, stored;               /* as struct smear_cached_vertex */
+    struct smear_screen screen[KEYS];
+    uint32_t outcodes;                  /* a byte for each instant: code_at */
+};
+
+static int code_at(uint32_t outcodes, int key)
+{
+    return (int)(outcodes >> 8 * key & 255u);
+}
+
+SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
+
+static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
+{
+    return key == MIDDLE ? &d->at : &d->key[key];
+}
+
+static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
+                        const struct smear_assembly *d, uint32_t tag)
+{
+    struct smear_homogeneous h;
+    v->tag = tag;
+    v->stored = 0;
+    v->outcodes = 0;
+    for (int key = 0; key < KEYS; key++)
+        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
+                                                   &a->viewport) << 8 * key;
+}
+
+/* ------------------------------------------------------------------ bounds */
+
+static uint16_t sixteenths(int32_t q8)
+{
+    return (uint16_t)min_i32((q8 + 15) >> 4, 65535);
+}
+
+/* Nearest depth code of units q11, rounded up. */
+static uint16_t code_above(int32_t depth)
+{
+    uint32_t units = ((uint32_t)depth >> 11) + 1u;
+    return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65535u));
+}
+
+/* False when no pixel of the part of the frame that is being filled can be covered. */
+static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
+                        const struct smear_assembly *d, const struct smear_screen *const corner[3])
+{
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0,
+            travel = 0, curvature = 0;
+    for (int i = 0; i < 3; i++) {
+        const struct smear_screen *p = corner[i];
+        for (int key = 0; key < KEYS; key++) {
+            x0 = min_i32(x0, p[key].x);
+            x1 = max_i32(x1, p[key].x);
+            y0 = min_i32(y0, p[key].y);
+            y1 = max_i32(y1, p[key].y);
+            depth = max_i32(depth, p[key].depth);
+        }
+        /* Halved; below zero the parabola may peak between its places, by at most an eighth of the whole. */
+        int32_t dip = p[MIDDLE].depth - (int32_t)(((uint32_t)p[OPEN].depth + (uint32_t)p[CLOSE].depth) >> 1);
+        overshoot = max_i32(overshoot, dip >> 2);
+        int32_t dx = abs_i32(p[CLOSE].x - p[OPEN].x), dy = abs_i32(p[CLOSE].y - p[OPEN].y);
+        travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
+        curvature = max_i32(curvature, abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x));
+        curvature = max_i32(curvature, abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
+    }
+    /* A parabola leaves the box of its three places by at most an eighth of the curvature. */
+    int32_t margin = curvature >> 3;
+    struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
+                       (y1 + margin + 128 + 127) >> 8 };
+    box_cut(&box, a);
+    if (box_is_empty(&box))
+        return false;
+    *b = (struct smear_path_bounds){
+        .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
+        .travel = sixteenths(travel), .curvature = sixteenths(curvature),
+        .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
+        .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
+                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
+    };
+    return true;
+}
+
+/* ------------------------------------------------------------------ records */
+
+static void store_path(uint32_t *record, const struct smear_segment *s,
+                       const struct smear_screen screen[KEYS])
+{
+    store_place(record, &screen[MIDDLE]);
+    store_place(record + s->motion, &screen[OPEN]);
+    store_place(record + s->motion + PATH_POSE_WORDS, &screen[CLOSE]);
+}
+
+/* A draw on its way. */
+struct path_batch {
+    struct smear_assembler *a;
+    const struct smear_assembly *d;
+    struct smear_segment *segment;
+    bool shares;                        /* vertices are the same for all faces */
+    int32_t apart;                      /* nothing of the draw that is nearer is seen:
+                                         * find_apart; 0 not looked for */
+};
+
+static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
+                                  bool back)
+{
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    bool shares = b->shares && (!back || !segment_by_vertices(s));
+    if (shares && v->stored > s->base)
+        return v->stored - 1;
+    struct smear_bins *g = b->a->bins;
+    uint32_t word = g->vertex_words, index = v->tag & 0xffffu;
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_path(record, s, v->screen);
+    if (segment_textured(s))
+        store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
+    if (segment_colored(s)) {
+        struct smear_color color;
+        struct smear_face face = smear_face_of(d, triangle, back);
+        smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
+        store_color(record + s->color, color.channel);
+    }
+    if (shares)
+        v->stored = word + 1;
+    return word;
+}
+
+/* It does not move by a step of its vertices (q8 px). */
+static bool is_still(const struct smear_path_bounds *bounds)
+{
+    return bounds->travel + bounds->curvature == 0;
+}
+
+static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
+{
+    struct smear_bins *g = b->a->bins;
+    uint32_t *list = is_blend(b->d) ? g->blend_last : is_still(bounds) ? g->opaque_last : g->moving_last;
+    return &list[bins_row(g, bounds->y0)];
+}
+
+static bool has_room(struct path_batch *b)
+{
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2);
+    if (s == NULL || b->a->path_count == b->a->path_limit)
+        return false;
+    b->segment = s;
+    return true;
+}
+
+/* Tiles in which it is seen at some time. */
+static void mark_tiles(const struct smear_damaged_tiles *due, const struct smear_path_bounds *b)
+{
+    const struct smear_tile_box box = tile_box_of(due, b->x0, b->x1, b->y0, b->y1);
+    for (int row = box.y0; row <= box.y1; row++)
+        for (int column = box.x0; column <= box.x1; column++)
+            due->tile[row * (due->columns + 1) + column] |= TILE_DAMAGED_NOW;
+}
+
+/* There must be room. */
+static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds, const uint16_t vertex[3],
+                          const struct smear_face *face)
+{
+    struct smear_bins *g = b->a->bins;
+    const int32_t *record[3];
+    for (int i = 0; i < 3; i++)
+        record[i] = bins_vertex(g, b->segment, vertex[i]);
+    uint32_t color = smear_face_color(b->d, b->segment, face);
+    if (smear_vertex_level(&color, b->segment, record, b->d->shading.linear))
+        bounds->flags |= PATH_LEVEL;
+    struct smear_triangle *t = bins_add_path(g, list_of(b, bounds), bounds);
+    for (int i = 0; i < 3; i++)
+        t->vertex[i] = vertex[i];
+    t->segment = (uint16_t)(b->segment - g->segment);
+    t->color = color;
+    b->a->path_count++;
+    b->a->path_static_count += is_still(bounds);
+    if (SMEAR_WITH_DAMAGE && b->a->due != NULL)
+        mark_tiles(b->a->due, bounds);
+    b->a->triangles_drawn++;
+}
+
+/* Three vertices, clockwise on the screen where the triangle is seen from the side that is drawn. */
+static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1,
+                         struct path_vertex *v2, uint32_t triangle, bool back)
+{
+    const struct smear_screen *const corner[3] = { v0->screen, v1->screen, v2->screen };
+    struct smear_path_bounds bounds;
+    if (!find_bounds(&bounds, b->a, b->d, corner))
+        return true;
+    if (!has_room(b))
+        return false;
+    uint32_t base = b->segment->base;
+    uint16_t offset0 = (uint16_t)(store_path_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(store_path_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(store_path_vertex(b, v2, triangle, back) - base);
+    struct smear_face face = smear_face_of(b->d, triangle, back);
+    const uint16_t offset[3] = { offset0, offset1, offset2 };
+    list_triangle(b, &bounds, offset, &face);
+    return true;
+}
+
+/* ------------------------------------------------------------------ clipped */
+
+/* What a triangle is cut against: the exposure, or one of PATH_INTERVALS parts of it. */
+struct cut {
+    struct smear_projection projection[KEYS];
+    int codes[KEYS];
+    uint8_t interval;          /* as in struct smear_path_bounds */
+};
+
+/* Brings another pose into the place that is clipped, or back. */
+static void exchange(struct smear_clip_polygon *p, int key)
+{
+    for (int i = 0; i < p->count; i++) {
+        struct smear_clip_vertex *v = clip_corner(p, i);
+        struct smear_homogeneous h = v->now;
+        v->now = v->pose[key];
+        v->pose[key] = h;
+    }
+}
+
+/* Leaves what is in front of the near plane and within the guard band at all three instants. */
+static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
+{
+    smear_clip_polygon(p, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    for (int key = OPEN; key <= CLOSE && p->count != 0; key++) {
+        exchange(p, key);
+        smear_clip_polygon(p, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        exchange(p, key);
+    }
+}
+
+static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
+                           const struct cut *cut, const struct smear_viewport *viewport)
+{
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    int32_t cx = viewport->width << 7, cy = viewport->height << 7;
+    for (int key = 0; key < KEYS; key++) {
+        smear_project(&screen[key], &cut->projection[key], key == MIDDLE ? &v->now : &v->pose[key], viewport);
+        screen[key].x = clamp_i32(screen[key].x, cx - guard, cx + guard);
+        screen[key].y = clamp_i32(screen[key].y, cy - guard, cy + guard);
+    }
+}
+
+/* What is left of a triangle. */
+struct polygon {
+    struct smear_clip_polygon clip;
+    struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
+    uint32_t stored[SMEAR_CLIP_MAX];    /* as in struct path_vertex */
+    uint8_t interval;
+};
+
+static int64_t area_at(const struct polygon *p, int i, int k, int key)
+{
+    return area_of(&p->screen[0][key], &p->screen[i][key], &p->screen[k][key]);
+}
+
+static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int i)
+{
+    struct smear_bins *g = b->a->bins;
+    const struct smear_segment *s = b->segment;
+    const struct smear_clip_vertex *v = clip_corner(&p->clip, i);
+    if (p->stored[i] > s->base)
+        return p->stored[i] - 1;
+    uint32_t word = g->vertex_words, *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    p->stored[i] = word + 1;
+    store_path(record, s, p->screen[i]);
+    if (segment_textured(s))
+        store_uv(record + s->uv, v->uv[0], v->uv[1]);
+    if (segment_colored(s)) {
+        uint16_t channel[4] = { 0, 0, 0, 0 };
+        for (int c = 0; c < CLIP_COLORS; c++)
+            channel[c] = (uint16_t)v->color[c];
+        store_color(record + s->color, channel);
+    }
+    return word;
+}
+
+/* One triangle of the fan, in the order that is clockwise when seen from its side. */
+static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], const struct smear_face *face)
+{
+    const struct smear_screen *const corner[3] = { p->screen[fan[0]], p->screen[fan[1]], p->screen[fan[2]] };
+    struct smear_path_bounds bounds;
+    if (!find_bounds(&bounds, b->a, b->d, corner))
+        return true;
+    if (!has_room(b))
+        return false;
+    bounds.interval = p->interval;
+    if (p->interval != 0) {
+        bounds.flags |= PATH_INTERVAL;
+        /* of the whole exposure */
+        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_INTERVALS, 65535);
+    }
+    const struct smear_segment *s = b->segment;
+    uint16_t offset[3];
+    for (int k = 0; k < 3; k++)
+        offset[k] = (uint16_t)(store_corner(b, p, fan[k]) - s->base);
+    list_triangle(b, &bounds, offset, face);
+    return true;
+}
+
+/* Adds what is left of a triangle, if it is seen from the side that is drawn
+ * (`back`: counter-clockwise) at some instant. */
+static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
+                    const struct smear_face *face)
+{
+    const struct smear_assembly *d = b->d;
+    struct polygon p;
+    for (int i = 0; i < 3; i++)
+        p.clip.vertex[i] = corner[i];
+    smear_clip_start(&p.clip, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
+    clip_all(&p.clip, cut);
+    p.interval = cut->interval;
+    for (int i = 0; i < p.clip.count; i++) {
+        project_corner(p.screen[i], clip_corner(&p.clip, i), cut, &b->a->viewport);
+        p.stored[i] = 0;
+    }
+    bool seen = false;
+    for (int key = 0; key < KEYS && !seen; key++) {
+        int64_t area = 0;
+        for (int i = 2; i < p.clip.count; i++)
+            area += area_at(&p, i - 1, i, key);
+        seen = ((area > 0) != d->mirrored) == face->back && area != 0;
+    }
+    if (!seen)
+        return true;
+    bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
+    for (int i = 2; i < p.clip.count; i++) {
+        const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
+        if (!add_fan(b, &p, fan, face))
+            return false;
+    }
+    return true;
+}
+
+/* Brings a projection to fewer bits of scale, as its vertices are. */
+static void lower_scale(struct smear_projection *p, int scale)
+{
+    int down = p->scale - scale;
+    p->scale = (int16_t)scale;
+    p->distance_scale = (int16_t)(p->distance_scale - down);
+    p->depth_shift = (int16_t)(p->depth_shift - down);
+    p->near_distance = max_i32(scale_sat(p->near_distance, clamp_i32(-down, -31, 31)), 1);
+    if (p->far_distance != INT32_MAX)
+        p->far_distance = scale_sat(p->far_distance, clamp_i32(-down, -31, 31));
+}
+
+/* Coordinate at time u (q16, -1 .. 1) of the way from open over middle to close. */
+static int32_t on_way(int64_t open, int64_t middle, int64_t close, int32_t u)
+{
+    int64_t along = (close - open) + ((open + close - 2 * middle) * u >> 16);
+    return (int32_t)(middle + (along * u >> 17));
+}
+
+static void place_on_way(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
+{
+    out->x = on_way(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
+    out->y = on_way(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
+    out->w = on_way(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
+    out->distance = out->w;
+}
+
+static void scale_homogeneous(struct smear_homogeneous *h, int down)
+{
+    h->x = scale_sat(h->x, clamp_i32(-down, -31, 31));
+    h->y = scale_sat(h->y, clamp_i32(-down, -31, 31));
+    h->w = scale_sat(h->w, clamp_i32(-down, -31, 31));
+}
+
+/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout
+ * would be too little. In short parts of the exposure it is about what is in front in the middle; at their
+ * ends a little of that may lie behind, though not behind the eye. */
+static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_clip_vertex corner[3],
+                                      struct cut *cut, const struct smear_face *face)
+{
+    /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
+    int scale = min_i32(cut->projection[MIDDLE].scale,
+                        min_i32(cut->projection[OPEN].scale, cut->projection[CLOSE].scale)) - 2;
+    struct smear_homogeneous at[3][KEYS];
+    for (int i = 0; i < 3; i++) {
+        at[i][MIDDLE] = corner[i].now;
+        at[i][OPEN] = corner[i].pose[OPEN];
+        at[i][CLOSE] = corner[i].pose[CLOSE];
+        for (int k = 0; k < KEYS; k++)
+            scale_homogeneous(&at[i][k], cut->projection[k].scale - scale);
+    }
+    lower_scale(&cut->projection[MIDDLE], scale);
+    cut->projection[OPEN] = cut->projection[CLOSE] = cut->projection[MIDDLE];
+    for (int key = OPEN; key <= CLOSE; key++)
+        cut->projection[key].near_distance = max_i32(cut->projection[MIDDLE].near_distance >> 2, 1);
+    for (int k = 0; k < KEYS; k++)
+        cut->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
+    const int32_t step = 131072 / PATH_INTERVALS;
+    for (int interval = 0; interval < PATH_INTERVALS; interval++) {
+        struct smear_clip_vertex part[3];
+        int32_t begin = interval * step - 65536;
+        for (int i = 0; i < 3; i++) {
+            part[i] = corner[i];
+            place_on_way(&part[i].pose[OPEN], at[i], begin);
+            place_on_way(&part[i].now, at[i], begin + step / 2);
+            place_on_way(&part[i].pose[CLOSE], at[i], begin + step);
+        }
+        cut->interval = (uint8_t)(interval + 1);
+        if (!add_cut(b, part, cut, face))
+            return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ near the near plane */
+
+/* The ground under a camera passes through the near plane, but beside the frame. What is nearer
+ * than some distance then needs not be drawn, and the rest is cut once, for all instants: its
+ * corners are places of the surface like any vertex. */
+
+/* The triangle's places, without what is drawn of it. */
+static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d,
+                          const uint16_t index[3])
+{
+    for (int i = 0; i < 3; i++) {
+        placement_transform(&corner[i].now, &d->at, index[i]);
+        for (int key = OPEN; key <= CLOSE; key++)
+            placement_transform(&corner[i].pose[key], &d->key[key], index[i]);
+    }
+}
+
+/* The same from here on is in front of the near plane at all times: near plus the longest way towards it. */
+static int32_t safe_distance(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
+{
+    const struct smear_projection *now = &d->at.now;
+    int64_t way = 0;
+    for (int key = OPEN; key <= CLOSE; key++)
+        for (int i = 0; i < 3; i++) {
+            const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
+            const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
+                                         : (int64_t)corner[i].pose[key].w * ((int64_t)1 << up);
+            way = corner[i].now.w - there > way ? corner[i].now.w - there : way;
+        }
+    way += now->near_distance + (int64_t)8;
+    return way < 1 << 28 ? (int32_t)way : 1 << 28;
+}
+
+/* Whether a side of the frame hides all of the polygon: a pose's places lie at
+ * sums of those known, so at all times. */
+static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport *viewport)
+{
+    int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
+    for (int i = 0; i < p->count && beside != 0; i++) {
+        const struct smear_clip_vertex *v = clip_corner(p, i);
+        for (int key = 0; key < KEYS; key++)
+            beside &= smear_outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
+    }
+    return beside != 0;
+}
+
+/* Nothing of the triangle that is nearer than this in the middle of the exposure is seen at any time. */
+static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
+{
+    struct smear_clip_polygon polygon;
+    struct smear_projection behind = b->d->at.now;
+    behind.far_distance = distance;
+    for (int i = 0; i < 3; i++)
+        polygon.vertex[i] = corner[i];
+    smear_clip_start(&polygon, CLIP_POSES, false, false);
+    smear_clip_polygon(&polygon, &behind, OUT_FAR);
+    return is_beside(&polygon, &b->a->viewport);
+}
+
+static bool is_behind(const struct smear_placement *p, uint32_t index)
+{
+    struct smear_homogeneous h;
+    if (p->extra_count == 0)
+        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.near_distance;
+    placement_transform(&h, p, index);
+    return h.w < p->now.near_distance;
+}
+
+/* Whether the near plane cuts the triangle, or passes it during the exposure. */
+static bool passes_near(const struct path_batch *b, const uint16_t index[3])
+{
+    const struct path_vertex *cache = (const struct path_vertex *)(const void *)b->a->cache;
+    int behind = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t tag = b->a->serial << 16 | index[i];
+        const struct path_vertex *v = &cache[tag & (b->a->cache_mask >> 1)];
+        for (int key = 0; key < KEYS; key++)
+            behind += v->tag == tag ? (code_at(v->outcodes, key) & OUT_NEAR) != 0
+                                    : is_behind(placement_of(b->d, key), index[i]);
+    }
+    return behind != 0 && behind != 3 * KEYS;
+}
+
+/* One distance for all triangles of a draw, so that their edges still meet: the largest of some that
+ * holds for all, but those for which none does. */
+static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
+{
+    enum { DOUBLINGS = 5 };
+    const smear_mesh *mesh = b->d->mesh;
+    struct smear_clip_vertex corner[3];
+    int32_t least = 0;
+    int doublings = DOUBLINGS;
+    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles in question lie between */
+    for (int pass = 0; pass < 2; pass++) {
+        uint32_t last = first;
+        for (uint32_t i = first; i < end; i++) {
+            const uint16_t *index = mesh->index + 3 * i;
+            if (max_i32(index[0], max_i32(index[1], index[2])) >= (int32_t)mesh->vertex_count)
+                continue;
+            if (!passes_near(b, index))
+                continue;
+            place_corners(corner, b->d, index);
+            last = i;
+            if (pass == 0) {
+                first = least == 0 ? i : first;
+                least = max_i32(least, safe_distance(corner, b->d));
+                continue;
+            }
+            int here = doublings;
+            while (here >= 0 && ((least >> (29 - here)) != 0 || !is_apart(corner, b, least << here)))
+                here--;
+            doublings = here >= 0 ? here : doublings;
+        }
+        end = last + 1;
+    }
+    while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* none holds for any triangle */
+        doublings--;
+    return least << doublings;
+}
+
+/* `corner` as the mesh has them: counter-clockwise in front. */
+static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
+                                            uint32_t triangle, uint32_t codes, bool back)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_clip_vertex corner[3];
+    struct smear_face face = smear_face_of(d, triangle, back);
+    struct cut cut = { .interval = 0 };
+    for (int i = 0; i < 3; i++) {
+        struct smear_clip_vertex *v = &corner[i];
+        uint32_t index = vertex[i]->tag & 0xffffu;
+        placement_transform(&v->now, &d->at, index);
+        for (int key = OPEN; key <= CLOSE; key++)
+            placement_transform(&v->pose[key], &d->key[key], index);
+        v->uv[0] = d->mesh->uv != NULL ? d->mesh->uv[2 * index] : 0;
+        v->uv[1] = d->mesh->uv != NULL ? d->mesh->uv[2 * index + 1] : 0;
+        struct smear_color color = { { 0, 0, 0, 0 } };
+        if (segment_colored(b->segment))
+            smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
+        for (int c = 0; c < CLIP_COLORS; c++)
+            v->color[c] = color.channel[c];
+    }
+    int near_codes = 0;
+    for (int key = 0; key < KEYS; key++) {
+        cut.codes[key] = code_at(codes, key);
+        cut.projection[key] = placement_of(d, key)->now;
+        near_codes |= cut.codes[key] & OUT_NEAR;
+    }
+    if (near_codes == 0 || is_orthographic(&d->at.now))
+        return add_cut(b, corner, &cut, &face);
+    if (b->apart == 0)
+        b->apart = find_apart(b);
+    if (safe_distance(corner, d) > b->apart || !is_apart(corner, b, b->apart))
+        return add_pieces(b, corner, &cut, &face);
+    cut.projection[MIDDLE].near_distance = b->apart;
+    for (int key = 0; key < KEYS; key++)
+        cut.codes[key] = (cut.codes[key] & ~OUT_NEAR) | OUT_GUARD;
+    cut.codes[MIDDLE] |= OUT_NEAR;
+    return add_cut(b, corner, &cut, &face);
+}
+
+/* ------------------------------------------------------------------ the loop */
+
+/* The two caches share memory: what the other wrote is no vertex of ours. */
+static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
+{
+    struct path_vertex *cache = (struct path_vertex *)(void *)a->cache;
+    *mask = a->cache_mask >> 1;
+    if (!a->cache_has_paths || a->serial == 0xffffu) {
+        for (uint32_t i = 0; i <= *mask; i++)
+            cache[i].tag = 0;
+        a->serial = 0;
+        a->cache_has_paths = true;
+    }
+    return cache;
+}
+
+static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
+                                   const struct smear_assembly *d, uint32_t tag,
+                                   const struct path_vertex *in_use1, const struct path_vertex *in_use2,
+                                   struct path_vertex *spare)
+{
+    struct path_vertex *v = &cache[tag & mask];
+    if (v->tag == tag)
+        return v;
+    if ((tag & 0xffffu) >= d->mesh->vertex_count) {
+        spare->outcodes = OUT_UNKNOWN;
+        return spare;
+    }
+    if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
+        v = spare;
+    find_vertex(v, a, d, tag);
+    return v;
+}
+
+static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint32_t triangle)
+{
+    const struct smear_assembly *d = b->d;
+    const uint32_t codes = v[0]->outcodes | v[1]->outcodes | v[2]->outcodes;
+    if (codes != 0) {
+        const uint32_t shared = v[0]->outcodes & v[1]->outcodes & v[2]->outcodes;
+        const uint32_t any = codes | codes >> 8 | codes >> 16;
+        if (shared & shared >> 8 & shared >> 16 & OUT_REJECT)
+            return true;
+        if (any & OUT_UNKNOWN) {
+            b->a->triangles_dropped++;
+            return true;
+        }
+        if (any & OUT_CLIP)
+            return add_clipped_path(b, v, triangle, codes, false)
+                && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
+    }
+    bool front = false, behind = !d->material->double_sided;    /* seen, or of no interest */
+    struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
+    for (int key = 0; key < KEYS && !(front && behind); key++) {
+        int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);
+        front = front || area > 0;
+        behind = behind || area < 0;
+    }
+    return (!front || add_triangle(b, v[0], v1, v2, triangle, false))
+        && (!behind || !d->material->double_sided || add_triangle(b, v[0], v2, v1, triangle, true));
+}
+
+bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+{
+    struct path_batch b = { a, d, smear_vertex_segment(a, d), false, 0 };
+    if (b.segment == NULL) {
+        if (drop)
+            a->triangles_dropped += d->mesh->triangle_count;
+        return drop;
+    }
+    b.shares = shares_vertices(d, b.segment);
+    uint32_t mask;
+    struct path_vertex *cache = open_cache(a, &mask), spare[3];
+    uint32_t tag = ++a->serial << 16;
+    const uint16_t *index = d->mesh->index;
+#ifndef __OPTIMIZE_SIZE__
+    if (d->mesh->vertex_count <= mask + 1u)     /* one after the other they cost less */
+        for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
+            find_vertex(&cache[i], a, d, tag + i);
+#endif
+    bool added = true;
+    for (uint32_t i = 0; i < d->mesh->triangle_count && added; i++, index += 3) {
+        struct path_vertex *v[3];
+        v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
+        v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);
+        v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2]);
+        added = add_seen(&b, v, i);
+        if (!added && drop) {
+            a->triangles_dropped++;
+            added = true;
+        }
+    }
+    return added;
+}
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* bins.c - rings of triangles per tile row, and the list that rolls down the frame with the window. */
+#include "geometry/bins.h"
+
+void smear_bins_reset(struct smear_bins *g, int first, int end)
+{
+    g->vertex_words = 0;
+    g->triangle_count = 0;
+    g->segment_count = 0;
+    g->row_recip = ((1u << 22) + (uint32_t)g->row_px - 1) / (uint32_t)g->row_px;
+    g->row_first = first;
+    g->row_end = end;
+    for (int row = first; row < end; row++)
+        g->opaque_last[row] = g->blend_last[row] = SMEAR_NO_TRIANGLE;
+    for (int row = first; g->moving_last != NULL && row < end + g->moving_rows; row++)
+        g->moving_last[row] = SMEAR_NO_TRIANGLE;
+}
+
+struct smear_segment *smear_bins_open(struct smear_bins *g)
+{
+    if (g->segment_count == min_u32(g->segment_limit, SMEAR_POINT))
+        return NULL;
+    struct smear_segment *s = &g->segment[g->segment_count++];
+    s->base = g->vertex_words;
+    return s;
+}
+
+/* True when the triangle covers a pixel centre at or below pixel row y. */
+static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
+{
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    if (t->segment == SMEAR_POINT)
+        return t->vertex[POINT_Y] >= y;
+    const struct smear_segment *s = &g->segment[t->segment];
+    if (s->path)
+        return bins_bounds(g, triangle)->y1 > y;
+    int32_t end = y * 256 + 128;
+    for (int i = 0; i < 3; i++)
+        if (bins_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
+            return true;
+    return false;
+}
+
+uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
+                              int32_t y)
+{
+    uint32_t fresh = SMEAR_NO_TRIANGLE;
+    if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */
+        struct smear_triangle *t = bins_triangle(g, last[row]);
+        fresh = t->next;
+        t->next = SMEAR_NO_TRIANGLE;
+    }
+    uint32_t first = SMEAR_NO_TRIANGLE;
+    uint32_t *link = &first;
+    while (head != SMEAR_NO_TRIANGLE) {
+        struct smear_triangle *t = bins_triangle(g, head);
+        uint32_t after = t->next;
+        if (reaches(g, head, y)) {
+            while (fresh < head) {          /* none is the largest number */
+                *link = fresh;
+                link = &bins_triangle(g, fresh)->next;
+                fresh = *link;
+            }
+            *link = head;
+            link = &t->next;
+        }
+        head = after;
+    }
+    *link = fresh;
+    return first;
+}
+
+uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row)
+{
+    return smear_bins_merge(g, last, head, row, row * g->row_px);
+}

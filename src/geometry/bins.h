@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT */
+/* bins.h - where the triangles of a frame lie until they are drawn.
+ *
+ * One block of memory. Vertices grow from the bottom, in records whose layout is set per segment; triangles
+ * grow from the top. A triangle is linked into the tile row in which it starts; rows keep their lists as
+ * rings, in submission order, so one word per row is enough:
+ *
+ *     | vertices ->                  free                  <- triangles |
+ *
+ * Vertices are shared between triangles through the vertex cache, so a closed mesh keeps about half a record
+ * per triangle. A triangle that covers one or two pixel centres may be kept as these pixels, finished but for
+ * the depth test: points, in entries of the same size. */
+#ifndef SMEAR_BINS_H
+#define SMEAR_BINS_H
+
+#include "smear.h"
+
+#include "base/fixed.h"
+
+#define SMEAR_NO_TRIANGLE UINT32_MAX
+
+struct smear_triangle {
+    uint16_t vertex[3];     /* words from the segment's base; clockwise on the screen. A point: POINT_X ... */
+    uint16_t segment;       /* SMEAR_POINT: a point */
+    uint32_t next;          /* in its row's ring, later in the row's list */
+    uint32_t color;         /* 0xAARRGGBB: flat colour, or flat light over a texture */
+};
+
+enum { POINT_X, POINT_Y, POINT_DEPTH };      /* pixel and depth code of a point */
+
+/* In place of a segment: opaque, without motion. */
+#define SMEAR_POINT 0xffffu
+
+/* What is seen of a triangle with a path during the exposure: the entry before its own. */
+struct smear_path_bounds {
+    int16_t x0, y0, x1, y1; /* pixels whose centres may be covered, in the frame */
+    uint16_t travel;        /* longest way of a vertex from open to close, 1/16 px, saturated */
+    uint16_t curvature;          /* path_curvature of a vertex, at most, 1/16 px, saturated */
+    uint16_t nearest;       /* depth code that is not exceeded */
+    uint8_t flags;          /* PATH_TEXTURED ... */
+    uint8_t interval;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the
+                             * k-th of PATH_INTERVALS parts of the exposure, and it is there only then */
+};
+
+enum {
+    PATH_TEXTURED = 1,
+    PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
+    PATH_INTERVAL = 4,         /* there for a interval of the exposure only */
+    PATH_LEVEL = 8          /* vertices of (nearly) one colour, which is the triangle's `color` */
+};
+
+enum { PATH_INTERVALS = 16 };
+
+enum smear_shade_mode {
+    SHADE_NONE,             /* texel alone */
+    SHADE_FLAT,             /* triangle.color (times texel) */
+    SHADE_GOURAUD           /* vertex colours (times texel) */
+};
+
+/* Triangles of one draw whose vertices lie within reach of 16-bit offsets. Vertex record, in 32-bit words:
+ * x y depth, then at the given offsets (0: absent) uv (1 word), color (2 words), motion (3 or 6 words). */
+struct smear_segment {
+    uint32_t base;          /* first word */
+    uint16_t draw;
+    uint8_t stride;
+    uint8_t uv, color, motion;
+    uint8_t shade;          /* smear_shade_mode */
+    uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
+    uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
+    uint8_t level;          /* its triangles are flat, though vertices had colours: all the same */
+    uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
+                             * place of motion words; moves is 0 */
+};
+
+/* As they are, where the methods and surfaces that need them were compiled in. */
+static inline bool segment_flat_depth(const struct smear_segment *s)
+{
+    return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth;
+}
+
+static inline bool segment_textured(const struct smear_segment *s)
+{
+    return SMEAR_WITH_TEXTURE && s->uv != 0;
+}
+
+static inline bool segment_gouraud(const struct smear_segment *s)
+{
+    return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
+}
+
+/* Whether level draws are looked for: not where size counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_LEVELS 0
+#else
+#define SMEAR_LEVELS SMEAR_WITH_GOURAUD
+#endif
+
+/* Colours are those of vertices: of all three where it is level. */
+static inline bool segment_by_vertices(const struct smear_segment *s)
+{
+    return segment_gouraud(s) || (SMEAR_LEVELS && s->level);
+}
+
+static inline bool segment_colored(const struct smear_segment *s)
+{
+    return SMEAR_WITH_GOURAUD && s->color != 0;
+}
+
+static inline int segment_moves(const struct smear_segment *s)
+{
+    return SMEAR_WITH_RECONSTRUCT ? s->moves : 0;
+}
+
+/* Words of a vertex record. */
+enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
+
+/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths
+ * compare, r = w'/w, and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie
+ * behind the eye; a pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
+enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
+
+struct smear_bins {
+    uint32_t *pool;
+    uint32_t pool_words;
+    uint32_t vertex_words;          /* in use, from the bottom */
+    uint32_t triangle_count;        /* in use, from the top */
+    struct smear_segment *segment;
+    uint32_t segment_count, segment_limit;
+    /* Per tile row: last triangle of each ring, or none. Moving triangles: opaque and cut out, with a path. */
+    uint32_t *opaque_last, *blend_last, *moving_last;
+    int moving_rows;                 /* rows of mover_last beyond row_count: 0, or 2
+                                     * with blurred layers (layer.h) */
+    int row_px;                     /* pixel rows of a tile row */
+    int row_count;
+    uint32_t row_recip;             /* 2^22 / row_px, rounded up */
+    int row_first, row_end;         /* tile rows that are being filled: a part of the frame */
+};
+
+static inline struct smear_triangle *bins_triangle(const struct smear_bins *g, uint32_t i)
+{
+    return (struct smear_triangle *)(void *)(g->pool + g->pool_words) - (i + 1);
+}
+
+static inline const int32_t *bins_vertex(const struct smear_bins *g,
+                                             const struct smear_segment *s, uint16_t offset)
+{
+    return (const int32_t *)(const void *)(g->pool + s->base + offset);
+}
+
+static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_words,
+                                     uint32_t triangles)
+{
+    uint32_t triangle_words = (g->triangle_count + triangles) * (sizeof(struct smear_triangle) / 4);
+    return g->vertex_words + vertex_words + triangle_words <= g->pool_words;
+}
+
+/* Empties the store for the tile rows [first, end). */
+void smear_bins_reset(struct smear_bins *g, int first, int end);
+
+/* Tile row of pixel row y < 2048. Exact: the reciprocal is too large by less than row_px / 2^22. */
+static inline int bins_row(const struct smear_bins *g, int32_t y)
+{
+    return (int)((uint32_t)y * g->row_recip >> 22);
+}
+
+/* Starts a segment at the next free vertex word; null when the table is full. */
+struct smear_segment *smear_bins_open(struct smear_bins *g);
+
+/* The next free entry, linked into the list of tile row `row`. There must be room. */
+static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *last_of_row)
+{
+    uint32_t i = g->triangle_count++, last = *last_of_row;
+    struct smear_triangle *t = bins_triangle(g, i);
+    if (last == SMEAR_NO_TRIANGLE) {
+        t->next = i;
+    } else {
+        struct smear_triangle *before = bins_triangle(g, last);
+        t->next = before->next;
+        before->next = i;
+    }
+    *last_of_row = i;
+    return t;
+}
+
+/* The same for a triangle with a path. There must be room for two entries. */
+static inline struct smear_triangle *bins_add_path(struct smear_bins *g, uint32_t *last_of_row,
+                                                       const struct smear_path_bounds *bounds)
+{
+    void *entry = bins_triangle(g, g->triangle_count++);
+    *(struct smear_path_bounds *)entry = *bounds;
+    return bins_add(g, last_of_row);
+}
+
+static inline const struct smear_path_bounds *bins_bounds(const struct smear_bins *g,
+                                                              uint32_t triangle)
+{
+    return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
+}
+
+/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission
+ * order. `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the
+ * new head; lists end with SMEAR_NO_TRIANGLE. */
+uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row);
+
+/* The same for who looks further up: drops only what ends above pixel row y. */
+uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
+                              int32_t y);
+
+#endif

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* clip.c - Sutherland-Hodgman against up to six planes. */
+#include "geometry/clip.h"
+
+#include "base/fixmath.h"
+
+enum plane { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANES };
+
+/* Signed distance, negative outside; |.| < 2^43. */
+static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear_projection *p,
+                           enum plane plane)
+{
+    const struct smear_homogeneous *h = &v->now;
+    switch (plane) {
+    case PLANE_NEAR:   return (int64_t)h->distance - p->near_distance;
+    case PLANE_FAR:    return (int64_t)p->far_distance - h->distance;
+    case PLANE_LEFT:   return (int64_t)h->w * SMEAR_GUARD_PX + h->x;
+    case PLANE_RIGHT:  return (int64_t)h->w * SMEAR_GUARD_PX - h->x;
+    case PLANE_TOP:    return (int64_t)h->w * SMEAR_GUARD_PX + h->y;
+    default:           return (int64_t)h->w * SMEAR_GUARD_PX - h->y;
+    }
+}
+
+/* Its sign alone: a < -2048 w where floor(a / 2048) < -w. */
+static bool is_outside(const struct smear_clip_vertex *v, const struct smear_projection *p, enum plane plane)
+{
+#if SMEAR_ONE_COPY
+    return distance_to(v, p, plane) < 0;
+#else
+    const struct smear_homogeneous *h = &v->now;
+    SMEAR_STATIC_ASSERT(SMEAR_GUARD_PX == 1 << 11, "the shift");
+    int32_t a = plane >= PLANE_TOP ? h->y : h->x;
+    switch (plane) {
+    case PLANE_NEAR:    return h->distance < p->near_distance;
+    case PLANE_FAR:     return h->distance > p->far_distance;
+    case PLANE_LEFT:
+    case PLANE_TOP:     return a >> 11 < -h->w;
+    default:            return -a >> 11 < -h->w;
+    }
+#endif
+}
+
+/* a + (b - a) t, t q30, to nearest. */
+static int32_t mix(int32_t a, int32_t b, int32_t t)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)(((int64_t)a * ((1 << 30) - t) + (int64_t)b * t + (1 << 29)) >> 30);
+#else
+    return (int32_t)(a + ((((int64_t)b - a) * t + (1 << 29)) >> 30));
+#endif
+}
+
+static void mix_homogeneous(struct smear_homogeneous *out, const struct smear_homogeneous *a,
+                            const struct smear_homogeneous *b, int32_t t)
+{
+    out->x = mix(a->x, b->x, t);
+    out->y = mix(a->y, b->y, t);
+    out->w = mix(a->w, b->w, t);
+    out->distance = mix(a->distance, b->distance, t);
+}
+
+/* Rounding may leave a new vertex a step outside, and W must be positive to divide by it. */
+static void settle(struct smear_homogeneous *h, const struct smear_projection *p, enum plane plane)
+{
+    if (plane <= PLANE_FAR) {
+        h->distance = plane == PLANE_NEAR ? p->near_distance : p->far_distance;
+        if (!is_orthographic(p))
+            h->w = h->distance;
+    } else if (h->w < 1) {
+        h->w = 1;
+    }
+}
+
+/* The point where the edge from `in` to `out` meets the plane. */
+static void cut(struct smear_clip_polygon *polygon, struct smear_clip_vertex *result,
+                const struct smear_clip_vertex *in, const struct smear_clip_vertex *out,
+                const struct smear_projection *p, enum plane plane)
+{
+    int64_t d = distance_to(in, p, plane);
+    int32_t t = ratio_q30(d, d - distance_to(out, p, plane));
+    mix_homogeneous(&result->now, &in->now, &out->now, t);
+    settle(&result->now, p, plane);
+    for (int i = 0; i < polygon->poses; i++)
+        mix_homogeneous(&result->pose[i], &in->pose[i], &out->pose[i], t);
+    for (int i = 0; i < 2 && polygon->textured; i++)
+        result->uv[i] = mix(in->uv[i], out->uv[i], t);
+    for (int i = 0; i < CLIP_COLORS && polygon->colored; i++)
+        result->color[i] = mix(in->color[i], out->color[i], t);
+}
+
+static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_projection *p, enum plane plane)
+{
+    const int count = polygon->count;
+    uint32_t outside = 0;       /* a bit per corner */
+    for (int i = 0; i < count; i++)
+        outside |= (uint32_t)is_outside(clip_corner(polygon, i), p, plane) << i;
+    if (outside == 0)
+        return;
+    uint8_t order[SMEAR_CLIP_ROOM];
+    int result = 0, unused = SMEAR_CLIP_ROOM, fresh = count;
+    for (int i = 0; i < count; i++) {
+        const int next = i + 1 == count ? 0 : i + 1;
+        const bool is_out = outside >> i & 1u;
+        if (is_out)
+            order[--unused] = polygon->order[i];
+        else
+            order[result++] = polygon->order[i];
+        if (is_out == (outside >> next & 1u) || result == SMEAR_CLIP_MAX || fresh == SMEAR_CLIP_ROOM)
+            continue;
+        const int slot = polygon->order[fresh++];
+        cut(polygon, &polygon->vertex[slot], clip_corner(polygon, is_out ? next : i),
+            clip_corner(polygon, is_out ? i : next), p, plane);
+        order[result++] = (uint8_t)slot;
+    }
+    while (fresh < SMEAR_CLIP_ROOM)
+        order[--unused] = polygon->order[fresh++];
+    for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
+        polygon->order[i] = order[i];
+    polygon->count = result < 3 ? 0 : result;
+}
+
+/* Some corner lies beyond one of the four sides at least: most polygons stay within. */
+static bool leaves_guard(struct smear_clip_polygon *p)
+{
+#ifndef __OPTIMIZE_SIZE__
+    for (int i = 0; i < p->count; i++) {
+        const struct smear_homogeneous *h = &clip_corner(p, i)->now;
+        if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> 11 >= h->w)
+            return true;
+    }
+    return false;
+#else
+    return p->count != 0;
+#endif
+}
+
+void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored)
+{
+    p->count = 3;
+    p->poses = (uint8_t)poses;
+    p->textured = textured;
+    p->colored = colored;
+    for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
+        p->order[i] = (uint8_t)i;
+}
+
+void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_projection *projection, int codes)
+{
+    if (codes & OUT_NEAR)
+        clip_plane(p, projection, PLANE_NEAR);
+    if (codes & OUT_FAR)
+        clip_plane(p, projection, PLANE_FAR);
+    /* A vertex behind the near plane had no side: after the cut any side may need one. */
+    if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p))
+        for (int plane = PLANE_LEFT; plane < PLANES; plane++)
+            clip_plane(p, projection, (enum plane)plane);
+}

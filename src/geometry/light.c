@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT */
+/* light.c - the directional light of the conventions: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70. */
+#include "geometry/light.h"
+
+#include "base/fixmath.h"
+#include "base/pixel.h"
+
+/* World direction towards the light, q14; (0.36, 0.80, 0.48) has length one. */
+static const int32_t light_direction[3] = { 5898, 13107, 7864 };
+
+static int32_t dot_q(const int32_t a[3], const int32_t b[3], int shift)
+{
+    return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> shift);
+}
+
+static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
+{
+    return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
+}
+
+/* One copy for this file, with a name of its own for linker scripts that choose what lies in fast memory. */
+static SMEAR_RARE uint32_t length_from(uint64_t square)
+{
+    return sqrt_floor_64(square);
+}
+
+/* By how much to shift right for `largest` to have that many bits; negative: left. */
+static int shift_to(uint64_t largest, int bits)
+{
+    return 64 - count_leading_zeros_64(largest) - bits;
+}
+
+/* Columns of equal length at right angles, within 1/256: the matrix is a rotation times a scale. */
+static bool keeps_lengths(int32_t m[3][3])
+{
+    int64_t length = 0;
+    for (int i = 0; i < 3; i++)
+        length += (int64_t)m[i][0] * m[i][0];
+    for (int j = 0; j < 3; j++)
+        for (int k = j; k < 3; k++) {
+            int64_t dot = 0;
+            for (int i = 0; i < 3; i++)
+                dot += (int64_t)m[i][j] * m[i][k];
+            int64_t off = j == k ? dot - length : dot;
+            if (off > length >> 8 || off < -(length >> 8))
+                return false;
+        }
+    return true;
+}
+
+/* Normals of the object to the world's: cofactors of the basis, without the sign of its determinant. */
+static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
+{
+    int32_t b[9];
+    int64_t cofactor[9];
+    uint32_t largest = 1;
+    uint64_t largest_cofactor = 1;
+    for (int i = 0; i < 9; i++)
+        largest |= basis[i] < 0 ? 0u - (uint32_t)basis[i] : (uint32_t)basis[i];
+    int shift = shift_to(largest, 28);
+    for (int i = 0; i < 9; i++)
+        b[i] = shift >= 0 ? basis[i] >> shift : shl_wrap(basis[i], -shift);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int32_t *b1 = b + (i == 2 ? 0 : 3 * i + 3), *b2 = b + (i == 0 ? 6 : 3 * i - 3);
+            int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
+            int64_t c = (int64_t)b1[j1] * b2[j2] - (int64_t)b1[j2] * b2[j1];
+            cofactor[3 * i + j] = c;
+            largest_cofactor |= (uint64_t)(c < 0 ? -c : c);
+        }
+    shift = shift_to(largest_cofactor, 15);
+    const int32_t row[3] = { b[0] >> 8, b[1] >> 8, b[2] >> 8 };
+    for (int i = 0; i < 9; i++)
+        b[i] = (int32_t)(shift >= 0 ? cofactor[i] >> shift : (int64_t)((uint64_t)cofactor[i] << -shift));
+    const bool mirrored = dot_q(row, b, 8) < 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            m[i][j] = mirrored ? -b[3 * i + j] : b[3 * i + j];
+}
+
+void smear_shading_make(struct smear_shading *s, const smear_transform *object,
+                        const smear_material *m, bool has_normals, bool linear)
+{
+    s->linear = linear;
+    s->lit = !m->unlit;
+    for (int i = 0; i < 3; i++)
+        s->base[i] = m->color[3] == 0 ? 65535u : smear_srgb_decode[m->color[i]];
+    s->base[3] = m->color[3] == 0 ? 65535u : (u16lin)(m->color[3] * 257u);
+    s->white = s->base[0] == 65535u && s->base[1] == 65535u && s->base[2] == 65535u
+            && s->base[3] == 65535u;
+    s->even = true;
+    if (!s->lit)
+        return;
+
+    make_normal_matrix(s->normal_matrix, object->basis);
+    if (!has_normals)
+        return;
+    s->even = keeps_lengths(s->normal_matrix);
+    if (s->even) {
+        uint32_t length = length_from(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
+                                                 s->normal_matrix[2][0]));
+        for (int j = 0; j < 3; j++) {
+            int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
+                                  s->normal_matrix[2][j] };
+            s->direction[j] = dot_q(column, light_direction, 0) / (int32_t)max_u32(length, 1)
+                            * 512 / 127;                        /* q14 to q23 / 127 */
+        }
+    }
+}
+
+/* max(0, cosine) of an object-space normal of any length, components up to 2^14.
+ *
+ * The normal in the world, h 2^12 + l, has 24 bits: sums of products of the halves fit into 32. */
+static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
+{
+    int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *m = s->normal_matrix[i];
+        /* 31 bits to 24 */
+        int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;
+        int32_t h = world >> 12, l = world & 4095;
+        along_high += h * light_direction[i];
+        along_low += l * light_direction[i];
+        high += h * h;
+        cross += h * l;
+        low += l * l;
+    }
+    int32_t along = along_high * 16 + (along_low >> 8);       /* q6 x length */
+    if (along <= 0)
+        return 0;
+    uint32_t length = length_from(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
+                                  + (uint32_t)low);
+    if (length == 0)
+        return 0;
+    /* along 2^10 / length, by reciprocal */
+    int zeros = count_leading_zeros(length);
+    uint32_t q = mulh_u32((uint32_t)along, recip_norm(length << zeros));
+    int shift = 61 - 32 - zeros - 8 - 2;
+    q = shift >= 0 ? q >> shift : q << -shift;
+    return min_u32(q, 65536u);
+}
+
+uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3])
+{
+    if (s->even) {
+        int32_t sum = normal[0] * s->direction[0] + normal[1] * s->direction[1]
+                    + normal[2] * s->direction[2];
+        return (uint32_t)clamp_i32(sum >> 7, 0, 65536);
+    }
+    int32_t n[3] = { normal[0], normal[1], normal[2] };
+    return cosine_of(s, n);
+}
+
+static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
+
+/* The normal of edges of any length. */
+static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
+{
+    int32_t n[3];
+    int64_t cross[3];
+    uint64_t largest = 1;
+    for (int i = 0; i < 3; i++) {
+        int j = next_axis(i), k = next_axis(j);
+        cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
+        largest |= cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
+    }
+    int shift = shift_to(largest, 14);
+    for (int i = 0; i < 3; i++)
+        n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
+    return cosine_of(s, n);
+}
+
+uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
+                          const int16_t c[3])
+{
+    int32_t u[3], v[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+    }
+#ifndef __OPTIMIZE_SIZE__
+    int32_t n[3];
+    uint32_t size = 0;
+    for (int i = 0; i < 3; i++)
+        size |= (uint32_t)(u[i] ^ u[i] >> 31) | (uint32_t)(v[i] ^ v[i] >> 31);
+    if (size < 1u << 15) {      /* cross products have 31 bits */
+        uint32_t largest = 1;
+        for (int i = 0; i < 3; i++) {
+            int j = next_axis(i), k = next_axis(j);
+            n[i] = u[j] * v[k] - u[k] * v[j];
+            largest |= (uint32_t)abs_i32(n[i]);
+        }
+        int shift = 32 - count_leading_zeros(largest) - 14;
+        for (int i = 0; i < 3; i++)
+            n[i] = shift >= 0 ? n[i] >> shift : n[i] * (1 << -shift);
+        return cosine_of(s, n);
+    }
+#endif
+    return light_of_long(s, u, v);
+}
+
+/* a b with 65535 as one, for both. */
+static uint32_t times_lin(uint32_t a, uint32_t b)
+{
+    return a * (b + (b >> 15)) >> 16;
+}
+
+/* Colours of vertices and faces alone do not want a table of 4 kB. */
+static uint32_t encode(uint32_t light)
+{
+    return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
+}
+
+void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
+                 const uint8_t face_color[4], uint32_t cosine)
+{
+    if (!s->lit && !shading_is_linear(s) && s->white && (color == NULL || face_color == NULL)) {
+        /* Codes in, codes out. */
+        const uint8_t *c = color != NULL ? color : face_color;
+        for (int i = 0; i < 3; i++)
+            out->channel[i] = c != NULL ? (uint16_t)(c[i] * 256u) : (uint16_t)0xff00u;
+        out->channel[3] = c != NULL ? (uint16_t)(c[3] * 257u) : 65535u;
+        return;
+    }
+    /* 0.30 and 0.70 in q16 */
+    uint32_t light = s->lit ? 19661u + (45875u * cosine >> 16) : 65536u;
+    for (int i = 0; i < 3; i++) {
+        uint32_t c = s->base[i];
+        if (color != NULL)
+            c = times_lin(c, smear_srgb_decode[color[i]]);
+        if (face_color != NULL)
+            c = times_lin(c, smear_srgb_decode[face_color[i]]);
+        c = min_u32(c * light >> 16, 65535u);
+        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(encode(c >> 4) * 256u);
+    }
+    uint32_t alpha = s->base[3];
+    if (color != NULL)
+        alpha = times_lin(alpha, color[3] * 257u);
+    if (face_color != NULL)
+        alpha = times_lin(alpha, face_color[3] * 257u);
+    out->channel[3] = (uint16_t)alpha;
+}
+
+uint32_t smear_color_pack(const struct smear_color *color, bool linear)
+{
+    uint32_t packed = (uint32_t)(color->channel[3] >> 8) << 24;
+    for (int i = 0; i < 3; i++) {
+        uint32_t code = SMEAR_WITH_LINEAR && linear ? smear_srgb_encode[color->channel[i] >> 4]
+                                                    : (uint32_t)color->channel[i] >> 8;
+        packed |= code << (16 - 8 * i);
+    }
+    return packed;
+}

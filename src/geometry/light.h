@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* light.h - colours of vertices and faces: factor x vertex colour x one directional light, per vertex. */
+#ifndef SMEAR_LIGHT_H
+#define SMEAR_LIGHT_H
+
+#include "smear.h"
+
+#include "base/fixed.h"
+
+/* The light seen from a draw's object space. */
+struct smear_shading {
+    int32_t normal_matrix[3][3];    /* cofactors of the basis, 15 bits: world
+                                     * normal = matrix x object normal */
+    int32_t direction[3];           /* q23 / 127: I = sum n_j direction_j for int8 normals, where even */
+    bool even;                      /* rotation and uniform scale only: normals keep their length */
+    bool lit;
+    bool linear;                    /* working values: linear light, else sRGB codes */
+    bool white;                     /* base is one throughout */
+    u16lin base[4];                 /* material factor; base[3] is alpha */
+};
+
+static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }
+
+/* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256),
+ * alpha 65535 is one. */
+struct smear_color {
+    uint16_t channel[4];
+};
+
+/* has_normals: smear_light_normal() will be asked. */
+void smear_shading_make(struct smear_shading *s, const smear_transform *object,
+                        const smear_material *material, bool has_normals, bool linear);
+
+/* 0 .. 65536: max(0, n.l) for an object-space normal of length 127 (vertex). */
+uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);
+
+/* The same for the face of three vertices, counter-clockwise in front (in object space). */
+uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
+                          const int16_t c[3]);
+
+/* factor x color (sRGB r g b and alpha; null: white) x (0.30 + 0.70 cosine), cosine 0 .. 65536. */
+void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
+                 const uint8_t face_color[4], uint32_t cosine);
+
+/* To 0xAARRGGBB, r g b as sRGB codes. */
+uint32_t smear_color_pack(const struct smear_color *color, bool linear);
+
+#endif

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT */
+/* matrix.c - composes transforms in 64-bit blocks and scales the result to 32-bit rows.
+ *
+ * Everything is kept as mantissas with a common exponent, chosen so that no vertex can overflow: wild
+ * matrices give wild pictures, never wild memory. */
+#include "geometry/matrix.h"
+
+#include "base/fixmath.h"
+
+static uint64_t magnitude(int64_t a)
+{
+    return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
+}
+
+/* Bits of |a|; 0 for 0. */
+static int bit_length(int64_t a)
+{
+    return a == 0 ? 0 : 64 - count_leading_zeros_64(magnitude(a));
+}
+
+/* a 2^-down to nearest, down 1 .. 62. */
+static inline int64_t scale_down(int64_t a, int down)
+{
+    return ((a >> (down - 1)) + 1) >> 1;
+}
+
+/* a 2^shift, rounded to nearest, clamped to 32 bits less one. */
+static int32_t scale_to_i32(int64_t a, int shift)
+{
+    if (shift < 0)
+        return shift < -62 ? 0 : narrow_sat(scale_down(a, -shift));
+    if (bit_length(a) + shift > 31)
+        return a < 0 ? -INT32_MAX : INT32_MAX;
+    return narrow_sat((int64_t)((uint64_t)a << shift));
+}
+
+/* The same; mostly it shrinks, and needs no call. */
+static inline int32_t scale_inline(int64_t a, int shift)
+{
+#ifndef __OPTIMIZE_SIZE__
+    if (shift < 0 && shift >= -62)
+        return narrow_sat(scale_down(a, -shift));
+#endif
+    return scale_to_i32(a, shift);
+}
+
+/* a 2^shift in 64 bits, clamped to +-2^52 so that sums of a few stay exact. */
+static int64_t scale_to_i52(int64_t a, int shift)
+{
+    const int up = clamp_i32(shift, 0, 53);
+    const int64_t limit = ((int64_t)1 << 52) >> up;
+    if (shift < 0)
+        a = shift < -62 ? 0 : a >> -shift;
+    return (a > limit ? limit : a < -limit ? -limit : a) * ((int64_t)1 << up);
+}
+
+/* Brings the largest of nine values to 31 bits; returns the exponent: value = out 2^exponent. */
+static int normalize_block(int32_t block[3][3], const int64_t in[9])
+{
+    int32_t *out = &block[0][0];
+    uint64_t all = 0;
+    for (int i = 0; i < 9; i++)
+        all |= magnitude(in[i]);
+    const int bits = bit_length((int64_t)all), shift = bits == 0 ? 0 : 30 - bits;
+    if (shift < 0)
+        for (int i = 0; i < 9; i++)
+            out[i] = (int32_t)scale_down(in[i], -shift);
+    else
+        for (int i = 0; i < 9; i++)
+            out[i] = (int32_t)((uint32_t)in[i] << shift);
+    return -shift;
+}
+
+void smear_view_compose(struct smear_view *view, const smear_transform *object,
+                        const smear_mesh *mesh, const smear_transform *camera)
+{
+    /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 2 in
+     * magnitude (smear_begin checks), so a product of q24 and q24 has 57 bits and three fit. */
+    int64_t turned[9], scaled[9];
+    int64_t offset[3];
+    for (int j = 0; j < 3; j++)
+        offset[j] = (int64_t)object->origin[j] - camera->origin[j];
+    for (int i = 0; i < 3; i++) {
+        const int64_t x = camera->basis[i], y = camera->basis[3 + i], z = camera->basis[6 + i];
+        for (int j = 0; j < 3; j++)     /* q48 */
+            turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];
+        view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32 */
+    }
+    int32_t unit[3][3];
+    int exponent = normalize_block(unit, turned) - 48;
+    int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
+    view->basis_exp = normalize_block(view->basis, scaled) + exponent - mesh->shift;
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0;
+        for (int j = 0; j < 3; j++)
+            sum += (int64_t)view->basis[i][j] * mesh->offset[j];
+        view->origin[i] = scale_to_i52(view->origin[i], 0)
+                        + scale_to_i52(sum, view->basis_exp + 32);
+    }
+}
+
+/* A positive number as mantissa in [2^29, 2^30] and exponent. */
+struct factor { int32_t mantissa; int exponent; };
+
+static struct factor factor_from(int64_t value, int exponent)
+{
+    int shift = 30 - bit_length(value);
+    return (struct factor){ scale_to_i32(value, shift), exponent - shift };
+}
+
+/* log2 of a bound on |row| for every int16 vertex, of a row of the view times `by`. */
+static int row_bits(const struct smear_view *view, int row, struct factor by)
+{
+    uint64_t sum = 0;
+    for (int j = 0; j < 3; j++)
+        sum += magnitude(view->basis[row][j]);
+    int bits = max_i32(bit_length((int64_t)sum) + view->basis_exp + 15,
+                       bit_length(view->origin[row]) - 32);
+    return bits + 1 + 30 + by.exponent;
+}
+
+/* One row of the projection: the view's row times `by`, scaled by 2^scale. */
+static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
+                     int scale)
+{
+    const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
+    const int shift = view->basis_exp + by.exponent + scale + 16;
+    for (int j = 0; j < 3; j++)
+        m[j] = scale_inline((int64_t)view->basis[row][j] * factor, shift) & ~3;
+    int cut = max_i32(0, bit_length(view->origin[row]) - 31);
+    m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
+}
+
+/* Near and far plane and the factor of depth units, for the scale of `distance`. */
+static void set_distances(struct smear_projection *p, const smear_camera *camera)
+{
+    int scale = p->distance_scale;
+    /* Rows stay below 2^30: what is farther is in front of the plane either way. */
+    p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
+    p->far_distance = camera->far_plane == 0 ? INT32_MAX
+                    : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
+    if (is_orthographic(p)) {
+        /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
+        uint32_t range = (uint32_t)(p->far_distance - p->near_distance);
+        int zeros = count_leading_zeros(range);
+        struct factor k = factor_from((int64_t)recip_norm_precise(range << zeros) * SMEAR_DEPTH_NEAR,
+                                      zeros - 61 + 11);
+        p->depth_mantissa = k.mantissa;
+        p->depth_shift = (int16_t)(k.exponent + 32);
+    } else {
+        /* units q11 = near NEAR 2^11 2^scale / W; transform.c adds the exponent of 1 / W */
+        struct factor k = factor_from((int64_t)camera->near_plane * SMEAR_DEPTH_NEAR, -16 + 11 + scale);
+        p->depth_mantissa = k.mantissa;
+        p->depth_shift = (int16_t)(k.exponent - 29);
+    }
+}
+
+void smear_projection_make(struct smear_projection *p, const struct smear_view *view,
+                           const smear_camera *camera, int height_px)
+{
+    const struct factor one = { 1 << 29, -29 };
+    p->orthographic = camera->half_height > 0;
+
+    /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
+    struct factor pixels;
+    if (is_orthographic(p)) {
+        struct factor half = factor_from(camera->half_height, -16);
+        uint32_t r = recip_norm_precise((uint32_t)min_i32(half.mantissa, (1 << 30) - 1) << 2);
+        pixels = factor_from((int64_t)r * height_px, -61 + 2 - 1 - half.exponent);
+    } else {
+        pixels = factor_from((int64_t)camera->focal * height_px, -17);
+    }
+
+    /* The largest row decides the scale; the unit W of an orthographic camera must fit as well. */
+    int bits = max_i32(row_bits(view, 0, pixels), row_bits(view, 1, pixels));
+    int bits_z = row_bits(view, 2, one);
+    bits = is_orthographic(p) ? max_i32(bits, 1) : max_i32(bits, bits_z);
+    int scale = min_i32(30 - bits, 48);
+    p->scale = (int16_t)scale;
+    fill_row(p->m[0], view, 0, pixels, 1, scale);
+    fill_row(p->m[1], view, 1, pixels, -1, scale);          /* the screen's y points down */
+
+    for (int j = 0; j < 4; j++)
+        p->m[3][j] = 0;
+    int32_t *distance = p->m[is_orthographic(p) ? 3 : 2];
+    if (is_orthographic(p)) {
+        for (int j = 0; j < 3; j++)
+            p->m[2][j] = 0;
+        p->m[2][3] = max_i32(1, scale_to_i32(1, scale));
+        int bits_far = bit_length(camera->far_plane) - 16;
+        scale = min_i32(29 - max_i32(bits_z, bits_far), 48);
+    }
+    fill_row(distance, view, 2, one, -1, scale);            /* the camera looks along -z */
+
+    p->distance_scale = (int16_t)scale;
+    set_distances(p, camera);
+}
+
+/* The last row of a perspective stays zero. */
+static int rows_of(const struct smear_projection *p)
+{
+    return is_orthographic(p) ? 4 : 3;
+}
+
+/* m weight 2^shift for a whole projection. */
+static void weigh(struct smear_projection *p, int32_t weight, int scale, int distance_scale)
+{
+    for (int row = 0; row < rows_of(p); row++) {
+        bool is_distance = row == 3 || (row == 2 && !is_orthographic(p));
+        int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
+        for (int j = 0; j < 4; j++) {
+            int32_t m = scale_inline((int64_t)p->m[row][j] * weight, shift - 24);
+            p->m[row][j] = j < 3 ? m & ~3 : m;
+        }
+    }
+    p->scale = (int16_t)scale;
+    p->distance_scale = (int16_t)distance_scale;
+}
+
+void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
+                            const smear_camera *camera)
+{
+    /* Weights of a 3600-degree shutter reach 11 and -10: four bits of room;
+     * more where deformation is scaled as well. */
+    int scale = projection[0].scale, distance_scale = projection[0].distance_scale, room = 4;
+    uint32_t sum = 0;           /* q20: each is below 2^7 */
+    for (int i = 0; i < count; i++)
+        sum += (uint32_t)abs_i32(weight[i]) >> 4;
+    while (sum > 2u << (20 + room))
+        room++;
+    for (int i = 1; i < count; i++) {
+        scale = min_i32(scale, projection[i].scale);
+        distance_scale = min_i32(distance_scale, projection[i].distance_scale);
+    }
+    for (int i = 0; i < count; i++)
+        weigh(&projection[i], weight[i], scale - room, distance_scale - room);
+    /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
+    for (int i = 0; i < count && is_orthographic(&projection[0]); i++)
+        projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
+    set_distances(&projection[0], camera);
+}
+
+void smear_projection_add(struct smear_projection *a, const struct smear_projection *b)
+{
+    for (int row = 0; row < rows_of(a); row++)
+        for (int j = 0; j < 4; j++)
+            a->m[row][j] = add_wrap(a->m[row][j], b->m[row][j]);
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* matrix.h - from a draw's transform and a camera to the integer rows that project its vertices.
+ *
+ * Done once per draw and pose, so 64-bit arithmetic is fine here; what comes out needs none. */
+#ifndef SMEAR_MATRIX_H
+#define SMEAR_MATRIX_H
+
+#include "smear.h"
+
+#include "base/fixed.h"
+
+/* Positions of one draw, from mesh steps to the screen. For a vertex v (int16 each):
+ *
+ *     row r = floor(sum v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
+ *
+ * The factors m[r][0..2] are multiples of 4, which lets cores without a wide multiply find the same floor.
+ * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels right of and
+ * below the frame's centre. `distance` is W for perspective; an orthographic camera has W
+ * constant and distance in row 3, in steps of its own. */
+struct smear_projection {
+    int32_t m[4][4];
+    int32_t near_distance, far_distance;    /* in the units of `distance`; far INT32_MAX: none */
+    int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance)
+                                 * 2^depth_shift, see transform.c */
+    int16_t depth_shift;
+    int16_t scale;              /* log2 of X, Y, W per pixel or unit; negative for huge scenes */
+    int16_t distance_scale;     /* the same of `distance` */
+    bool orthographic;
+};
+
+static inline bool is_orthographic(const struct smear_projection *p)
+{
+    return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic;
+}
+
+/* The mesh's own scale and the place of the draw, seen from a camera: camera space in blocks. */
+struct smear_view {
+    int32_t basis[3][3];        /* camera x, y, z of one mesh step: basis 2^basis_exp */
+    int64_t origin[3];          /* q32 world units */
+    int basis_exp;
+};
+
+void smear_view_compose(struct smear_view *view, const smear_transform *object,
+                        const smear_mesh *mesh, const smear_transform *camera);
+
+/* height_px: of the frame. The far plane is taken from the camera. */
+void smear_projection_make(struct smear_projection *projection, const struct smear_view *view,
+                           const smear_camera *camera, int height_px);
+
+/* Poses between the known ones: `count` projections of one draw become terms of the sum
+ * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All
+ * get one scale, with room for the sum of vertices that differ from pose to pose; the
+ * distances of projection[0] then hold for the sum. */
+void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
+                            const smear_camera *camera);
+
+/* Adds the rows of `b` to `a`, for draws whose vertices are the same in both poses. */
+void smear_projection_add(struct smear_projection *a, const struct smear_projection *b);
+
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* transform.h - a vertex from mesh steps to the screen. */
+#ifndef SMEAR_TRANSFORM_H
+#define SMEAR_TRANSFORM_H
+
+#include "base/fixmath.h"
+#include "geometry/matrix.h"
+
+/* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges
+ * are then at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */
+#define SMEAR_GUARD_PX 2048
+
+/* Depth units in q11 of every vertex that is drawn: the near plane, and two units for all that is too far to
+ * tell apart. The margins keep planes of triangles from leaving 0 .. 65535 by rounding (raster.c). */
+#define SMEAR_DEPTH_MAX ((int32_t)(SMEAR_DEPTH_NEAR * 2048u))
+#define SMEAR_DEPTH_MIN 4096
+
+/* Where a vertex lies. A triangle whose vertices share a bit is not seen. */
+enum {
+    OUT_LEFT = 1, OUT_RIGHT = 2, OUT_TOP = 4, OUT_BOTTOM = 8,
+    OUT_NEAR = 16, OUT_FAR = 32,
+    OUT_GUARD = 64,         /* not a reason to reject: needs clipping */
+    OUT_UNKNOWN = 128       /* no such vertex */
+};
+#define OUT_REJECT (OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM | OUT_NEAR | OUT_FAR)
+#define OUT_CLIP (OUT_NEAR | OUT_FAR | OUT_GUARD)
+
+/* Homogeneous position in a projection's scale. */
+struct smear_homogeneous {
+    int32_t x, y, w;
+    int32_t distance;       /* w for perspective */
+};
+
+struct smear_screen {
+    i32q8 x;                /* from the top left corner of the frame */
+    i32q11 depth;           /* units: proportional to 1/w for perspective */
+    i32q8 y;
+};
+
+struct smear_viewport {
+    int32_t width, height;  /* pixels */
+};
+
+/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one:
+ * the lower ones have 14 bits, so three products fit. */
+static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
+#else
+    uint32_t high = (uint32_t)(v[0] * (m[0] >> 16)) + (uint32_t)(v[1] * (m[1] >> 16))
+                  + (uint32_t)(v[2] * (m[2] >> 16));
+    int32_t low = v[0] * (int32_t)((uint32_t)m[0] << 16 >> 18) + v[1] * (int32_t)((uint32_t)m[1] << 16 >> 18)
+                + v[2] * (int32_t)((uint32_t)m[2] << 16 >> 18);
+    return (int32_t)(high + (uint32_t)(low >> 14)) + m[3];
+#endif
+}
+
+static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p,
+                                    const int16_t v[3])
+{
+    out->x = transform_row(p->m[0], v);
+    out->y = transform_row(p->m[1], v);
+    out->w = transform_row(p->m[2], v);
+    out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
+}
+
+/* The same as a call. */
+void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_projection *p, const int16_t v[3]);
+
+/* Divides. w > 0 is promised. |x| and |y| stay below 2^30, far outside the guard band: sums of two fit. */
+void smear_project(struct smear_screen *out, const struct smear_projection *p,
+                   const struct smear_homogeneous *in, const struct smear_viewport *viewport);
+
+/* The same without a call for what a camera with a perspective mostly sees. */
+static inline void project_inline(struct smear_screen *out, const struct smear_projection *p,
+                                  const struct smear_homogeneous *in, const struct smear_viewport *viewport)
+{
+    SMEAR_ASSERT(in->w > 0);
+    int zeros = count_leading_zeros((uint32_t)in->w);
+    const int down = 21 - zeros, depth_down = min_i32(-p->depth_shift - zeros, 31);   /* all bits are gone by then */
+    if (down <= 0 || depth_down <= 0 || is_orthographic(p)) {
+        smear_project(out, p, in, viewport);
+        return;
+    }
+    const int32_t r = (int32_t)recip_norm((uint32_t)in->w << zeros);        /* 1/w = r 2^(zeros - 61) */
+    /* x r / 2^32 = x/w 2^(29 - zeros); q8 wants 2^8. */
+    const int32_t half = 1 << (down - 1);
+    out->x = (viewport->width << 7) + ((mulh_i32(in->x, r) + half) >> down);
+    out->y = (viewport->height << 7) + ((mulh_i32(in->y, r) + half) >> down);
+    const int32_t depth = (mulh_i32(p->depth_mantissa, r) + (1 << (depth_down - 1))) >> depth_down;
+    out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+}
+
+#if SMEAR_ONE_COPY
+#define transform_vertex smear_transform_vertex
+#define project smear_project
+#else
+#define transform_vertex transform_inline
+#define project project_inline
+#endif
+
+/* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's
+ * borders. All that lies beyond one of them is not seen, also where it reaches in front of the near plane. */
+int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport);
+
+/* The sides a projected vertex lies beyond. */
+static inline int outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport)
+{
+    int32_t right = viewport->width << 8, bottom = viewport->height << 8;
+    if ((uint32_t)s->x <= (uint32_t)right && (uint32_t)s->y <= (uint32_t)bottom)
+        return 0;
+    int code = (s->x < 0 ? OUT_LEFT : 0) | (s->x > right ? OUT_RIGHT : 0) | (s->y < 0 ? OUT_TOP : 0)
+             | (s->y > bottom ? OUT_BOTTOM : 0);
+    int32_t dx = s->x - (right >> 1), dy = s->y - (bottom >> 1);
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    if (dx < -guard || dx > guard || dy < -guard || dy > guard)
+        code |= OUT_GUARD;
+    return code;
+}
+
+#endif

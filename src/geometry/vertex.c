@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/* vertex.c - layouts of vertex records, and the colours of vertices and faces. */
+#include "geometry/vertex.h"
+
+#include "geometry/path.h"
+#include "base/pixel.h"
+
+enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
+
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
+{
+    for (int i = 0; i < p->extra_count; i++) {
+        struct smear_homogeneous term;
+        smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
+        h->x += term.x;
+        h->y += term.y;
+        h->w += term.w;
+        h->distance += term.distance;
+    }
+}
+
+/* Of `sides` those that all corners of the mesh's bounds lie beyond. All that is between corners does, too: before
+ * they are divided by w, places are sums of theirs. */
+static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport,
+                        int sides)
+{
+    if (p->extra_count != 0 || p->position != m->position)
+        return 0;
+    for (int i = 0; i < 8 && sides != 0; i++) {
+        const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
+        struct smear_homogeneous h;
+        smear_transform_vertex(&h, &p->now, corner);
+        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.near_distance ? OUT_NEAR : 0);
+    }
+    return sides;
+}
+
+bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
+{
+    const int16_t *b = d->mesh->bounds;
+    if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0)
+        return false;
+    int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT & ~OUT_FAR);
+    for (int i = 0; SMEAR_WITH_SUBFRAMES && d->path && i < 2; i++)
+        sides = sides_beside(&d->key[i], d->mesh, viewport, sides);
+    return sides != 0;
+}
+
+struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d)
+{
+    struct smear_segment *s = smear_bins_open(a->bins);
+    if (s == NULL)
+        return NULL;
+    const smear_mesh *mesh = d->mesh;
+    bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
+    bool by_vertices = SMEAR_WITH_GOURAUD
+                    && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
+    bool per_vertex = by_vertices && !is_level(d);
+    int at = VERTEX_BASE_WORDS;
+    s->draw = d->draw;
+    s->uv = s->color = s->motion = 0;
+    if (textured)
+        s->uv = (uint8_t)at++;
+    if (per_vertex)
+        s->color = (uint8_t)at;
+    if (by_vertices)            /* level ones take as much room: what finds none is the same */
+        at += 2;
+    s->moves = SMEAR_WITH_RECONSTRUCT && a->keep_motion && !is_blend(d) ? d->moves : 0;
+    if (segment_moves(s) != 0) {
+        s->motion = (uint8_t)at;
+        at += s->moves * MOTION_WORDS;
+    }
+    s->path = 0;
+    if (SMEAR_WITH_SUBFRAMES && d->path) {
+        s->path = 1;
+        s->motion = (uint8_t)at;
+        at += PATH_WORDS;
+    }
+    const bool plain = !d->shading.lit && d->shading.white && mesh->face_color == NULL && mesh->color == NULL;
+    s->shade = per_vertex ? SHADE_GOURAUD : textured && plain ? SHADE_NONE : SHADE_FLAT;
+    s->level = is_level(d);
+    s->flat_depth = is_orthographic(&d->at.now);
+    s->stride = (uint8_t)at;
+    return s;
+}
+
+#if SMEAR_LEVELS
+/* Looked at for all triangles of all draws of each frame: without loops or branches of its own. */
+static inline bool same_normal(const uint8_t *a, const uint8_t *b)
+{
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
+static inline bool same_color(const uint8_t *a, const uint8_t *b)
+{
+    uint32_t first, second;
+    __builtin_memcpy(&first, a, sizeof first);
+    __builtin_memcpy(&second, b, sizeof second);
+    return first == second;
+}
+
+bool smear_vertex_is_level(const smear_mesh *mesh, bool lit)
+{
+    const uint8_t *normal = lit ? (const uint8_t *)mesh->normal : NULL, *color = mesh->color;
+    const uint16_t *index = mesh->index, *const end = index + 3 * mesh->triangle_count;
+    if (normal == NULL && color == NULL)
+        return false;
+    for (; index < end; index += 3) {
+        const uint32_t a = index[0], b = index[1], c = index[2];
+        if (max_u32(a, max_u32(b, c)) >= mesh->vertex_count)
+            return false;
+        if (normal != NULL
+            && !(same_normal(normal + 3 * a, normal + 3 * b) && same_normal(normal + 3 * a, normal + 3 * c)))
+            return false;
+        if (color != NULL && !(same_color(color + 4 * a, color + 4 * b) && same_color(color + 4 * a, color + 4 * c)))
+            return false;
+    }
+    return true;
+}
+
+#endif
+
+/* Light at a vertex with a normal. */
+static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool flip)
+{
+    const int8_t *n = d->mesh->normal + 3 * index;
+    const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
+                             (int8_t)-max_i32(n[2], -127) };
+    return smear_light_normal(&d->shading, flip ? back : n);
+}
+
+void smear_vertex_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                         const uint8_t *face_color, uint32_t face_cosine, bool flip)
+{
+    const smear_mesh *mesh = d->mesh;
+    uint32_t cosine = face_cosine;
+    if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL)
+        cosine = cosine_at(d, index, flip);
+    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
+                cosine);
+}
+
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
+                              const struct smear_face *face)
+{
+    if (s->shade != SHADE_FLAT)
+        return 0xffffffffu;
+    struct smear_color color;
+    smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
+    return smear_color_pack(&color, shading_is_linear(&d->shading));
+}
+
+/* The code of channel c (r g b) of a vertex, as pixels get it (see channel_value in setup.h). */
+static uint32_t channel_code(const struct smear_segment *s, const int32_t *record, int c, bool linear)
+{
+    uint32_t word = (uint32_t)record[s->color + (c >> 1)];
+    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
+    return linear ? smear_srgb_encode[clamp_i32(a, 0x400, 0xffe000) >> 12]
+                  : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
+}
+
+bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+                        bool linear)
+{
+    if (s->shade != SHADE_GOURAUD || s->uv != 0)
+        return false;
+    uint32_t mean = 0;
+    for (int c = 0; c < 3; c++) {
+        uint32_t least = 255, most = 0;
+        for (int i = 0; i < 3; i++) {
+            uint32_t code = channel_code(s, record[i], c, linear);
+            least = min_u32(least, code);
+            most = max_u32(most, code);
+        }
+        if (most - least > LEVEL_CODES)
+            return false;
+        mean = mean << 8 | (least + most) >> 1;
+    }
+    *color = mean;
+    return true;
+}
+
+struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
+{
+    struct smear_face face = { back, NULL, NULL, 65536u };
+    const uint16_t *index = d->mesh->index + 3 * triangle;
+    if (d->mesh->face_color != NULL)
+        face.color = d->mesh->face_color + 4 * triangle;
+    if (is_level(d) && d->mesh->color != NULL)
+        face.vertex_color = d->mesh->color + 4 * index[0];
+    if (is_level(d) && d->shading.lit && d->mesh->normal != NULL) {
+        face.cosine = cosine_at(d, index[0], back);
+    } else if (d->shading.lit && d->mesh->normal == NULL) {
+        const int16_t *p = d->at.position;
+        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
+                                       p + 3 * index[back ? 1 : 2]);
+    }
+    return face;
+}

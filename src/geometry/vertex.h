@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: MIT */
+/* vertex.h - what both assemblers share: a draw on its way into the store, its vertex records, its faces. */
+#ifndef SMEAR_VERTEX_H
+#define SMEAR_VERTEX_H
+
+#include "base/fixmath.h"
+#include "geometry/bins.h"
+#include "geometry/light.h"
+#include "geometry/transform.h"
+
+/* ------------------------------------------------------------------ a draw */
+
+/* A transformed vertex, remembered under its index: direct mapped. */
+struct smear_cached_vertex {
+    uint32_t tag;                   /* draw serial << 16 | vertex index */
+    uint32_t stored;                /* its record in the pool: word + 1, or 0 */
+    struct smear_screen screen;
+    int32_t outcode;
+#if !SMEAR_FAST_STACK               /* else made again where it is needed */
+    struct smear_homogeneous now;
+#endif
+};
+
+/* Tiles of the frame that something reaches into: columns and rows x0 .. x1 and y0 .. y1; none where x0 > x1. */
+struct smear_tile_box {
+    uint8_t x0, x1, y0, y1;
+};
+
+/* With smear_desc.buffer_age: which tiles are drawn at all. For each, row by row, 0: the display has it. */
+struct smear_damaged_tiles {
+    uint8_t *tile;
+    uint8_t columns, shift;         /* tiles of a row, less one; log2 of their size */
+    bool only;                      /* triangles beyond tiles that are due are left out */
+    struct smear_tile_box *seen;    /* grows by where triangles are seen, or null */
+};
+
+enum { TILE_DAMAGED_NOW = 0x80 };       /* a moving triangle is seen in it */
+
+static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    return (struct smear_tile_box){ (uint8_t)(x0 >> d->shift), (uint8_t)((x1 - 1) >> d->shift),
+                                    (uint8_t)(y0 >> d->shift), (uint8_t)((y1 - 1) >> d->shift) };
+}
+
+static inline bool tile_box_is_damaged(const struct smear_damaged_tiles *d, struct smear_tile_box box)
+{
+    for (int row = box.y0; row <= box.y1; row++)
+        for (int column = box.x0; column <= box.x1; column++)
+            if (d->tile[row * (d->columns + 1) + column] != 0)
+                return true;
+    return false;
+}
+
+static inline void tile_box_add(struct smear_tile_box *all, struct smear_tile_box box)
+{
+    all->x0 = box.x0 < all->x0 ? box.x0 : all->x0;
+    all->x1 = box.x1 > all->x1 ? box.x1 : all->x1;
+    all->y0 = box.y0 < all->y0 ? box.y0 : all->y0;
+    all->y1 = box.y1 > all->y1 ? box.y1 : all->y1;
+}
+
+struct smear_assembler {
+    struct smear_viewport viewport;
+    struct smear_bins *bins;
+    struct smear_cached_vertex *cache;
+    uint32_t cache_mask;
+    uint32_t serial;                /* of the draw within the context's life;
+                                     * tags of older draws never match */
+    bool cache_has_paths;           /* it holds vertices of assemble_path.c */
+    bool keep_motion;               /* the method reads velocities */
+    bool keep_paths;                /* the method looks at several instants */
+    uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
+    uint32_t triangles_drawn, triangles_dropped;
+    uint32_t path_static_count;      /* triangles with paths of no length: listed among those that stand still */
+    const struct smear_damaged_tiles *due;    /* with smear_desc.buffer_age, else null: where moving triangles mark their tiles */
+};
+
+/* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)
+ * where poses of a mesh that deforms are mixed. */
+struct smear_placement {
+    struct smear_projection now;
+    const int16_t *position;
+    int extra_count;                    /* further terms */
+    struct smear_projection extra[SMEAR_WITH_DEFORM ? 2 : 1];
+    const int16_t *extra_position[SMEAR_WITH_DEFORM ? 2 : 1];
+};
+
+/* One draw with everything that does not change from triangle to triangle. */
+struct smear_assembly {
+    const smear_mesh *mesh;
+    const smear_material *material;     /* never null */
+    uint16_t draw;                      /* its index, for the raster */
+    bool mirrored;                      /* negative determinant: the winding flips */
+    bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool level;                         /* triangles have one colour each, though vertices have normals or colours */
+    bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
+    uint8_t moves;                      /* as smear_segment.moves */
+    struct smear_placement at;          /* the instant that is drawn */
+    /* velocity is measured between these (one: and the drawn instant) */
+    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    bool has_rest;                      /* what the mesh's own vertices add to them,
+                                         * where deformation is scaled: */
+    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_SCALES ? 2 : 1];
+    struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
+    struct smear_shading shading;
+};
+
+/* Adds the further terms. */
+void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
+
+static inline bool is_level(const struct smear_assembly *d) { return SMEAR_LEVELS && d->level; }
+
+static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
+                                       uint32_t index)
+{
+    transform_vertex(h, &p->now, p->position + 3 * index);
+    if (SMEAR_WITH_DEFORM && p->extra_count != 0)
+        smear_placement_add(h, p, index);
+}
+
+/* A vertex in a pose of the assembly. */
+static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
+                                  uint32_t index)
+{
+    transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+    if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
+        struct smear_homogeneous rest;
+        transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
+        h->x += rest.x;
+        h->y += rest.y;
+        h->w += rest.w;
+        h->distance += rest.distance;
+    }
+}
+
+/* Transforms and projects; returns the outcode. Nothing is projected before the near plane. */
+static inline int placement_project(struct smear_screen *screen, struct smear_homogeneous *h,
+                                    const struct smear_placement *p, uint32_t index,
+                                    const struct smear_viewport *viewport)
+{
+    placement_transform(h, p, index);
+    if (h->distance < p->now.near_distance)
+        return OUT_NEAR | smear_outcode_behind(h, viewport);
+    project(screen, &p->now, h, viewport);
+    int code = outcode_sides(screen, viewport);
+    return h->distance > p->now.far_distance ? code | OUT_FAR : code;
+}
+
+/* The bounds of the mesh lie beyond one side of the view wherever the assembly has it. */
+bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
+
+/* ------------------------------------------------------------------ records */
+
+static inline uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
+{
+    record[VERTEX_X] = (uint32_t)screen->x;
+    record[VERTEX_Y] = (uint32_t)screen->y;
+    record[VERTEX_DEPTH] = (uint32_t)screen->depth;
+    return record;
+}
+
+static inline void store_color(uint32_t *record, const uint16_t channel[4])
+{
+    record[0] = (uint32_t)channel[0] | (uint32_t)channel[1] << 16;
+    record[1] = (uint32_t)channel[2] | (uint32_t)channel[3] << 16;
+}
+
+static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
+{
+    *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
+}
+
+/* Whether what vertices have of their own (normals where it is lit, colours) is the same within every
+ * triangle: as faces that are flat come out of modelling programs. */
+bool smear_vertex_is_level(const smear_mesh *mesh, bool lit);
+
+/* Starts a segment for more records of this draw; null when the table is full. */
+struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d);
+
+/* Light and colour of a vertex. `flip`: seen from behind. */
+void smear_vertex_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                        const uint8_t *face_color, uint32_t face_cosine, bool flip);
+
+/* Whether three stored vertices have one colour, or nearly, and there is no texture. */
+bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+                        bool linear);
+
+/* ------------------------------------------------------------------ faces */
+
+/* What a triangle has in common. */
+struct smear_face {
+    bool back;                  /* seen from behind: double-sided */
+    const uint8_t *color;
+    const uint8_t *vertex_color;        /* of all three vertices, where the draw is level */
+    uint32_t cosine;            /* flat light */
+};
+
+struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back);
+
+/* 0xAARRGGBB of segments with SHADE_FLAT; others: white. */
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
+                          const struct smear_face *face);
+
+/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2),
+ * positive when clockwise on the screen (y down). */
+static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
+{
+#if !SMEAR_HAS_MUL64
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small)
+         | ((uint32_t)y2 + small)) < 2 * small)
+        return x1 * y2 - x2 * y1;
+#endif
+    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
+}
+
+static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
+                       const struct smear_screen *c)
+{
+    return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
+}
+
+/* Pixels whose centres may be covered. */
+struct box {
+    int32_t x0, y0, x1, y1;
+};
+
+static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
+                                const struct smear_screen *c)
+{
+    struct box box;
+    box.x0 = (min_i32(a->x, min_i32(b->x, c->x)) + 127) >> 8;
+    box.x1 = (max_i32(a->x, max_i32(b->x, c->x)) + 127) >> 8;
+    box.y0 = (min_i32(a->y, min_i32(b->y, c->y)) + 127) >> 8;
+    box.y1 = (max_i32(a->y, max_i32(b->y, c->y)) + 127) >> 8;
+    return box;
+}
+
+/* Cuts a box to the part of the frame that is being filled. */
+static inline void box_cut(struct box *box, const struct smear_assembler *a)
+{
+    const struct smear_bins *g = a->bins;
+    box->x0 = max_i32(box->x0, 0);
+    box->x1 = min_i32(box->x1, a->viewport.width);
+    box->y0 = max_i32(box->y0, g->row_first * g->row_px);
+    box->y1 = min_i32(box->y1, min_i32(a->viewport.height, g->row_end * g->row_px));
+}
+
+static inline bool box_is_empty(const struct box *box)
+{
+    return box->x0 >= box->x1 || box->y0 >= box->y1;
+}
+
+static inline bool is_blend(const struct smear_assembly *d)
+{
+    return SMEAR_WITH_ALPHA && d->material->alpha == SMEAR_BLEND;
+}
+
+/* Vertices cannot be shared when a face's own light or colour goes into them. */
+static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
+{
+    return !segment_by_vertices(s)
+        || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
+}
+
+/* Room for one more triangle with three new vertices; opens a new segment where offsets run out. */
+static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
+                                              struct smear_segment *s, uint32_t entries)
+{
+    struct smear_bins *g = a->bins;
+    if (s == NULL || g->vertex_words + 3u * s->stride - s->base > 65536u) {
+        s = smear_vertex_segment(a, d);
+        if (s == NULL)
+            return NULL;
+    }
+    return bins_has_room(g, 3u * s->stride, entries) ? s : NULL;
+}
+
+static inline uint32_t *row_list(struct smear_bins *g, const struct smear_assembly *d, int row)
+{
+    return is_blend(d) ? &g->blend_last[row] : &g->opaque_last[row];
+}
+
+#endif

@@ -1,0 +1,425 @@
+/* SPDX-License-Identifier: MIT */
+/* layer_gather.c - what a pixel sees of a moving layer: each tap is a place the layer's surface may have come
+ * from. It counts if its own velocity carries it here, and for the share of the exposure it spends on the
+ * stretch it stands for; what is left of the exposure shows the still scene. */
+#include "layers/layer_gather.h"
+
+#include "base/fixmath.h"
+#include "base/pixel.h"
+
+/* ------------------------------------------------------------------ velocities */
+
+struct vector {
+    int32_t x, y;               /* half the displacement in the exposure, 1/8 px */
+};
+
+static inline struct vector velocity_at(const struct smear_layer_rows *l, int32_t at)
+{
+    if (l->velocity8 != NULL)
+        return (struct vector){ l->velocity8[2 * at], l->velocity8[2 * at + 1] };
+    return (struct vector){ l->velocity16[2 * at], l->velocity16[2 * at + 1] };
+}
+
+static inline int32_t square_of(struct vector v)
+{
+    return v.x * v.x + v.y * v.y;
+}
+
+void smear_gather_cells(const struct smear_gather_area *a)
+{
+    const struct smear_layer_rows *l = a->layer;
+    const int32_t count = (l->width >> a->tile_shift) + 1;
+    struct smear_layer_cell *own = l->cell, *around = l->cell + count;
+    for (int32_t i = 0; i < count; i++) {
+        struct vector longest = { 0, 0 };
+        bool any = false;
+        int32_t x0 = max_i32(i << a->tile_shift, a->x0), x1 = min_i32((i + 1) << a->tile_shift, a->x1);
+        for (int32_t y = 0; x0 < x1 && y < a->rows; y++) {
+            int32_t x = max_i32(x0, l->row_first[y]), end = min_i32(x1, l->row_end[y]);
+            any = any || x < end;
+            for (int32_t at = y * l->width + x; x < end; x++, at++) {
+                struct vector v = velocity_at(l, at);
+                if (square_of(v) > square_of(longest))
+                    longest = v;
+            }
+        }
+        own[i] = (struct smear_layer_cell){ (int16_t)longest.x, (int16_t)longest.y, any };
+    }
+    for (int32_t i = 0; i < count; i++) {
+        around[i] = own[i];
+        for (int32_t k = max_i32(i - 1, 0); k <= min_i32(i + 1, count - 1); k++) {
+            struct vector v = { own[k].x, own[k].y }, best = { around[i].x, around[i].y };
+            if (square_of(v) > square_of(best)) {
+                around[i].x = own[k].x;
+                around[i].y = own[k].y;
+            }
+            around[i].any = around[i].any || own[k].any;
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ a pixel */
+
+/* Sums of channels (codes, or light in 12 bits) by weight; 4096 is the whole exposure. */
+struct sum {
+    uint32_t r, g, b, weight;
+};
+
+static inline void sum_add(struct sum *s, uint32_t p, uint32_t weight, bool linear)
+{
+    if (linear) {
+        s->r += (smear_srgb_decode[pixel_red(p)] >> 4) * weight;
+        s->g += (smear_srgb_decode[pixel_green(p)] >> 4) * weight;
+        s->b += (smear_srgb_decode[pixel_blue(p)] >> 4) * weight;
+    } else {
+        s->r += pixel_red(p) * weight;
+        s->g += pixel_green(p) * weight;
+        s->b += pixel_blue(p) * weight;
+    }
+    s->weight += weight;
+}
+
+enum { WHOLE = 4096 };
+
+/* The mean. */
+static uint32_t sum_mean(const struct sum *s, bool linear)
+{
+    int zeros = count_leading_zeros(s->weight);
+    uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
+    uint32_t half = s->weight >> 1, c[3] = { s->r + half, s->g + half, s->b + half };
+    for (int i = 0; i < 3; i++) {
+        uint32_t value = mulh_u32(c[i], r) >> (29 - zeros);
+        c[i] = linear ? smear_srgb_encode[min_u32(value, 4095u)] : min_u32(value, 255u);
+    }
+    return pixel_make(0, c[0], c[1], c[2]);
+}
+
+/* What is missing is still; what is too much is shared. */
+static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
+{
+    if (s->weight < WHOLE)
+        sum_add(s, still, WHOLE - s->weight, linear);
+    return sum_mean(s, linear);
+}
+
+/* Taps along a direction, and what the velocities they meet are worth. */
+struct taps {
+    struct vector d;
+    int32_t length;             /* q6 px */
+    int32_t count, over;        /* over: 16384 / count */
+    struct {
+        int32_t offset;         /* in the layer's rows */
+        int32_t distance;       /* q6 px */
+    } tap[SMEAR_GATHER_TAPS];
+    uint32_t word;              /* the newest velocity */
+    int32_t carries;            /* how far it carries a surface along the direction, q6 px; 0: elsewhere */
+    uint32_t weight;            /* of a tap with it */
+};
+
+static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t word, int32_t width)
+{
+    const int32_t n = t->count;
+    t->d = d;
+    t->length = (int32_t)sqrt_q3((uint32_t)square_of(d));
+    /* From one end to the other, q16 px. */
+    int32_t step_x = d.x * t->over, step_y = d.y * t->over, step = t->length * t->over >> 13;
+    int32_t x = 0x8000 - d.x * 8192 + (step_x >> 1), y = 0x8000 - d.y * 8192 + (step_y >> 1);
+    int32_t distance = t->length - (step >> 1);
+    for (int32_t k = 0; k < n; k++, x += step_x, y += step_y, distance -= step) {
+        t->tap[k].offset = (y >> 16) * width + (x >> 16);
+        t->tap[k].distance = abs_i32(distance);
+    }
+    t->word = word;
+    t->carries = t->length + 32;
+    t->weight = (uint32_t)((WHOLE + n - 1) / n);
+}
+
+static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v, uint32_t word)
+{
+    int32_t dot = v.x * t->d.x + v.y * t->d.y, cross = abs_i32(v.x * t->d.y - v.y * t->d.x);
+    int32_t speed = (int32_t)sqrt_q3((uint32_t)square_of(v));
+    t->word = word;
+    t->carries = -1;
+    if (dot <= 0 || 2 * cross > dot)        /* more than 27 degrees off */
+        return;
+    t->carries = speed + 32;
+    t->weight = min_u32((uint32_t)((WHOLE + t->count - 1) / t->count * t->length)
+                            / (uint32_t)max_i32(speed, 32),
+                        WHOLE);
+}
+
+enum { PROBES = 8 };
+
+/* What stays the same for the area. */
+struct gathering {
+    const struct smear_gather_area *a;
+    const uint32_t *color;
+    const uint16_t *depth;
+    int32_t width;
+    struct taps taps;
+    /* Where a surface may come from: places along the longest velocity
+     * around, in both senses, and how fast it must be. */
+    struct vector top;
+    struct {
+        int32_t offset;
+        int32_t least;          /* square of 1/8 px */
+    } probe[PROBES];
+};
+
+static SMEAR_NOINLINE void probes_start(struct gathering *g, struct vector top)
+{
+    g->top = top;
+    for (int32_t i = 0; i < PROBES; i++) {
+        int32_t k = (i & 1 ? -1 : 1) * ((i >> 1) + 1);      /* quarters of the way */
+        g->probe[i].offset = ((top.y * k + 16) >> 5) * g->width + ((top.x * k + 16) >> 5);
+        int32_t x = max_i32(abs_i32(top.x * k >> 2) - 6, 0), y = max_i32(abs_i32(top.y * k >> 2) - 6, 0);
+        g->probe[i].least = max_i32(x * x + y * y, 16);
+    }
+}
+
+/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of
+ * the nearest place that comes this far. Returns that, or -1. */
+static inline int32_t find_direction(const struct gathering *g, int32_t here, uint32_t still_depth)
+{
+    for (int32_t i = 0; i < PROBES; i++) {
+        int32_t at = here + g->probe[i].offset;
+        if (g->depth[at] > still_depth && square_of(velocity_at(g->a->layer, at)) >= g->probe[i].least)
+            return at;
+    }
+    return -1;
+}
+
+/* As velocity_at, in one word that is only good for comparing. */
+SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
+{
+    if (l->velocity8 != NULL) {
+        uint16_t word;
+        __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity8 + 2 * at, 2), sizeof word);
+        return word;
+    }
+    uint32_t word;
+    __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity16 + 2 * at, 4), sizeof word);
+    return word;
+}
+
+/* What a pixel sees of the layer: all of it, or what lies behind a group
+ * that was merged before, and what before it. */
+struct seen {
+    struct sum sum, behind;
+    uint32_t passed_depth;      /* of that group; 0: there is none */
+};
+
+static inline struct sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
+{
+    return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
+}
+
+/* `own`: the pixel's surface moves itself. Where a tap meets one that does not come here, it is hidden by a
+ * nearer one, or has left one that is farther free. */
+SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t still_depth,
+                         bool linear, bool mixed)
+{
+    struct taps *t = &g->taps;
+    const struct smear_layer_rows *l = g->a->layer;
+    const uint32_t even = (uint32_t)((WHOLE + t->count - 1) / t->count);
+    for (int32_t k = 0; k < t->count; k++) {
+        int32_t at = here + t->tap[k].offset;
+        if (g->depth[at] <= still_depth)
+            continue;
+        uint32_t word = word_at(l, at);
+        if (word != t->word)
+            taps_meet(t, velocity_at(l, at), word);
+        if (t->tap[k].distance <= t->carries)
+            sum_add(sum_of(seen, g->depth[at], mixed), g->color[at], t->weight, linear);
+        else if (own) {
+            int32_t of = g->depth[at] > g->depth[here] ? here : at;
+            sum_add(sum_of(seen, g->depth[of], mixed), g->color[of], even, linear);
+        }
+    }
+}
+
+/* Sums at a pixel, `here` in the layer's rows; where its surface comes from: an index there, or -1. */
+SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t still_depth,
+                          uint32_t *taken, bool linear, bool mixed)
+{
+    int32_t of = -1;
+    const bool drawn = g->depth[here] > still_depth;
+    struct vector d = { 0, 0 };
+    if (drawn) {
+        d = velocity_at(g->a->layer, here);
+        if (square_of(d) >= 16)             /* half a pixel */
+            of = here;
+    }
+    const bool stays = drawn && of < 0;
+    if (of < 0)
+        of = find_direction(g, here, still_depth);
+    if (of >= 0) {
+        uint32_t word = word_at(g->a->layer, of);
+        d = velocity_at(g->a->layer, of);
+        if (d.x != g->taps.d.x || d.y != g->taps.d.y)
+            taps_start(&g->taps, d, word, g->width);
+        gather(g, seen, here, of == here, still_depth, linear, mixed);
+        *taken += (uint32_t)g->taps.count;
+    }
+    const uint32_t weight = seen->sum.weight + (mixed ? seen->behind.weight : 0);
+    if (stays && weight < WHOLE)
+        sum_add(sum_of(seen, g->depth[here], mixed), g->color[here], WHOLE - weight, linear);
+    return drawn ? here : of;
+}
+
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out,
+                              uint32_t *taken, bool linear)
+{
+    struct seen seen = { .passed_depth = 0 };
+    look(g, &seen, here, still_depth, taken, linear, false);
+    if (seen.sum.weight != 0)
+        *out = sum_pixel(&seen.sum, *out, linear);
+}
+
+/* ------------------------------------------------------------------ between other groups */
+
+/* a + (b - a) part / WHOLE, of codes or their light. */
+static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+{
+    const uint32_t rest = WHOLE - part;
+    if (linear)
+        return smear_srgb_encode[((smear_srgb_decode[a] >> 4) * rest + (smear_srgb_decode[b] >> 4) * part
+                                  + WHOLE / 2)
+                                 >> 12];
+    return (a * rest + b * part + WHOLE / 2) >> 12;
+}
+
+static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+{
+    return pixel_make(0, mixed_channel(pixel_red(a), pixel_red(b), part, linear),
+                      mixed_channel(pixel_green(a), pixel_green(b), part, linear),
+                      mixed_channel(pixel_blue(a), pixel_blue(b), part, linear));
+}
+
+/* Something whole that is seen past `passed`, which are colours times coverage, and coverage. */
+static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
+{
+    const uint32_t rest = ((255u - (passed >> 24)) * WHOLE + 127u) / 255u;
+    uint32_t out = mixed_pixel(0, pixel, rest, linear), sum[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t a = out >> 8 * i & 255u, b = passed >> 8 * i & 255u;
+        sum[i] = linear
+                   ? smear_srgb_encode[min_u32((uint32_t)(smear_srgb_decode[a] + smear_srgb_decode[b]) >> 4,
+                                               4095u)]
+                   : min_u32(a + b, 255u);
+    }
+    return pixel_make(0, sum[2], sum[1], sum[0]);
+}
+
+/* `part` of a pixel over what has passed; coverage likewise. */
+static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool linear)
+{
+    uint32_t a = ((passed >> 24) * (WHOLE - part) + 255u * part + WHOLE / 2) >> 12;
+    return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
+}
+
+/* Where other groups were merged before this one: what lies behind them goes
+ * between them and what they were merged over. */
+static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t still_depth, int32_t at,
+                                       uint32_t *taken)
+{
+    const struct smear_gather_area *a = g->a;
+    uint32_t passed = a->passed[at];
+    struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->passed_depth[at] : 0u };
+    const int32_t of = look(g, &seen, here, still_depth, taken, a->linear, true);
+    const uint32_t front = min_u32(seen.sum.weight, WHOLE);
+    if (seen.behind.weight != 0 && front < WHOLE) {
+        /* Its share of the time in which nothing of the layer is in front. */
+        const uint32_t part = seen.behind.weight >= WHOLE - front
+                                ? (uint32_t)WHOLE
+                                : (seen.behind.weight << 12) / (WHOLE - front);
+        const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
+        a->still[at] = mixed_pixel(a->still[at], whole, part, a->linear);
+        const uint32_t coverage = passed >> 24;
+        passed = (coverage + (((255u - coverage) * part + WHOLE / 2) >> 12)) << 24
+               | mixed_pixel(passed & 0xffffffu, whole, part, a->linear);
+    }
+    if (front != 0) {
+        passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
+        a->still[at] = sum_pixel(&seen.sum, a->still[at], a->linear);
+    }
+    if (!a->marks || (seen.sum.weight | seen.behind.weight) == 0)
+        return;
+    const uint32_t depth = of >= 0 ? g->depth[of] : 0;
+    a->passed_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
+    a->passed[at] = passed;
+}
+
+/* Columns that what is drawn in the rows around y may reach. */
+static void reached(const struct smear_gather_area *a, int32_t y, int32_t *left, int32_t *right)
+{
+    const struct smear_layer_rows *l = a->layer;
+    int32_t first = l->width, end = 0;
+    for (int32_t row = max_i32(y - a->top, 0); row < min_i32(y + a->top + 1, a->rows); row++) {
+        if (l->row_first[row] >= l->row_end[row])
+            continue;
+        first = min_i32(first, l->row_first[row]);
+        end = max_i32(end, l->row_end[row]);
+    }
+    *left = max_i32(a->left, first - l->margin - a->top);
+    *right = min_i32(a->right, end - l->margin + a->top);
+}
+
+uint32_t smear_gather_merge(const struct smear_gather_area *a)
+{
+    const struct smear_layer_rows *l = a->layer;
+    const struct smear_layer_cell *around = l->cell + (l->width >> a->tile_shift) + 1;
+    struct gathering g = { .a = a, .color = l->color, .depth = l->depth, .width = l->width };
+    g.taps.count = a->samples;
+    g.taps.over = 16384 / a->samples;
+    uint32_t taken = 0;
+    for (int32_t y = 0; y < a->height; y++) {
+        uint32_t *still = a->still + y * a->still_stride;
+        const uint16_t *depth = a->still_depth + y * a->still_stride;
+        int32_t left, right;
+        reached(a, y + a->top, &left, &right);
+        for (int32_t x = left; x < right; x++) {
+            const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
+            const struct vector top = { cell->x, cell->y };
+            uint32_t still_depth = a->over ? 0 : depth[x];
+            if (top.x != g.top.x || top.y != g.top.y)
+                probes_start(&g, top);
+            int32_t here = (y + a->top) * l->width + x + l->margin;
+            if (x + l->margin >= a->mixed0 && x + l->margin < a->mixed1)
+                merge_mixed(&g, here, still_depth, y * a->still_stride + x, &taken);
+            else if (a->linear)
+                merge_pixel(&g, here, still_depth, &still[x], &taken, true);
+            else
+                merge_pixel(&g, here, still_depth, &still[x], &taken, false);
+        }
+    }
+    return taken;
+}
+
+/* ------------------------------------------------------------------ one velocity, few taps */
+
+uint32_t smear_plain_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy)
+{
+    const struct smear_layer_rows *l = a->layer;
+    const int32_t n = a->samples;
+    const uint32_t weight = (uint32_t)((WHOLE + n - 1) / n);
+    for (int32_t y = 0; y < a->height; y++) {
+        int32_t left, right;
+        reached(a, y + a->top, &left, &right);
+        for (int32_t x = left; x < right; x++) {
+            uint32_t *still = a->still + y * a->still_stride + x;
+            uint32_t still_depth = a->over ? 0 : a->still_depth[y * a->still_stride + x];
+            struct sum sum = { 0, 0, 0, 0 };
+            for (int32_t k = 0; k < n; k++) {
+                int32_t part = (2 * k + 1 - n) * 128 / n;           /* q8, -1/2 .. 1/2 */
+                int32_t at = (y + a->top + ((vy * part + 0x8000) >> 16)) * l->width + x + l->margin
+                           + ((vx * part + 0x8000) >> 16);
+                if (l->depth[at] > still_depth)
+                    sum_add(&sum, l->color[at], weight, a->linear);
+            }
+            if (sum.weight != 0)
+                *still = sum_pixel(&sum, *still, a->linear);
+        }
+    }
+    return (uint32_t)(a->height * (a->right - a->left) * n);
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* camera_velocity.c - see camera_velocity.h. One pass over the depth codes of a row, whatever is drawn there. */
+#include "ports/camera_velocity.h"
+
+#include "raster/velocity.h"
+
+static inline bool is_unknown(const struct smear_window *w, int32_t at)
+{
+    return w->velocity8 != NULL ? w->velocity8[2 * at] == SMEAR_VELOCITY_UNKNOWN8
+                                : w->velocity16[2 * at] == SMEAR_VELOCITY_UNKNOWN16;
+}
+
+/* A velocity as it is kept: 1/8 px, and 1/256 px per frame for who looks at it. */
+struct kept {
+    int32_t x, y, wide_x, wide_y;
+};
+
+static struct kept velocity_of(const struct smear_reprojection *r, const struct smear_camera_store *store,
+                               int32_t x2, int32_t y2, uint32_t code)
+{
+    int32_t displacement[2], stored[2];
+    smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
+    smear_velocity_store(displacement, store->velocity_scale, true, store->reach_q3, stored);
+    struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
+    if (SMEAR_WITH_INSPECT && store->inspect != NULL) {
+        k.wide_x = narrow_sat((int64_t)displacement[0] * store->inspect_scale >> 16);
+        k.wide_y = narrow_sat((int64_t)displacement[1] * store->inspect_scale >> 16);
+    }
+    return k;
+}
+
+static inline void keep(const struct smear_window *w, const struct smear_camera_store *store, int32_t at,
+                        struct kept k)
+{
+    if (w->velocity8 != NULL) {
+        w->velocity8[2 * at] = (int8_t)k.x;
+        w->velocity8[2 * at + 1] = (int8_t)k.y;
+    } else {
+        w->velocity16[2 * at] = (int16_t)k.x;
+        w->velocity16[2 * at + 1] = (int16_t)k.y;
+    }
+    if (SMEAR_WITH_INSPECT && store->inspect != NULL) {
+        store->inspect[2 * at] = k.wide_x;
+        store->inspect[2 * at + 1] = k.wide_y;
+    }
+}
+
+/* Every pixel for itself. Neighbours of one depth on one row differ by little, but they differ. */
+static void fill_row(const struct smear_window *w, const struct smear_reprojection *r,
+                     const struct smear_camera_store *store, int32_t x0, int32_t x1, int32_t y)
+{
+    int32_t at = window_ring_row(w, y) * w->width + x0;
+    for (int32_t x = x0; x < x1; x++, at++) {
+        if (!is_unknown(w, at))
+            continue;
+        struct kept k = velocity_of(r, store, 2 * x + 1, 2 * y + 1, w->depth[at]);
+        keep(w, store, at, k);
+        if ((k.x | k.y) != 0)
+            w->moving[x >> w->tile_shift] = 1;
+    }
+}
+
+/* Pixels of a block, which has `at` for the first of its rows. */
+static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
+                       const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
+                       int32_t columns, int32_t rows)
+{
+    int32_t nearest = -1;
+    for (int32_t j = 0; j < rows; j++)
+        for (int32_t i = x; i < x + columns; i++)
+            if (is_unknown(w, at[j] + i))
+                nearest = max_i32(nearest, w->depth[at[j] + i]);
+    if (nearest < 0)
+        return;
+    struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)nearest);
+    int32_t units = (int32_t)smear_depth_units((uint16_t)nearest), least = units - (units >> 4);
+    bool moves = false;
+    for (int32_t j = 0; j < rows; j++)
+        for (int32_t i = x; i < x + columns; i++) {
+            struct kept own = k;
+            if (!is_unknown(w, at[j] + i))
+                continue;
+            uint16_t code = w->depth[at[j] + i];
+            if ((int32_t)smear_depth_units(code) < least)
+                own = velocity_of(r, store, 2 * i + 1, 2 * (y + j) + 1, code);
+            keep(w, store, at[j] + i, own);
+            moves = moves || (own.x | own.y) != 0;
+        }
+    if (moves)
+        w->moving[x >> w->tile_shift] = 1;
+}
+
+void smear_camera_velocity(const struct smear_window *w, const struct smear_reprojection *r,
+                           const struct smear_camera_store *store, int32_t step, int32_t x0, int32_t x1,
+                           int32_t y0, int32_t y1)
+{
+    for (int32_t y = y0; y < y1; y += step) {
+        int32_t at[4], rows = min_i32(step, y1 - y);
+        if (step == 1) {
+            fill_row(w, r, store, x0, x1, y);
+            continue;
+        }
+        for (int32_t j = 0; j < rows; j++)
+            at[j] = window_ring_row(w, y + j) * w->width;
+        for (int32_t x = x0; x < x1; x += step)
+            fill_block(w, r, store, at, x, y, min_i32(step, x1 - x), rows);
+    }
+}

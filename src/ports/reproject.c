@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT */
+/* reproject.c - see reproject.h.
+ *
+ * Camera space is taken with x right, y down and z into the screen, so that a perspective place is f x / z. A
+ * point P that the camera of now sees is at A P + a for that of a pose: a rotation (times the zoom) and a
+ * way. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
+ * shows at s w, s = (x / f, y / f, 1), is P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B'
+ * b) / w): linear in x, y and 1 / w, which is what depth codes tell. */
+#include "ports/reproject.h"
+
+#include "base/fixmath.h"
+
+/* ------------------------------------------------------------------ numbers of any size, once per frame */
+
+/* m 2^e, |m| < 2^31. */
+struct number {
+    int32_t m;
+    int e;
+};
+
+static uint64_t size_of(int64_t a)
+{
+    return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
+}
+
+static SMEAR_NOINLINE struct number number_of(int64_t value, int e)
+{
+    if (value == 0)
+        return (struct number){ 0, 0 };
+    int shift = 33 - count_leading_zeros_64(size_of(value));
+    if (shift < 0)
+        return (struct number){ (int32_t)(value * ((int64_t)1 << -shift)), e + shift };
+    return (struct number){ (int32_t)(value >> shift), e + shift };
+}
+
+static SMEAR_NOINLINE struct number times(struct number a, struct number b)
+{
+    return number_of((int64_t)a.m * b.m, a.e + b.e);
+}
+
+/* a / b for b > 0. */
+static SMEAR_NOINLINE struct number over(struct number a, struct number b)
+{
+    int zeros = count_leading_zeros((uint32_t)b.m);
+    struct number r = { (int32_t)recip_norm_precise((uint32_t)b.m << zeros), zeros - 61 - b.e };
+    return times(a, r);
+}
+
+/* a 2^q, to nearest, at most 2^bits in magnitude. */
+static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
+{
+    const int64_t limit = ((int64_t)1 << bits) - 1;
+    int shift = a.e + q;
+    int64_t value = a.m;
+    if (shift < 0)
+        value = shift < -40 ? 0 : (value + ((int64_t)1 << (-shift - 1))) >> -shift;
+    else if (value != 0 && (shift > 31 || size_of(value) > (uint64_t)limit >> shift))
+        value = value < 0 ? -limit : limit;
+    else
+        value *= (int64_t)1 << min_i32(shift, 31);
+    return (int32_t)(value > limit ? limit : value < -limit ? -limit : value);
+}
+
+/* The same with as many bits less as make it fit: the values share *shift, which only grows. */
+static SMEAR_NOINLINE void keep_room(int *shift, struct number a, int q)
+{
+    int bits = a.m == 0 ? 0 : 32 - count_leading_zeros((uint32_t)(a.m < 0 ? -a.m : a.m)) + a.e + q;
+    *shift = max_i32(*shift, bits - 30);
+}
+
+/* ------------------------------------------------------------------ maps, once per frame */
+
+/* p to A p + a. */
+struct map {
+    int64_t turn[3][3];         /* q27 */
+    int64_t way[3];             /* q40 world units */
+};
+
+static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
+                                       { 0, 0, 0 } };
+
+static bool is_same_pose(const smear_transform *a, const smear_transform *b)
+{
+    for (int i = 0; i < 9; i++)
+        if (a->basis[i] != b->basis[i])
+            return false;
+    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] && a->origin[2] == b->origin[2];
+}
+
+static int64_t clamp_i64(int64_t a, int64_t limit)
+{
+    return a > limit ? limit : a < -limit ? -limit : a;
+}
+
+/* What the camera of now sees at p, `camera` sees at this map of p. */
+static void map_make(struct map *m, const smear_camera *now, const smear_camera *camera)
+{
+    const int32_t *to = camera->pose.basis, *from = now->pose.basis;
+    *m = same_place;
+    if (!is_same_pose(&camera->pose, &now->pose)) {
+        for (int i = 0; i < 3; i++) {
+            int64_t way = 0;
+            for (int j = 0; j < 3; j++) {
+                int64_t sum = 0;
+                for (int k = 0; k < 3; k++)
+                    sum += (int64_t)to[3 * k + i] * from[3 * k + j];
+                way += (int64_t)to[3 * j + i] * ((int64_t)now->pose.origin[j] - camera->pose.origin[j]);
+                m->turn[i][j] = ((i == 0) != (j == 0) ? -sum : sum) >> 21;
+            }
+            m->way[i] = i == 0 ? way : -way;
+        }
+    }
+    bool flat = now->half_height > 0;
+    int32_t a = flat ? now->half_height : camera->focal, b = flat ? camera->half_height : now->focal;
+    if (a == b)
+        return;
+    struct number zoom = over(number_of(a, 0), number_of(b, 0));
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 3; j++)
+            m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
+        struct number way = times(number_of(m->way[i], 0), zoom);
+        m->way[i] = way.e > 30 ? 0
+                  : way.e < 0  ? (way.e < -31 ? 0 : way.m >> -way.e)
+                               : (int64_t)way.m * ((int64_t)1 << way.e);
+    }
+}
+
+static void map_add(struct map *sum, const struct map *m, int32_t weight)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            sum->turn[i][j] += m->turn[i][j] * weight >> 24;
+        sum->way[i] += (m->way[i] >> 24) * weight;            /* 34 and 27 bits */
+    }
+}
+
+/* The inverse of a turn, q27; false where there is none to speak of. */
+static bool invert(int64_t out[3][3], const int64_t in[3][3])
+{
+    int64_t m[3][3], minor[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            m[i][j] = clamp_i64(in[i][j], (int64_t)8 << 27) >> 2;                      /* q25 */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+            minor[i][j] = (m[a][c] * m[b][d] - m[a][d] * m[b][c]) >> 23;               /* q27 */
+        }
+    int64_t determinant = 0;
+    for (int j = 0; j < 3; j++)
+        determinant += m[0][j] * (clamp_i64(minor[0][j], (int64_t)1 << 33)) >> 25;     /* q27 */
+    if (determinant < 1 << 20)
+        return false;
+    struct number d = number_of(determinant, -27);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out[i][j] = fixed_of(over(number_of(minor[j][i], -27), d), 27, 31);
+    return true;
+}
+
+/* m after the inverse of the drawn instant's turn, less the way to there. */
+static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int64_t way[3])
+{
+    struct map old = *m;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            int64_t sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += clamp_i64(old.turn[i][k], (int64_t)1 << 30) * inverse[k][j] >> 27;
+            m->turn[i][j] = sum;
+        }
+        for (int j = 0; j < 3; j++)
+            m->way[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 10)
+                       * (clamp_i64(way[j], (int64_t)1 << 55) >> 14) >> 3;
+    }
+}
+
+/* ------------------------------------------------------------------ what pixels need */
+
+static void pose_perspective(struct smear_reprojection_pose *p, const struct map *m, const smear_camera *now,
+                             int32_t height)
+{
+    struct number focal = number_of((int64_t)now->focal * height, -17);
+    struct number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
+    int u_shift = 0, w_shift = 0;
+    for (int i = 0; i < 3; i++) {
+        u[i] = over(number_of(m->way[i], -40), near_units);
+        if (i < 2)
+            u[i] = times(u[i], focal);
+        keep_room(i < 2 ? &u_shift : &w_shift, u[i], i < 2 ? 37 : 48);
+    }
+    for (int i = 0; i < 2; i++) {
+        p->one[i] = fixed_of(times(number_of(m->turn[i][2], -27), focal), 16, 30);
+        p->u[i] = fixed_of(u[i], 37 - u_shift, 31);
+    }
+    p->w_x = fixed_of(over(number_of(m->turn[2][0], -27), focal), 30, 31);
+    p->w_y = fixed_of(over(number_of(m->turn[2][1], -27), focal), 30, 31);
+    p->w_1 = (int32_t)clamp_i64(m->turn[2][2], 1 << 29);
+    p->w_u = fixed_of(u[2], 48 - w_shift, 31);
+    p->u_shift = (uint8_t)min_i32(u_shift, 31);
+    p->w_shift = (uint8_t)min_i32(w_shift, 31);
+}
+
+static void pose_orthographic(struct smear_reprojection_pose *p, const struct map *m, const smear_camera *now,
+                              int32_t height)
+{
+    /* Distance is far less range times units over NEAR. */
+    struct number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
+    struct number far_plane = number_of(now->far_plane, -16);
+    struct number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
+                              number_of(SMEAR_DEPTH_NEAR, 0));
+    struct number u[2];
+    int u_shift = 0;
+    for (int i = 0; i < 2; i++) {
+        struct number across = times(number_of(-m->turn[i][2], -27), unit_px);
+        int64_t one = fixed_of(times(number_of(m->way[i], -40), unit_px), 16, 30);
+        p->one[i] = (int32_t)(one - fixed_of(times(across, far_plane), 16, 30));
+        u[i] = times(across, step);
+        keep_room(&u_shift, u[i], 37);
+    }
+    for (int i = 0; i < 2; i++)
+        p->u[i] = fixed_of(u[i], 37 - u_shift, 31);
+    p->w_1 = 1 << 27;
+    p->u_shift = (uint8_t)min_i32(u_shift, 31);
+}
+
+void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now, const smear_camera *open,
+                          const smear_camera *close, const int32_t weight[3], bool to_close, int32_t width,
+                          int32_t height)
+{
+    const smear_camera *camera[3] = { now, open, close };
+    bool drawn_is_now = weight[0] == 1 << 24;
+    struct map map[3], drawn = { { { 0 } }, { 0 } };
+    int64_t inverse[3][3];
+    for (int i = 0; i < 3; i++) {
+        map_make(&map[i], now, camera[i]);
+        map_add(&drawn, &map[i], weight[i]);
+    }
+    if (!drawn_is_now && invert(inverse, (const int64_t(*)[3])drawn.turn))
+        for (int i = 0; i < 3; i++)
+            map_from_drawn(&map[i], (const int64_t(*)[3])inverse, drawn.way);
+    *r = (struct smear_reprojection){ .width = width, .height = height };
+    r->poses = to_close || !drawn_is_now ? 2 : 1;
+    for (int i = 0; i < r->poses; i++) {
+        const struct map *m = &map[i == 0 ? 1 : to_close ? 2 : 0];
+        struct smear_reprojection_pose *p = &r->pose[i];
+        p->x[0] = (int32_t)clamp_i64(m->turn[0][0], 1 << 30);
+        p->x[1] = (int32_t)clamp_i64(m->turn[0][1], 1 << 30);
+        p->y[0] = (int32_t)clamp_i64(m->turn[1][0], 1 << 30);
+        p->y[1] = (int32_t)clamp_i64(m->turn[1][1], 1 << 30);
+        if (now->half_height > 0)
+            pose_orthographic(p, m, now, height);
+        else
+            pose_perspective(p, m, now, height);
+    }
+}
+
+/* ------------------------------------------------------------------ a pixel */
+
+static inline int32_t within(int32_t a, int32_t limit)
+{
+    return clamp_i32(a, -limit, limit);
+}
+
+/* Places are q21 px: x, y as mulh factors. */
+static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x, int32_t y, int32_t u,
+                              int32_t out[2])
+{
+    const int32_t quarter = 1 << 29, wide = 1 << 21;
+    int32_t turn = within(mulh_i32(x, p->w_x), wide) * 256 + within(mulh_i32(y, p->w_y), wide) * 256;
+    int32_t toward = within(scale_sat(mulh_i32(u, p->w_u), p->w_shift), quarter);
+    /* A point that was at or behind the eye has no place: the least w
+     * sends it far out, to the side it comes from. */
+    int32_t w = max_i32(narrow_sat((int64_t)p->w_1 + turn + toward), 1 << 12);
+    w = min_i32(w, (1 << 30) - 1);
+    int zeros = count_leading_zeros((uint32_t)w);
+    int32_t r = (int32_t)recip_norm((uint32_t)w << zeros);
+    for (int i = 0; i < 2; i++) {
+        int32_t along_x = mulh_i32(x, i == 0 ? p->x[0] - w : p->y[0]);
+        int32_t along_y = mulh_i32(y, i == 0 ? p->x[1] : p->y[1] - w);
+        int32_t aside = scale_sat(mulh_i32(u, p->u[i]), p->u_shift);
+        int32_t n = narrow_sat((int64_t)along_x + along_y + p->one[i] + aside);
+        /* q16 over q27, times 2^(29 - zeros): n / w in q8 is that times 2^(zeros - 10). */
+        out[i] = within(scale_sat(mulh_i32(n, r), zeros - 10), quarter);
+    }
+}
+
+void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units,
+                     int32_t out[2])
+{
+    int32_t px = (x2 - r->width) * (1 << 20), py = (y2 - r->height) * (1 << 20);
+    int32_t u = (int32_t)(units << 11);
+    out[0] = out[1] = 0;
+    for (int i = 0; i < r->poses; i++) {
+        int32_t displacement[2];
+        pose_displacement(&r->pose[i], px, py, u, displacement);
+        out[0] = displacement[0] - out[0];
+        out[1] = displacement[1] - out[1];
+    }
+    if (r->poses == 1) {
+        out[0] = -out[0];
+        out[1] = -out[1];
+    }
+}
+
+/* ------------------------------------------------------------------ attached objects */
+
+bool smear_is_attached(const smear_transform *object, const smear_camera *camera,
+                       const smear_transform *other_object, const smear_camera *other_camera)
+{
+    /* Both in camera space, to within the rounding of their entries. */
+    const smear_transform *o[2] = { object, other_object };
+    const smear_camera *c[2] = { camera, other_camera };
+    if (camera->focal != other_camera->focal || camera->half_height != other_camera->half_height)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        int64_t way[2] = { 0, 0 };
+        for (int j = 0; j < 3; j++) {
+            int64_t turn[2] = { 0, 0 };
+            for (int side = 0; side < 2; side++) {
+                const int32_t *b = c[side]->pose.basis;
+                for (int k = 0; k < 3; k++)
+                    turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
+                way[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
+            }
+            if (size_of(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
+                return false;
+        }
+        if (size_of(way[0] - way[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
+            return false;
+    }
+    return true;
+}

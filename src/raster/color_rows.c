@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/* color_rows.c - colours between vertices: interpolated, opaque, without a texture. The same pixels as those of
+ * span.c, whose blocks begin and end here, too; where two meet, colours are found once. */
+#include "raster/texture_rows.h"
+
+#include "raster/texcoord.h"
+
+#if SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD
+
+/* Red, green and blue, q16 (codes, or linear light >> 8), and their steps. */
+struct shade {
+    uint32_t c[3], d[3];
+};
+
+SMEAR_INLINE uint32_t shade_pixel(uint32_t r, uint32_t g, uint32_t b, bool linear, bool narrow)
+{
+    const uint32_t p = linear ? pixel_make(0, smear_srgb_encode[r >> 12 & 4095u], smear_srgb_encode[g >> 12 & 4095u],
+                                           smear_srgb_encode[b >> 12 & 4095u])
+                              : (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
+    return narrow ? rgb565_nearest(p) : p;
+}
+
+/* n > 0 pixels, depth codes from z on in 16.16. */
+SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const struct shade *k,
+                            bool linear, bool narrow)
+{
+    uint32_t r = k->c[0], g = k->c[1], b = k->c[2];
+    const uint32_t dr = k->d[0], dg = k->d[1], db = k->d[2];
+    uint32_t *wide = (uint32_t *)pixels;
+    uint16_t *thin = (uint16_t *)pixels;
+    const uint16_t *const end = depth + n;
+    do {
+        const uint32_t code = z >> 16;
+        if (code > *depth) {
+            __asm__ volatile ("");      /* nothing of this in advance */
+            *depth = (uint16_t)code;
+            if (narrow)
+                *thin = (uint16_t)shade_pixel(r, g, b, linear, true);
+            else
+                *wide = shade_pixel(r, g, b, linear, false);
+        }
+        z += dz;
+        r += dr;
+        g += dg;
+        b += db;
+        wide++;
+        thin++;
+    } while (++depth != end);
+}
+
+static SMEAR_NOINLINE void shade_codes(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
+                                       const struct shade *k)
+{
+    shade_run(pixels, depth, n, z, dz, k, false, false);
+}
+
+static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint16_t *depth, int32_t n, uint32_t z,
+                                       uint32_t dz, const struct shade *k)
+{
+    if (!target_is_direct(s->target))
+        shade_run(pixels, depth, n, z, dz, k, true, false);
+    else if (frame_is_linear(s->frame))
+        shade_run(pixels, depth, n, z, dz, k, true, true);
+    else
+        shade_run(pixels, depth, n, z, dz, k, false, true);
+}
+
+/* Pixels [a, b) of a row whose column 0 is at index `at`. */
+static void draw(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t a, int32_t b,
+                 const struct shade *k)
+{
+    const struct smear_raster_target *t = s->target;
+    const uint32_t z = p->z + p->dz * (uint32_t)a;
+    if (!target_is_direct(t) && !frame_is_linear(s->frame))
+        shade_codes(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k);
+    else
+        shade_other(s, target_is_direct(t) ? (void *)(t->direct + (at + a)) : t->color + (at + a), t->depth + (at + a),
+                    b - a, z, p->dz, k);
+}
+
+/* Colours whose planes are value / w, at pixel (x, y). */
+static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t y)
+{
+    const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
+    const int zeros = count_leading_zeros(q);
+    const int32_t recip = (int32_t)recip_norm(q << zeros);
+    for (int i = 0; i < 3; i++)
+        out[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
+}
+
+/* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
+static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t y,
+                                       int32_t left, int32_t right)
+{
+    const int32_t last = right - 1;
+    int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3];
+    colors_at(from, s, x, y);
+    for (;;) {
+        const int32_t n = min_i32(s->color_block, last - x), end = x + n + (x + n == last);
+        const int32_t a = max_i32(x, p->a);
+        struct shade k;
+        if (n > 0)
+            colors_at(to, s, x + n, y);
+        for (int i = 0; i < 3; i++) {
+            const int32_t step = n > 0 ? part_of(to[i] - from[i], n) : 0;
+            k.c[i] = (uint32_t)(from[i] + step * (a - x));
+            k.d[i] = (uint32_t)step;
+            from[i] = to[i];
+        }
+        draw(s, p, at, a, min_i32(end, p->b), &k);
+        if (end >= p->b)
+            return;
+        x += n;
+    }
+}
+
+static void draw_piece(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t y,
+                       const struct span_side *side)
+{
+    struct shade k;
+    if (s->perspective_color) {
+        draw_blocks(s, p, at, y, side->left, side->right);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        k.c[i] = (uint32_t)plane_at(&s->channel[i], p->a, y);
+        k.d[i] = (uint32_t)s->channel[i].dx;
+    }
+    draw(s, p, at, p->a, p->b, &k);
+}
+
+void smear_rows_shade(const struct setup *s, const struct span_rows *r)
+{
+    const bool plain = rows_are_plain(s, r);
+    int32_t at = r->at;
+    for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
+        const struct span_side *side = &r->side[row];
+        const int32_t y = r->y + row;
+        struct rows_piece p = { side->left, side->right, 0, 0 };
+        if (p.a >= p.b)
+            continue;
+        if (plain) {
+            p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
+            p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+            draw_piece(s, &p, at, y, side);
+            continue;
+        }
+        while (smear_rows_piece(&p, s, r, row, p.a)) {
+            draw_piece(s, &p, at, y, side);
+            p.a = p.b;
+        }
+    }
+}
+#endif

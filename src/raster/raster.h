@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* raster.h - a list of triangles into rows of colour, depth and velocity. */
+#ifndef SMEAR_RASTER_H
+#define SMEAR_RASTER_H
+
+#include "raster/target.h"
+
+/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other; they are empty.
+ * Returns the first; and which is that of target i. */
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count);
+struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i);
+
+/* Draws the list that starts with triangle `head`, in order. */
+void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                       uint32_t head);
+
+/* Draws one triangle whose vertices are given, and their box: records laid out as in the segment, clockwise
+ * on the screen, of positive area and within the guard band. No velocities. */
+void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
+                           const struct bounds *bounds);
+
+#endif

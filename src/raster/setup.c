@@ -1,0 +1,456 @@
+/* SPDX-License-Identifier: MIT */
+/* setup.c - gradients and planes of a triangle.
+ *
+ * Perspective: u/w, v/w and 1/w are planes. Their quotients are polynomials of second degree where that is
+ * near enough; else span.c takes them at the ends of blocks of pixels, and interpolates between. Which, and
+ * how long blocks are, is decided here, by bounds of their errors. */
+#include "raster/setup.h"
+
+/* ------------------------------------------------------------------ gradients */
+
+/* Products of 64 bits: where the core has none, from two of 32. */
+static inline int64_t product(int32_t a, int32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (int64_t)a * b;
+#else
+    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
+#endif
+}
+
+/* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
+static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
+        int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
+        int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
+        return ((int64_t)low1 - low2) + (int64_t)((uint64_t)(int64_t)high << 16);
+    }
+#endif
+    return product(a, b) - product(c, d);
+}
+
+static inline uint64_t product_u32(uint32_t a, uint32_t b)
+{
+#if SMEAR_HAS_MUL64
+    return (uint64_t)a * b;
+#else
+    return (uint64_t)mulh_u32(a, b) << 32 | a * b;
+#endif
+}
+
+/* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of
+ * an attribute that changes by a1 and a2 along the two edges; to nearest, clamped.
+ * recip: 1 / area, or that times a mantissa. */
+static int32_t gradient(int64_t n, uint32_t recip, int shift)
+{
+    if (n == 0)
+        return 0;
+    uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
+    int zeros;                                              /* n = top 2^(33 - zeros) */
+#if UINTPTR_MAX > 0xffffffffu || SMEAR_ONE_COPY
+    zeros = count_leading_zeros_64(size);
+    uint32_t high = (uint32_t)(size << zeros >> 32);
+#else
+    uint32_t high = (uint32_t)(size >> 32), low = (uint32_t)size;
+    if (high != 0) {
+        zeros = count_leading_zeros(high);
+        high = high << zeros | low >> 1 >> (31 - zeros);
+    } else {
+        zeros = count_leading_zeros(low);
+        high = low << zeros;
+        zeros += 32;
+    }
+#endif
+    int32_t top = (int32_t)(high >> 1);
+    int32_t g = mulh_i32(top, (int32_t)recip);
+    g = scale_sat(g, clamp_i32(shift - zeros - 20, -31, 31));
+    return n < 0 ? -g : g;
+}
+
+/* Slopes from the differences along the two edges, times 2^shift; none beyond `steep`: a plane so steep has
+ * no exact pixels, its triangle is a sliver. */
+static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int32_t d2, uint32_t recip,
+                         int shift, int32_t steep)
+{
+    p->dx = p->dy = 0;
+    if ((d1 | d2) == 0)
+        return;
+    int32_t dx = gradient(cross(d1, s->y2, d2, s->y1), recip, s->area_zeros + shift);
+    int32_t dy = gradient(cross(d2, s->x1, d1, s->x2), recip, s->area_zeros + shift);
+    if (dx <= steep && dx >= -steep && dy <= steep && dy >= -steep) {
+        p->dx = dx;
+        p->dy = dy;
+    }
+}
+
+/* (frac q8) x slope / 256, exact floor without a wide product. */
+static inline int32_t part_of(int32_t slope, int32_t frac)
+{
+    return mul_wrap(slope >> 8, frac) + ((slope & 255) * frac >> 8);
+}
+
+/* Value a0 at v[0]: to the pixel whose centre is nearest to it, then back to the origin, wrapping. */
+static void plane_place(const struct setup *s, struct plane *p, int32_t a0)
+{
+    int32_t x = s->v[0][VERTEX_X] >> 8, y = s->v[0][VERTEX_Y] >> 8;
+    int32_t fx = 128 - (s->v[0][VERTEX_X] & 255), fy = 128 - (s->v[0][VERTEX_Y] & 255);
+    int32_t here = add_wrap(a0, add_wrap(part_of(p->dx, fx), part_of(p->dy, fy)));
+    p->at = sub_wrap(here, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
+}
+
+/* A plane through three values; values and their differences fit 32 bits. */
+void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2)
+{
+    plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), s->area_recip, 0, 1 << 28);
+    plane_place(s, p, a0);
+}
+
+void smear_setup_area(struct setup *s, uint64_t area)
+{
+    s->area_zeros = count_leading_zeros_64(area);
+    s->area_recip = recip_norm_precise((uint32_t)(area << s->area_zeros >> 32));
+}
+
+/* ------------------------------------------------------------------ depth */
+
+void smear_setup_depth(struct setup *s)
+{
+    int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
+    smear_plane_make(s, &s->depth, q0, q1, q2);
+    int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
+    s->slope = high < SLOPE_BREAK ? SLOPE_FAR : low >= SLOPE_BREAK ? SLOPE_NEAR : SLOPE_BOTH;
+}
+
+/* ------------------------------------------------------------------ colour */
+
+/* floor(a q / 2^15), a 16-bit. */
+static int32_t times_q15(int32_t a, int32_t q)
+{
+    return a * (q >> 15) + (a * (q & 0x7fff) >> 15);
+}
+
+/* floor(a q / 2^16), a of 16 bits without sign. */
+static inline int32_t times_q16(int32_t a, int32_t q)
+{
+    return a * (q >> 16) + (int32_t)((uint32_t)a * ((uint32_t)q & 0xffffu) >> 16);
+}
+
+void smear_setup_color(struct setup *s)
+{
+    s->even_color = s->perspective_color = false;
+    s->color_block = 16;
+    if (!segment_gouraud(s->segment))
+        return;
+    int channels = draw_is_opaque(s->draw) ? 3 : 4;
+    int32_t q[3], low_q = INT32_MAX, high_q = 0, value[4][3];
+    uint32_t range = 0;
+    for (int i = 0; i < 3; i++) {
+        q[i] = s->v[i][VERTEX_DEPTH];
+        low_q = min_i32(low_q, q[i]);
+        high_q = max_i32(high_q, q[i]);
+    }
+    for (int c = 0; c < channels; c++) {
+        for (int i = 0; i < 3; i++)
+            value[c][i] = channel_value(s, i, c);
+        for (int i = 0; i < 3; i++)
+            range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
+    }
+    s->even_color = range == 0;
+    /* Interpolated on the screen, a value is off by at most
+     * range x change of 1/w / 4: half a code is TEXTURE_OFF. */
+    if (!segment_flat_depth(s->segment) && range != 0)
+        s->perspective_color = smear_times_over((uint32_t)(high_q - low_q), range >> 8, (uint32_t)low_q)
+                             > 4u * 128u;
+    if (s->perspective_color) {     /* and one within a block, where 1/w changes by no more than this */
+        uint32_t over_16 = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
+        uint32_t off = smear_times_over(min_u32(over_16, (uint32_t)(high_q - low_q)), range >> 8,
+                                        (uint32_t)low_q);
+        s->color_block = off <= 4u * 256u ? 16 : off <= 16u * 256u ? 8 : 4;
+    }
+    for (int c = 0; c < channels; c++) {
+        for (int i = 0; i < 3 && s->perspective_color; i++)
+            value[c][i] = times_q16(value[c][i] >> 8, q[i]);
+        smear_plane_make(s, &s->channel[c], value[c][0], value[c][1], value[c][2]);
+    }
+}
+
+/* ------------------------------------------------------------------ texture */
+
+enum {
+    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
+                                 * the ends of a block, or affine */
+    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
+                                 * 0.46 texel in the farthest corner */
+};
+
+uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
+{
+    int zeros = count_leading_zeros(c);
+    uint32_t over = mulh_u32(a, recip_norm(c << zeros));        /* a / c 2^(29 - zeros) */
+    uint64_t r = product_u32(over, b);
+    int shift = 29 - zeros;
+    r = shift >= 0 ? r >> shift : r << -shift;
+    return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
+}
+
+/* What the frame shows of the triangle's box: pixels across, and
+ * depth units, which the covered pixels keep to. */
+struct seen {
+    int32_t width;
+    int32_t low_q, high_q;
+};
+
+static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, int32_t high_q)
+{
+    int32_t x0 = s->bounds.x0, x1 = s->bounds.x1, y0 = s->bounds.y0, y1 = s->bounds.y1;
+    bool cut = (x0 | y0) < 0 || x1 >= s->frame->width << 8 || y1 >= s->frame->height << 8;
+    x0 = max_i32(x0 >> 8, 0);
+    y0 = max_i32(y0 >> 8, 0);
+    x1 = min_i32(x1 >> 8, s->frame->width - 1);
+    y1 = min_i32(y1 >> 8, s->frame->height - 1);
+    seen->width = x1 - x0 + 1;
+    seen->low_q = low_q;
+    seen->high_q = high_q;
+    if (cut) {      /* else the vertices are seen, too. Corners may lie far off the triangle: wide sums */
+        const struct plane *q = &s->depth;
+        int32_t dx = q->dx, dy = q->dy, vx = s->v[0][VERTEX_X] >> 8, vy = s->v[0][VERTEX_Y] >> 8;
+        int64_t here = s->v[0][VERTEX_DEPTH];
+        int64_t low = here + product(dx, (dx > 0 ? x0 : x1) - vx) + product(dy, (dy > 0 ? y0 : y1) - vy);
+        int64_t high = here + product(dx, (dx > 0 ? x1 : x0) - vx) + product(dy, (dy > 0 ? y1 : y0) - vy);
+        int32_t margin = (int32_t)((magnitude_i32(dx) + magnitude_i32(dy)) >> 1);      /* v[0] is no centre */
+        seen->low_q = clamp_i32(narrow_sat(low - margin), low_q, high_q);
+        seen->high_q = clamp_i32(narrow_sat(high + margin), low_q, high_q);
+    }
+}
+
+/* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row
+ * there can be; `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of
+ * their length, those of parabolas with its cube. */
+static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
+{
+    uint32_t n = (uint32_t)min_i32(width, 16);
+    if (off < 1u << 20)
+        off = off * (n * n) >> 8;
+    t->bent = false;
+    t->block = 16;
+    if (off <= TEXTURE_OFF)
+        return;
+    uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 13 : UINT32_MAX;
+    t->bent = rest <= 64 * TEXTURE_OFF && change <= 4096;
+    t->block = !t->bent ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
+}
+
+/* A triangle's texture coordinates, mesh units, and depths. */
+struct corners {
+    int32_t uv[2][3], q[3];
+    int32_t low_q, high_q;
+    int32_t middle[2], width[2];    /* of coordinates */
+};
+
+/* Texels, q6, of so much of a ratio (texture.h). */
+static uint32_t texels_q6(const struct setup *s, int axis, int32_t ratio)
+{
+    return magnitude_i32(smear_sampler_texel(&s->draw->sampler, axis, ratio) >> 10);
+}
+
+/* Coordinates, which need no perspective. */
+static void setup_affine(struct setup *s, const struct corners *k)
+{
+    struct texture_setup *t = &s->texture;
+    t->mode = TEXTURE_AFFINE;
+    t->q = (struct plane){ 0, 0, 0 };
+    t->bent = false;
+    t->block = 16;
+    t->shift = (int8_t)(18 - s->draw->sampler.uv_shift);
+    for (int i = 0; i < 2; i++) {
+        int32_t a[3];
+        for (int j = 0; j < 3; j++) {
+            a[j] = k->uv[i][j] * 16384;
+            if (!t->turns)
+                a[j] = smear_sampler_texel(&s->draw->sampler, i, a[j]);
+        }
+        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0,
+                     INT32_MAX - 1);
+        plane_place(s, &t->uv[i], a[0]);
+    }
+}
+
+/* How the weights of v[1] and v[2] change per pixel, and how far
+ * sums of products with them are to be shifted. */
+struct weights {
+    int32_t dx[2], dy[2];
+    int shift;
+};
+
+static void weights_make(struct weights *w, const struct setup *s)
+{
+    const uint32_t longest = magnitude_i32(s->x1) | magnitude_i32(s->y1) | magnitude_i32(s->x2)
+                           | magnitude_i32(s->y2);
+    const int up = count_leading_zeros(longest) - 1;
+    const int32_t recip = (int32_t)s->area_recip;
+    w->dx[0] = mulh_i32(shl_wrap(s->y2, up), recip);
+    w->dx[1] = -mulh_i32(shl_wrap(s->y1, up), recip);
+    w->dy[0] = -mulh_i32(shl_wrap(s->x2, up), recip);
+    w->dy[1] = mulh_i32(shl_wrap(s->x1, up), recip);
+    w->shift = clamp_i32(s->area_zeros - up - 21, -31, 31);
+}
+
+/* Slope of what changes by d1 and d2 to v[1] and v[2]. */
+static inline int32_t weighed(const struct weights *w, const int32_t weight[2], int32_t d1, int32_t d2)
+{
+    return scale_sat(mulh_i32(weight[0], d1) + mulh_i32(weight[1], d2), w->shift);
+}
+
+/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the
+ * vertices, q14; where in its pixel v[0] is. */
+struct depth_change {
+    int32_t at, dx, dy;
+    int32_t vertex[3];
+    int32_t fx, fy;
+};
+
+/* One coordinate's polynomial. False where it is steep. */
+static bool curve_make(struct setup *s, const struct weights *w, const struct depth_change *e,
+                       const struct corners *k, int axis, int32_t step)
+{
+    const struct smear_sampler *m = &s->draw->sampler;
+    const int32_t *u = k->uv[axis], middle = k->middle[axis];
+    const int32_t a0 = (u[0] - middle) * e->vertex[0], d1 = (u[1] - middle) * e->vertex[1] - a0;
+    const int32_t d2 = (u[2] - middle) * e->vertex[2] - a0;
+    const int32_t dx = weighed(w, w->dx, d1, d2), dy = weighed(w, w->dy, d1, d2);
+    if ((magnitude_i32(dx) | magnitude_i32(dy)) >> (12 + m->uv_shift) != 0)
+        return false;           /* a quarter turn per pixel */
+    const int32_t here = a0 + part_of(dx, e->fx) + part_of(dy, e->fy);
+    int32_t value[6] = {
+        middle * 16384 + here - mulh_i32(here, e->at),
+        dx - mulh_i32(dx, e->at) - mulh_i32(here, e->dx), dy - mulh_i32(dy, e->at) - mulh_i32(here, e->dy),
+        -mulh_i32(dx, e->dx), -mulh_i32(dx, e->dy) - mulh_i32(dy, e->dx), -mulh_i32(dy, e->dy)
+    };
+    for (int i = 0; i < 6 && s->texture.turns; i++)
+        value[i] = (shl_wrap(value[i], 18 - m->uv_shift) + (step >> 1)) & -step;
+    value[0] += step >> 1;
+    s->texture.curve[axis] = (struct curve){ value[0], value[1], value[2], value[3], value[4], value[5] };
+    return true;
+}
+
+/* Around the middle of its range, q = m (1 + e) with |e| <= E. With planes e and W = (u - u_middle)
+ * (1 + e), u is u_middle + W / (1 + e), nearly u_middle + W (1 + 3/16 E^2 - e): off by at most 13/16 E^2 W,
+ * in corners; 3/16 makes it least on the average. Without perspective (`flat`) e is 0. False where the
+ * triangle is too large for 32 bits or the error is. */
+static bool setup_curved(struct setup *s, const struct corners *k, uint32_t travel, bool flat)
+{
+    struct texture_setup *t = &s->texture;
+    const struct smear_sampler *m = &s->draw->sampler;
+    const uint32_t across = (uint32_t)max_i32(s->bounds.x1 - s->bounds.x0, s->bounds.y1 - s->bounds.y0) >> 8;
+    const uint32_t size = (uint32_t)max_i32(m->width, m->height);
+    /* A last bit of the coefficients is 2^-(14 + uv_shift) turns. Edges of 2^13 px at most. */
+    if (across * across > (flat ? 1u << 26 : (256u << m->uv_shift) / size) || travel > 65535u
+        || k->width[0] > CURVE_TURNS << m->uv_shift)
+        return false;
+    const int32_t x = s->v[0][VERTEX_X], y = s->v[0][VERTEX_Y];
+    struct depth_change e = { 0, 0, 0, { 16384, 16384, 16384 }, 128 - (x & 255), 128 - (y & 255) };
+    if (!flat) {
+        const uint32_t middle = ((uint32_t)k->low_q + (uint32_t)k->high_q) >> 1;
+        const int up = count_leading_zeros(middle) - 1;
+        /* 1/m = recip 2^(up - 60) */
+        const int32_t recip = (int32_t)recip_norm_precise(middle << 1 << up);
+        const uint32_t half = ((uint32_t)k->high_q - (uint32_t)k->low_q + 1) >> 1;
+        const uint32_t steep = max_u32(magnitude_i32(s->depth.dx), magnitude_i32(s->depth.dy));
+        /* Depths are rounded by 1/2. */
+        if (max_u32(half, steep) > middle >> 2 || across * travel > middle)
+            return false;
+        const uint32_t most = (uint32_t)mulh_i32((int32_t)(half << up), recip) << 2;        /* E q30 */
+        const uint32_t square = mulh_u32(most, most);
+        if (mulh_u32(square << 2, travel) > CURVED_OFF)               /* E^2 travel / 4 */
+            return false;
+        for (int i = 0; i < 3; i++)
+            e.vertex[i] += (mulh_i32(shl_wrap(k->q[i] - (int32_t)middle, up), recip) + 0x2000) >> 14;
+        e.dx = mulh_i32(shl_wrap(s->depth.dx, up), recip) * 16;
+        e.dy = mulh_i32(shl_wrap(s->depth.dy, up), recip) * 16;
+        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + part_of(e.dx, e.fx)
+             + part_of(e.dy, e.fy);
+        e.at -= (int32_t)(square * 3u);
+    }
+    struct weights w;
+    weights_make(&w, s);
+    t->x0 = x >> 8;
+    t->y0 = y >> 8;
+    t->mode = TEXTURE_CURVED;
+    t->block = 16;
+    return curve_make(s, &w, &e, k, 0, 1) && curve_make(s, &w, &e, k, 1, CURVE_STEP);
+}
+
+/* Divides for every block. */
+static void setup_divided(struct setup *s, const struct corners *k)
+{
+    struct texture_setup *t = &s->texture;
+    struct seen seen;
+    seen_find(&seen, s, k->low_q, k->high_q);
+    t->mode = TEXTURE_DIVIDED;
+    /* All bits there are, but for differences: what is seen may lie far from the vertices. */
+    int up = max_i32(count_leading_zeros((uint32_t)k->high_q) - 3, 0);      /* 0 .. 16 */
+    int32_t q[3];
+    for (int i = 0; i < 3; i++)
+        q[i] = k->q[i] << up;
+    plane_slopes(s, &t->q, q[1] - q[0], q[2] - q[0], s->area_recip, 0, INT32_MAX - 1);
+    plane_place(s, &t->q, q[0]);
+    t->shift = (int8_t)(20 - s->draw->sampler.uv_shift);
+    t->slope = clamp_i32(t->q.dx, -(1 << 24) + 1, (1 << 24) - 1) * 128;
+
+    /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q,
+     * linear in u, so a vertex bounds its upper part. */
+    uint32_t seen_q = (uint32_t)seen.low_q << up;
+    uint32_t worst = 0;             /* texels per pixel, q6 */
+    for (int i = 0; i < 2; i++) {
+        const int32_t *u = k->uv[i];
+        struct plane *p = &t->uv[i];
+        smear_plane_make(s, p, times_q15(u[0], q[0]), times_q15(u[1], q[1]), times_q15(u[2], q[2]));
+        for (int j = 0; j < 3; j++) {
+            uint32_t r = smear_times_over(magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx))),
+                                          1u << 16, seen_q);       /* q16 of 2^15 mesh units */
+            worst = max_u32(worst, texels_q6(s, i, (int32_t)min_u32(r, 0xffffu) << 13));
+        }
+    }
+    uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
+    uint32_t change = min_u32(smear_times_over(slope_q << 4, 1u << 12, seen_q), 1u << 16);
+    uint64_t off = ((uint64_t)worst << 4) * change >> 14;
+    choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen.width, change);
+}
+
+void smear_setup_texture(struct setup *s)
+{
+    struct texture_setup *t = &s->texture;
+    struct corners k = { .low_q = INT32_MAX, .high_q = 0 };
+    for (int i = 0; i < 3; i++) {
+        k.uv[0][i] = setup_mesh_u(s, i);
+        k.uv[1][i] = setup_mesh_v(s, i);
+        k.q[i] = s->v[i][VERTEX_DEPTH];
+        k.low_q = min_i32(k.low_q, k.q[i]);
+        k.high_q = max_i32(k.high_q, k.q[i]);
+    }
+    t->turns = s->draw->sampler.turns;
+
+    /* Texels travelled over the triangle, and the relative change of 1/w: linear interpolation of a quotient
+     * over a stretch is off by at most travel x change / 4 in its middle. */
+    uint32_t travel = 0;
+    for (int i = 0; i < 2; i++) {
+        const int32_t *u = k.uv[i];
+        const int32_t low = min_i32(u[0], min_i32(u[1], u[2])), high = max_i32(u[0], max_i32(u[1], u[2]));
+        travel = max_u32(travel, texels_q6(s, i, (high - low) * 16384));
+        k.middle[i] = (low + high) >> 1;
+        k.width[i] = high - low;
+    }
+    const bool flat = segment_flat_depth(s->segment)
+                   || product_u32((uint32_t)(k.high_q - k.low_q), travel)
+                          <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
+    if (!setup_curved(s, &k, travel, flat)) {
+        if (flat)
+            setup_affine(s, &k);
+        else
+            setup_divided(s, &k);
+    }
+    t->up = t->turns ? (uint8_t)t->shift : 0;
+    t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
+}

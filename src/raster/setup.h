@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+/* setup.h - a triangle made ready for its rows: planes of depth, colour, texture and velocity.
+ *
+ * Attributes are planes over the screen, a + x dx + y dy in 32-bit wrapping arithmetic: exact modulo 2^32
+ * wherever one starts, so the picture does not depend on how the frame is cut into columns and bands. */
+#ifndef SMEAR_SETUP_H
+#define SMEAR_SETUP_H
+
+#include "raster/target.h"
+
+#include "base/fixmath.h"
+
+struct plane {
+    int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
+    int32_t dx, dy;
+};
+
+static inline int32_t plane_at(const struct plane *p, int32_t x, int32_t y)
+{
+    return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
+}
+
+/* A polynomial of x and y, modulo 2^32. */
+struct curve {
+    int32_t at, dx, dy, dxx, dxy, dyy;
+};
+
+enum depth_slope {          /* smear.h, smear_depth_units */
+    SLOPE_FAR,              /* code = units */
+    SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
+    SLOPE_BOTH
+};
+
+#define SLOPE_BREAK (32768 << 11)       /* q11 units */
+
+/* How a triangle's texture coordinates follow from planes. */
+enum texture_mode {
+    TEXTURE_AFFINE,         /* they are planes */
+    TEXTURE_CURVED,         /* they are polynomials of second degree */
+    TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
+};
+
+/* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what
+ * repeats) or, where textures do not repeat by their bits, in texels q16. Where they are no polynomials they
+ * are exact at the ends of blocks of pixels, and run along a chord or a parabola between. */
+struct texture_setup {
+    enum texture_mode mode;
+    bool turns;
+    bool bent;              /* parabolas; else chords */
+    uint8_t block;          /* pixels: 1, 4, 8 or 16 */
+    uint8_t up;             /* turns: shift; texels: 0 */
+    int8_t shift;           /* what planes yield is turns in 2^(32 - shift) */
+    struct plane q;         /* divided: q */
+    struct plane uv[2];     /* affine: coordinates. Divided: mesh units over w */
+    int32_t slope;          /* divided: how q changes per pixel, times 2^7 */
+    int32_t x0, y0;         /* curved: the pixel from which polynomials count, near v[0] */
+    struct curve curve[2];  /* u and v: turns q32 (those of v in steps of CURVE_STEP), or mesh units q14 */
+};
+
+/* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
+enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
+
+struct setup {
+    const struct smear_raster_frame *frame;
+    const struct smear_raster_target *target;
+    const struct smear_segment *segment;
+    const struct smear_raster_draw *draw;
+    const int32_t *v[3];            /* records, clockwise on the screen */
+    struct bounds bounds;
+
+    /* Edge vectors from v[0], q8, and 1 / (twice the area), which is positive. */
+    int32_t x1, y1, x2, y2;
+    uint32_t area_recip;            /* 2^61 / normalised area */
+    int area_zeros;                 /* area << zeros is normalised to 64 bits */
+    enum depth_slope slope;
+    struct plane depth;             /* units q11 */
+
+    uint32_t color;                 /* 0xAARRGGBB: flat */
+    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
+                                     * linear >> 8) in q16, see channel_value */
+    uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
+    bool even_color;                /* channels are the same everywhere */
+    bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
+
+    struct texture_setup texture;
+
+    uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
+    bool writes_velocity;
+    bool velocity_unknown;          /* with 0 poses: depth will tell it */
+    bool has_velocity;              /* its planes are made */
+    bool flat;                      /* one colour, opaque: `color` */
+    bool velocity_affine;
+    bool clamp_velocity;
+    struct plane vx, vy;            /* affine: displacement q18 px */
+    struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
+};
+
+/* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
+static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
+{
+    return slope == SLOPE_FAR ? ((uint32_t)units << 5) + 0x8000u
+                              : ((uint32_t)units << 1) + (0x80000000u - 0x08000000u + 0x8000u);
+}
+
+static inline int32_t step_from_units(int32_t units, enum depth_slope slope)
+{
+    return shl_wrap(units, slope == SLOPE_FAR ? 5 : 1);
+}
+
+/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. Codes are
+ * rounded by 1/2; linear light is looked up by its floor. Both keep a margin from 0 and 256
+ * that rounding errors of a plane do not cross. */
+static inline int32_t channel_value(const struct setup *s, int vertex, int c)
+{
+    uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
+    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
+    return frame_is_linear(s->frame) && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+}
+
+static inline int32_t setup_mesh_u(const struct setup *s, int i)
+{
+    return (int16_t)(s->v[i][s->segment->uv] & 0xffff);
+}
+
+static inline int32_t setup_mesh_v(const struct setup *s, int i)
+{
+    return s->v[i][s->segment->uv] >> 16;
+}
+
+static inline uint32_t magnitude_i32(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+static inline bool setup_writes_velocity(const struct setup *s)
+{
+    return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
+}
+
+/* Twice the area, q16. */
+static inline uint64_t setup_edges(struct setup *s)
+{
+    s->x1 = s->v[1][VERTEX_X] - s->v[0][VERTEX_X];
+    s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
+    s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
+    s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)s->x1 + small) | ((uint32_t)s->y1 + small) | ((uint32_t)s->x2 + small)
+         | ((uint32_t)s->y2 + small)) < 2 * small)
+        return (uint32_t)(s->x1 * s->y2) - (uint32_t)(s->x2 * s->y1);       /* positive: fits */
+#endif
+    return (uint64_t)((int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1);
+}
+
+/* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
+uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
+
+/* The parts of a setup, in the order in which they are needed. */
+void smear_setup_area(struct setup *s, uint64_t area);
+void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
+void smear_setup_depth(struct setup *s);
+void smear_setup_color(struct setup *s);
+void smear_setup_texture(struct setup *s);
+
+/* velocity.c */
+void smear_setup_velocity(struct setup *s);
+
+#endif

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+/* span.c - inner loops of the raster: flat, and everything else in blocks. */
+#include "raster/span.h"
+
+#include "raster/texcoord.h"
+#include "base/pixel.h"
+
+/* Loops of their own for what is common. */
+#ifdef __OPTIMIZE_SIZE__
+#define SPAN_SPECIALIZED 0
+#else
+#define SPAN_SPECIALIZED 1
+#endif
+
+void smear_span_flat(const struct setup *s, const struct span *p)
+{
+    uint32_t *color = (uint32_t *)p->color;
+    uint16_t *depth = p->depth;
+    uint32_t z = p->z, c = target_pixel(s->target, s->color), dz = (uint32_t)p->dz;
+    int32_t n = p->b - p->a, i = 0;
+    if (target_is_direct(s->target)) {
+        uint16_t *narrow = (uint16_t *)p->color;
+        do {
+            uint32_t code = z >> 16;
+            if (code > depth[i]) {
+                depth[i] = (uint16_t)code;
+                narrow[i] = (uint16_t)c;
+            }
+            z += dz;
+        } while (++i < n);
+        return;
+    }
+    do {
+        uint32_t code = z >> 16;
+        if (code > depth[i]) {
+            depth[i] = (uint16_t)code;
+            color[i] = c;
+        }
+        z += dz;
+    } while (++i < n);
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+/* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the
+ * pixel at its end as well, unless blocks are single pixels. */
+struct walk {
+    int32_t x, last, y;     /* where the next block begins; the span's last pixel; its row */
+    int32_t start;          /* where the one before began */
+    int32_t block;          /* their pixels */
+    int32_t q, u, v;        /* planes at x */
+    struct place place;     /* there */
+    struct smear_texture_run run;       /* of the block before x */
+};
+
+/* Goes on by a block; returns how many pixels it has. */
+static int32_t walk_next(struct walk *w, const struct setup *s)
+{
+    const struct texture_setup *t = &s->texture;
+    const struct place from = w->place;
+    int32_t n = min_i32(w->block, w->last - w->x);
+    const int32_t count = n + (w->x + n == w->last && (n == 0 || w->block > 1));
+    w->start = w->x;
+    w->x += n;
+    if (t->mode == TEXTURE_CURVED) {
+        w->run = course_packed(course_curved(t, &s->draw->sampler, w->start, w->y));
+        return count;
+    }
+    w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
+    w->u = add_wrap(w->u, mul_wrap(t->uv[0].dx, n));
+    w->v = add_wrap(w->v, mul_wrap(t->uv[1].dx, n));
+    w->place = place_at(t, t->mode, &s->draw->sampler, w->q, w->u, w->v, t->turns);
+    w->run = course_packed(course_between(t, from, w->place, n, t->turns));
+    return count;
+}
+
+static void walk_begin(struct walk *w, const struct setup *s, const struct span *p, bool textured)
+{
+    int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
+    w->last = right - 1;
+    w->block = textured ? block_of(&s->texture, left, right) : s->color_block;
+    w->x = block_start(left, w->last, p->a, w->block);
+    w->y = p->y;
+}
+
+/* The first block. */
+static int32_t walk_first(struct walk *w, const struct setup *s, const struct span *p)
+{
+    const struct texture_setup *t = &s->texture;
+    walk_begin(w, s, p, true);
+    if (t->mode == TEXTURE_CURVED)
+        return walk_next(w, s);
+    w->q = plane_at(&t->q, w->x, p->y);
+    w->u = plane_at(&t->uv[0], w->x, p->y);
+    w->v = plane_at(&t->uv[1], w->x, p->y);
+    w->place = place_at(t, t->mode, &s->draw->sampler, w->q, w->u, w->v, t->turns);
+    return walk_next(w, s);
+}
+
+/* A block of a span: where it begins and ends in the triangle's row, and where drawing begins. Values are
+ * exact at its ends, which no cut of the frame moves. */
+struct block {
+    int32_t start, end, x;
+};
+
+/* Channels r g b a (q16) at pixel x of a block, and their steps. Opaque draws have alpha one. */
+static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
+                        uint32_t d[4])
+{
+    int count = draw_is_opaque(s->draw) ? 3 : 4;
+    int32_t x = k->x, x0 = k->start, x1 = k->end;
+    c[3] = 255u << 16;
+    d[3] = 0;
+    if (SPAN_SPECIALIZED && s->even_color) {
+        for (int i = 0; i < count; i++) {
+            c[i] = (uint32_t)s->channel[i].at;
+            d[i] = 0;
+        }
+        return;
+    }
+    if (!s->perspective_color) {
+        for (int i = 0; i < count; i++) {
+            c[i] = (uint32_t)plane_at(&s->channel[i], x, p->y);
+            d[i] = (uint32_t)s->channel[i].dx;
+        }
+        return;
+    }
+    uint32_t q0 = (uint32_t)max_i32(plane_at(&s->depth, x0, p->y), 1);
+    uint32_t q1 = (uint32_t)max_i32(plane_at(&s->depth, x1, p->y), 1);
+    int zeros0 = count_leading_zeros(q0), zeros1 = count_leading_zeros(q1);
+    int32_t r0 = (int32_t)recip_norm(q0 << zeros0), r1 = (int32_t)recip_norm(q1 << zeros1);
+    for (int i = 0; i < count; i++) {
+        int32_t a = channel_over_w(plane_at(&s->channel[i], x0, p->y), zeros0, r0);
+        int32_t b = channel_over_w(plane_at(&s->channel[i], x1, p->y), zeros1, r1);
+        int32_t step = x1 > x0 ? part_of(b - a, x1 - x0) : 0;
+        c[i] = (uint32_t)(a + step * (x - x0));
+        d[i] = (uint32_t)step;
+    }
+}
+
+/* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no
+ * colour: then red and blue are one product. */
+static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
+{
+    const uint32_t r = c[0] >> 16 & 255u, g = c[1] >> 16 & 255u, b = c[2] >> 16 & 255u, pair = 0xff00ffu;
+    if (r == b && r == g) {
+        for (; n > 0; n--, texel++) {
+            uint32_t t = *texel, rb = (t & pair) * r + 0x800080u, green = (t >> 8 & 255u) * r + 128u;
+            rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
+            *texel = (t >> 24 << 16 | (green + (green >> 8)) >> 8) << 8 | rb;
+        }
+        return;
+    }
+    for (; n > 0; n--, texel++) {
+        uint32_t t = *texel;
+        *texel = pixel_make(pixel_alpha(t), code_times(pixel_red(t), r), code_times(pixel_green(t), g),
+                            code_times(pixel_blue(t), b));
+    }
+}
+
+/* Multiplies n texels by the light of the triangle: flat, or interpolated. */
+static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
+                     int32_t n)
+{
+    const bool linear = frame_is_linear(s->frame);
+    uint32_t c[4], d[4] = { 0, 0, 0, 0 };
+    if (s->segment->shade == SHADE_FLAT) {
+        for (int i = 0; i < 3; i++) {
+            uint32_t code = s->color >> (16 - 8 * i) & 255u;
+            c[i] = linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16;
+        }
+        c[3] = pixel_alpha(s->color) << 16;
+    } else {
+        channels_at(s, p, k, c, d);
+    }
+    if (SPAN_SPECIALIZED && !linear && (d[0] | d[1] | d[2]) == 0 && c[3] >> 16 == 255u && d[3] == 0) {
+        modulate_even(texel, c, n);
+        return;
+    }
+    uint32_t a = c[3], da = d[3];
+    for (; n > 0; n--, texel++) {
+        uint32_t t = *texel;
+        *texel = linear ? pixel_make(code_times(pixel_alpha(t), a >> 16 & 255u),
+                                     code_times_linear(pixel_red(t), c[0] >> 8 & 0xffffu),
+                                     code_times_linear(pixel_green(t), c[1] >> 8 & 0xffffu),
+                                     code_times_linear(pixel_blue(t), c[2] >> 8 & 0xffffu))
+                        : pixel_make(code_times(pixel_alpha(t), a >> 16 & 255u),
+                                     code_times(pixel_red(t), c[0] >> 16 & 255u),
+                                     code_times(pixel_green(t), c[1] >> 16 & 255u),
+                                     code_times(pixel_blue(t), c[2] >> 16 & 255u));
+        for (int i = 0; i < 3; i++)
+            c[i] += d[i];
+        a += da;
+    }
+}
+
+/* Interpolated colours without a texture. */
+static void shade_plain(uint32_t *out, const struct setup *s, const struct span *p, const struct block *k,
+                     int32_t n)
+{
+    uint32_t c[4], d[4];
+    channels_at(s, p, k, c, d);
+    uint32_t r = c[0], g = c[1], b = c[2], a = c[3], dr = d[0], dg = d[1], db = d[2], da = d[3];
+    if (frame_is_linear(s->frame)) {
+        for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
+            *out++ = pixel_make(a >> 16 & 255u, smear_srgb_encode[r >> 12 & 4095u],
+                                smear_srgb_encode[g >> 12 & 4095u], smear_srgb_encode[b >> 12 & 4095u]);
+    } else {
+        for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
+            *out++ = (a << 8 & 0xff000000u) | (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
+    }
+}
+
+/* Writes a block of colours: depth test, cutout, blend. */
+static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint32_t z, int32_t dz,
+                        int32_t n, const struct setup *s, uint32_t *mask, int32_t first)
+{
+    uint32_t *color = (uint32_t *)pixels;
+    if (target_is_direct(s->target)) {
+        uint32_t least = s->draw->alpha == SMEAR_CUTOUT ? s->draw->cutoff : 0;
+        uint16_t *narrow = (uint16_t *)pixels;
+        for (; n > 0; n--, in++, narrow++, depth++, z += (uint32_t)dz)
+            if (z >> 16 > *depth && pixel_alpha(*in) >= least) {
+                *depth = (uint16_t)(z >> 16);
+                *narrow = (uint16_t)rgb565_nearest(*in);
+            }
+        return;
+    }
+    if (s->draw->alpha == SMEAR_CUTOUT) {
+        for (int32_t i = 0; i < n; i++, z += (uint32_t)dz) {
+            if (z >> 16 <= depth[i] || pixel_alpha(in[i]) < s->draw->cutoff)
+                continue;
+            depth[i] = (uint16_t)(z >> 16);
+            color[i] = in[i] & 0xffffffu;
+            if (mask != NULL)
+                mask[(first + i) >> 5] |= 1u << ((first + i) & 31);
+        }
+        return;
+    }
+    if (draw_is_blended(s->draw)) {
+        for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
+            if (z >> 16 > *depth)
+                *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
+        return;
+    }
+    for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
+        uint32_t code = z >> 16;
+        if (code > *depth) {
+            *depth = (uint16_t)code;
+            *color = *in & 0xffffffu;
+        }
+    }
+}
+
+/* Blocks without a texture. */
+static int32_t plain_next(struct walk *w)
+{
+    int32_t n = min_i32(w->block, w->last - w->x);
+    w->start = w->x;
+    w->x += n;
+    return n + (w->x == w->last);
+}
+
+static int32_t plain_first(struct walk *w, const struct setup *s, const struct span *p)
+{
+    walk_begin(w, s, p, false);
+    return plain_next(w);
+}
+
+/* In blocks: texels, then light, then the write. */
+void smear_span_general(const struct setup *s, const struct span *p)
+{
+    uint32_t block[BLOCK_MAX + 1];
+    void *color = p->color;
+    uint16_t *depth = p->depth;
+    uint32_t z = p->z;
+    bool textured = segment_textured(s->segment);
+    struct walk w;
+    struct block k;
+    k.x = p->a;
+    int32_t count, n;
+    if (textured)
+        count = walk_first(&w, s, p);
+    else
+        count = plain_first(&w, s, p);
+    for (;;) {
+        n = min_i32(w.start + count, p->b) - k.x;
+        k.start = w.start;
+        k.end = min_i32(w.start + count, w.last);
+        if (textured) {
+            smear_sample(block, &s->draw->sampler, &w.run, k.x - k.start, n);
+            if (s->segment->shade != SHADE_NONE)
+                modulate(block, s, p, &k, n);
+        } else if (segment_gouraud(s->segment)) {
+            shade_plain(block, s, p, &k, n);
+        } else {
+            for (int32_t i = 0; i < n; i++)
+                block[i] = s->color;
+        }
+        write_block(block, color, depth, z, p->dz, n, s, p->mask, k.x - p->a);
+        k.x += n;
+        color = pixel_after(color, n, target_is_direct(s->target));
+        depth += n;
+        z += (uint32_t)p->dz * (uint32_t)n;
+        if (k.x >= p->b)
+            return;
+        count = textured ? walk_next(&w, s) : plain_next(&w);
+    }
+}

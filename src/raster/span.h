@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* span.h - the pixels of one triangle in one row. */
+#ifndef SMEAR_SPAN_H
+#define SMEAR_SPAN_H
+
+#include "raster/setup.h"
+
+/* Longest span: a frame's width, and what blurred layers have beyond it on both sides (layer.h). */
+enum { SPAN_MAX = 2048 + 2 * 64 };
+
+/* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
+struct span {
+    int32_t a, b, left, right, y;
+    void *color;                /* of pixel a: 16 bits where the target is direct, else 32 */
+    uint16_t *depth;
+    int32_t at;                 /* index of pixel a in the window's planes */
+    uint32_t z;                 /* code 16.16 of pixel a */
+    int32_t dz;
+    uint32_t *mask;             /* cutout: a bit per pixel from a on, set where it was drawn; else null */
+};
+
+/* Writes colour and depth where the span passes the depth test (and cutout, blend). */
+typedef void smear_span_fn(const struct setup *s, const struct span *p);
+
+/* One colour, opaque; and everything. */
+smear_span_fn smear_span_flat, smear_span_general;
+
+/* How many of n pixels come before the first one beyond the
+ * break of the depth code, which lies among them. */
+static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
+{
+    int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
+    return clamp_i32(before, 1, n - 1);
+}
+
+/* Writes velocities where the span will pass the depth test; comes before the colours, which write depth.
+ * With a mask it comes after them and goes by the mask. */
+void smear_span_velocity(const struct setup *s, const struct span *p);
+
+/* One pixel without a motion of its own: its velocity is zero or, where the
+ * camera's is still to be told from depth, unknown. */
+void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown);
+
+#endif

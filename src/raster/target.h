@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/* target.h - where triangles are drawn, and what stays the same for a frame. */
+#ifndef SMEAR_TARGET_H
+#define SMEAR_TARGET_H
+
+#include "geometry/bins.h"
+#include "base/pixel.h"
+#include "raster/texture.h"
+
+/* One plane of pixels of which some rows exist: row `y0` is row `slot0` of the memory, and after row
+ * `ring - 1` comes row 0. Column x is at x - x0. */
+struct smear_plane_rows {
+    int32_t stride;         /* pixels */
+    int32_t slot0, ring, x0;
+};
+
+/* Memory for what was found out about triangles that reach beyond a
+ * target's rows, for the rows after them: raster.c. */
+struct smear_raster_cache {
+    void *slot;
+    uint32_t slots;         /* 0: none */
+};
+
+/* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples
+ * of 16 (or at the frame's sides): then it does not matter how many cuts there are. */
+struct smear_raster_target {
+    int32_t x0, y0, x1, y1;
+    uint32_t *color;                /* working pixels */
+    uint16_t *direct;               /* in their place: finished pixels, RGB565 of this machine's byte
+                                     * order, in rows like window_rows. Opaque and cut out lists
+                                     * without velocities; or null */
+    struct smear_plane_rows color_rows;     /* of another shape than window_rows for blended lists only */
+    uint16_t *depth;                /* depth codes; shares window_rows with the velocity */
+    struct smear_plane_rows window_rows;
+    int8_t *velocity8;              /* x y in 1/8 px, half the displacement in the exposure; or null */
+    int16_t *velocity16;            /* the same where the reach needs 16 bits; or null */
+    int32_t *inspect;               /* x y in 1/256 px per frame, before clamp and packing; or null */
+    struct smear_raster_cache cache;        /* of these columns, from target to target */
+    uint8_t *moving;                /* per column of tiles: set when a moving triangle was drawn there */
+    uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
+};
+
+/* Sharp frames without dither are drawn as the display's pixels, where that pays: 0.9 kB. */
+#ifndef SMEAR_DIRECT
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_DIRECT 0
+#else
+#define SMEAR_DIRECT 1
+#endif
+#endif
+
+/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
+#ifndef SMEAR_RASTER_CACHE
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_RASTER_CACHE 0
+#else
+#define SMEAR_RASTER_CACHE 1
+#endif
+#endif
+
+/* Tests and tools look at velocities. */
+static inline bool target_is_inspected(const struct smear_raster_target *t)
+{
+    return SMEAR_WITH_INSPECT && t->inspect != NULL;
+}
+
+static inline bool target_is_direct(const struct smear_raster_target *t)
+{
+    return SMEAR_DIRECT && t->direct != NULL;
+}
+
+/* A working pixel as the target has it. */
+static inline uint32_t target_pixel(const struct smear_raster_target *t, uint32_t color)
+{
+    return target_is_direct(t) ? rgb565_nearest(color) : color & 0xffffffu;
+}
+
+static inline void target_put(const struct smear_raster_target *t, int32_t at, uint32_t color)
+{
+    if (target_is_direct(t))
+        t->direct[at] = (uint16_t)rgb565_nearest(color);
+    else
+        t->color[at] = color & 0xffffffu;
+}
+
+/* `n` pixels further on, of 16 bits or of 32. */
+static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
+{
+    return narrow ? (void *)((uint16_t *)pixel + n) : (void *)((uint32_t *)pixel + n);
+}
+
+/* Index of column 0 of the frame in row y of a plane. */
+static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t,
+                                 int32_t y)
+{
+    int32_t slot = rows->slot0 + (y - t->y0);
+    return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
+}
+
+/* The box of a triangle's vertices, q8. */
+struct bounds {
+    int32_t x0, y0, x1, y1;
+};
+
+/* What stays the same for the frame. */
+struct smear_raster_draw {          /* one per draw, indexed by smear_segment.draw */
+    struct smear_sampler sampler;
+    uint8_t alpha;                  /* smear_alpha */
+    uint8_t cutoff;
+    bool moves;                     /* its velocity comes from its vertices */
+    bool fixed;                     /* still to the eye even where the camera moves: its velocity is zero */
+};
+
+struct smear_raster_frame {
+    const struct smear_bins *bins;
+    const struct smear_raster_draw *draw;
+    bool linear;
+    int32_t width, height;
+    int32_t velocity_scale;         /* q16: displacement between the motion poses to half the exposure's */
+    int32_t inspect_scale;          /* q16: the same to a whole frame */
+    bool velocity_from_depth;       /* what has no motion of its own moves as its depth tells */
+    int32_t reach_q3;               /* longest stored velocity, 1/8 px */
+};
+
+/* Its velocity is told by the frame's depth and cameras, or known to be zero (smear_frame.camera_step). */
+static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f)
+{
+    return SMEAR_WITH_FILTERS && f->velocity_from_depth;
+}
+
+static inline bool draw_is_fixed(const struct smear_raster_draw *d) { return SMEAR_WITH_FILTERS && d->fixed; }
+
+static inline bool frame_is_linear(const struct smear_raster_frame *f)
+{
+    return SMEAR_WITH_LINEAR && f->linear;
+}
+
+static inline bool draw_is_opaque(const struct smear_raster_draw *d)
+{
+    return !SMEAR_WITH_ALPHA || d->alpha == SMEAR_OPAQUE;
+}
+
+static inline bool draw_is_cutout(const struct smear_raster_draw *d)
+{
+    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_CUTOUT;
+}
+
+static inline bool draw_is_blended(const struct smear_raster_draw *d)
+{
+    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_BLEND;
+}
+
+#endif

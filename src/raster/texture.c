@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+/* texture.c - texel (floor(u W), floor(v H)), row 0 at the top; wrap modes; nearest and bilinear. */
+#include "raster/texture.h"
+
+#include "base/fixmath.h"
+#include "base/pixel.h"
+
+static int log2_exact(uint32_t x)
+{
+    return (x & (x - 1)) == 0 ? 31 - count_leading_zeros(x) : -1;
+}
+
+/* Ratio q29 counts 2^15 mesh units: texels i32q16 = ratio size 2^(15 - uv_shift) 2^16 / 2^29. */
+static int32_t scale_for(int32_t size, int uv_shift, int8_t *shift)
+{
+    int zeros = count_leading_zeros((uint32_t)size) - 2;        /* size 2^zeros lies in [2^29, 2^30) */
+    *shift = (int8_t)(32 + 2 - uv_shift - zeros);
+    return size << zeros;
+}
+
+void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
+                        bool bilinear, bool linear)
+{
+    bilinear = SMEAR_WITH_BILINEAR && bilinear;
+    s->texels = texture->texels;
+    s->palette = texture->palette;
+    s->width = texture->width;
+    s->height = texture->height;
+    s->format = texture->format;
+    s->wrap_u = texture->wrap_u;
+    s->wrap_v = texture->wrap_v;
+    s->bilinear = bilinear;
+    s->linear = linear;
+    s->uv_shift = (uint8_t)uv_shift;
+    int log2_width = log2_exact(texture->width), log2_height = log2_exact(texture->height);
+    s->turns = log2_width >= 0 && log2_height >= 0 && s->wrap_u == SMEAR_REPEAT && s->wrap_v == SMEAR_REPEAT
+            && !bilinear;
+    if (s->turns) {
+        s->log2_width = (uint8_t)log2_width;
+        s->log2_height = (uint8_t)log2_height;
+    }
+    s->scale[0] = scale_for(texture->width, uv_shift, &s->shift[0]);
+    s->scale[1] = scale_for(texture->height, uv_shift, &s->shift[1]);
+}
+
+int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio)
+{
+    const int32_t scale = s->scale[axis], shift = s->shift[axis];
+    int32_t t = scale == 1 << 29 ? ratio >> 3 : mulh_i32(ratio, scale);     /* powers of two */
+    return shift >= 0 ? shl_wrap(t, shift) : t >> -shift;
+}
+
+static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
+{
+    return sampler_fetch(s, at, s->format);
+}
+
+/* Any integer texel coordinate into 0 .. size - 1. */
+static int32_t wrap(int32_t i, int32_t size, int mode)
+{
+    if (mode == SMEAR_CLAMP)
+        return clamp_i32(i, 0, size - 1);
+    int32_t period = mode == SMEAR_MIRROR ? 2 * size : size;
+    i %= period;
+    if (i < 0)
+        i += period;
+    return i < size ? i : period - 1 - i;
+}
+
+static uint32_t texel(const struct smear_sampler *s, int32_t iu, int32_t iv)
+{
+    return fetch(s, (uint32_t)(wrap(iv, s->height, s->wrap_v) * s->width
+                               + wrap(iu, s->width, s->wrap_u)));
+}
+
+/* Blends by weight 0 .. 256 towards b; alpha is always linear. */
+static uint32_t mix_texels(uint32_t a, uint32_t b, uint32_t weight, bool linear)
+{
+    uint32_t rest = 256u - weight, result = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+        uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
+        uint32_t c = linear && shift < 24
+            ? smear_srgb_encode[(smear_srgb_decode[ca] * rest + smear_srgb_decode[cb] * weight) >> 12]
+            : (ca * rest + cb * weight + 128u) >> 8;
+        result |= c << shift;
+    }
+    return result;
+}
+
+static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_t v)
+{
+    u = sub_wrap(u, 0x8000);
+    v = sub_wrap(v, 0x8000);
+    int32_t iu = u >> 16, iv = v >> 16;
+    uint32_t fu = (uint32_t)u >> 8 & 255u, fv = (uint32_t)v >> 8 & 255u;
+    uint32_t top = mix_texels(texel(s, iu, iv), texel(s, iu + 1, iv), fu, s->linear);
+    uint32_t bottom = mix_texels(texel(s, iu, iv + 1), texel(s, iu + 1, iv + 1), fu, s->linear);
+    return mix_texels(top, bottom, fv, s->linear);
+}
+
+/* Any texel at the coordinates u and v, in turns (`turns`) or texels q16. */
+SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
+{
+    if (turns)
+        return sampler_fetch(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
+    if (SMEAR_WITH_BILINEAR && s->bilinear)
+        return sample_bilinear(s, (int32_t)at, (int32_t)(at >> 32));
+    return texel(s, (int32_t)at >> 16, (int32_t)(at >> 32) >> 16);
+}
+
+/* Along a chord or a parabola. No coordinate is asked for after a loop, which would
+ * be a product of 64 bits: small cores call for that. */
+SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
+                             const struct smear_texture_run *run, int first, int n, bool turns, int format)
+{
+    uint64_t at = run->at, step = run->step;
+    if (run->bend == 0) {
+        if (first != 0)
+            at += step * (uint32_t)first;
+        for (; n > 0; n--, at += step)
+            *out++ = sample_at(s, at, turns, format);
+        return;
+    }
+    const uint64_t bend = run->bend;
+    for (int i = 0; n > 0; i++) {
+        if (i >= first) {
+            *out++ = sample_at(s, at, turns, format);
+            n--;
+        }
+        at += step;
+        step += bend;
+    }
+}
+
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
+                  int first, int n)
+{
+#ifdef __OPTIMIZE_SIZE__
+    sample_run(out, s, run, first, n, s->turns, s->format);
+#else
+    /* In registers: `out` might be any of its words. */
+    const struct smear_sampler sampler = *s;
+    if (!sampler.turns)
+        sample_run(out, s, run, first, n, false, 0);
+    else if (sampler.format == SMEAR_TEXEL_8888)
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_8888);
+    else if (sampler.format == SMEAR_TEXEL_PALETTE8)
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
+    else
+        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);
+#endif
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/* texture.h - texels for a run of pixels. */
+#ifndef SMEAR_TEXTURE_H
+#define SMEAR_TEXTURE_H
+
+#include "smear.h"
+
+#include "base/fixed.h"
+#include "base/pixel.h"
+
+/* A texture as the raster reads it. */
+struct smear_sampler {
+    const void *texels;
+    const uint32_t *palette;
+    int32_t width, height;
+    uint8_t format, wrap_u, wrap_v;
+    bool bilinear, linear;
+    uint8_t uv_shift;           /* mesh units: 2^uv_shift are the texture */
+    bool turns;                 /* nearest texels of both sizes powers of two, repeated:
+                                 * a coordinate's upper bits say */
+    uint8_t log2_width, log2_height;    /* with turns */
+    int32_t scale[2];           /* u, v: ratio (q29, of 2^15 mesh units) to
+                                 * texels (i32q16): mulh, then shift */
+    int8_t shift[2];
+};
+
+void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
+                        bool bilinear, bool linear);
+
+/* u (axis 0) or v / 2^15 in q29 (mesh units over 2^15) to texels. Wraps: textures repeat. */
+int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio);
+
+static inline int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
+{
+    return smear_sampler_texel(s, 0, ratio);
+}
+
+static inline int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
+{
+    return smear_sampler_texel(s, 1, ratio);
+}
+
+/* Coordinates of a block of pixels: v above u, each in turns or in texels q16. One addition steps both (two
+ * where words have 32 bits); what u carries into v is the last bit. Steps change by the bend. */
+struct smear_texture_run {
+    uint64_t at, step, bend;
+};
+
+static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)v << 32 | u; }
+
+/* Steps: u has a sign of its own, which it borrows from v. */
+static inline uint64_t packed_step(uint32_t du, uint32_t dv)
+{
+    return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
+}
+
+/* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17
+ * pixels it makes no difference whether u and v are stepped together or each alone. */
+static inline uint32_t turns_start(uint32_t v) { return (v & ~255u) | 128u; }
+static inline uint32_t turns_step(uint32_t dv) { return dv & ~255u; }
+
+/* With turns: the texel at (u, v). */
+static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, uint32_t v)
+{
+    /* Shifts by 32 would not do: sizes of one. */
+    return (v >> 1 >> (31 - s->log2_height)) << s->log2_width | u >> 1 >> (31 - s->log2_width);
+}
+
+/* Texel number `at` in memory, as 0xAARRGGBB; of the sampler's format. */
+SMEAR_INLINE uint32_t sampler_fetch(const struct smear_sampler *s, uint32_t at, int format)
+{
+    if (format == SMEAR_TEXEL_8888)
+        return ((const uint32_t *)s->texels)[at];
+    if (format == SMEAR_TEXEL_PALETTE8)
+        return s->palette[((const uint8_t *)s->texels)[at]];
+    uint32_t c = ((const uint16_t *)s->texels)[at];
+    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
+    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
+}
+
+/* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
+                  int first, int n);
+
+#endif

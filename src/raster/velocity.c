@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT */
+/* velocity.c - the screen velocity of a triangle's pixels, from where its vertices were (and will be).
+ *
+ * Where depths change between the poses a place is a quotient of two planes, taken every 8 pixels; elsewhere
+ * displacement itself is a plane. */
+#include "raster/span.h"
+
+#include "raster/velocity.h"
+
+/* d / ratio (q20 > 0) in q8, clamped. */
+static int32_t over_ratio(int32_t d, int32_t ratio)
+{
+    int zeros = count_leading_zeros((uint32_t)ratio);
+    int32_t r = (int32_t)recip_norm((uint32_t)ratio << zeros);          /* 2^(61 - zeros) / ratio */
+    const int32_t far_out = 1 << 22;
+    return clamp_i32(scale_sat(mulh_i32(d * 16, r), zeros - 13), -far_out, far_out);     /* |d| < 2^27 */
+}
+
+/* r X + displacement x r, in q8 x 2^9; ratio in q(20 - down), at most 2^16. */
+static int32_t place_term(int32_t x, int32_t ratio, int32_t displaced, int down)
+{
+    int64_t n = ((int64_t)x * ratio >> 7) + ((int64_t)displaced * 8192 >> down);
+    const int64_t far_out = 1 << 30;
+    return (int32_t)(n > far_out ? far_out : n < -far_out ? -far_out : n);
+}
+
+void smear_setup_velocity(struct setup *s)
+{
+    const struct smear_segment *g = s->segment;
+    s->poses = g->moves;
+    if (s->poses == 0)
+        return;
+
+    /* How far depths change between the poses, and how large the triangle is. */
+    int32_t low = INT32_MAX, high = INT32_MIN;
+    uint32_t size = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int pose = 0; pose < s->poses; pose++) {
+            int32_t ratio = s->v[i][g->motion + pose * MOTION_WORDS + MOTION_RATIO];
+            low = min_i32(low, ratio);
+            high = max_i32(high, ratio);
+        }
+        size = max_u32(size, max_u32(magnitude_i32(s->v[i][VERTEX_X] - s->v[0][VERTEX_X]),
+                                     magnitude_i32(s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y])));
+    }
+
+    /* Displacement close - open (or now - before) per vertex, q8. */
+    int32_t dx[3] = { 0, 0, 0 }, dy[3] = { 0, 0, 0 };
+    uint32_t longest = 0;
+    bool in_front = low > 1 << 10;
+    for (int i = 0; i < 3 && in_front; i++) {
+        for (int pose = 0; pose < s->poses; pose++) {
+            const int32_t *m = s->v[i] + g->motion + pose * MOTION_WORDS;
+            int32_t sign = pose == 0 ? -1 : 1;
+            dx[i] += sign * over_ratio(m[MOTION_DX], m[MOTION_RATIO]);
+            dy[i] += sign * over_ratio(m[MOTION_DY], m[MOTION_RATIO]);
+        }
+        longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
+    }
+    /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
+    s->velocity_affine = in_front
+        && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
+    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
+     * depths change, pixels may go further than their vertices. */
+    s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
+                                               >= (uint32_t)s->frame->reach_q3;
+    if (s->velocity_affine) {
+        const int32_t limit = (1 << 20) - 1;
+        for (int i = 0; i < 3; i++) {
+            dx[i] = clamp_i32(dx[i], -limit, limit) * 1024;
+            dy[i] = clamp_i32(dy[i], -limit, limit) * 1024;
+        }
+        smear_plane_make(s, &s->vx, dx[0], dx[1], dx[2]);
+        smear_plane_make(s, &s->vy, dy[0], dy[1], dy[2]);
+        return;
+    }
+    /* A surface point's place in a pose is sum(b n) / sum(b r): b screen weights, n = r
+     * X + displacement x r. Places are taken from v[0]. Ratios are brought to 2^16 at the
+     * largest, so that all values stay in 31 bits. */
+    int down = 4;
+    uint32_t largest = max_u32(magnitude_i32(low), magnitude_i32(high));
+    while (largest >> down > 0xffff)
+        down++;
+    for (int pose = 0; pose < s->poses; pose++) {
+        int32_t x[3], y[3], r[3];
+        for (int i = 0; i < 3; i++) {
+            const int32_t *m = s->v[i] + g->motion + pose * MOTION_WORDS;
+            int32_t ratio = m[MOTION_RATIO] >> down;
+            x[i] = place_term(s->v[i][VERTEX_X] - s->v[0][VERTEX_X], ratio, m[MOTION_DX], down);
+            y[i] = place_term(s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y], ratio, m[MOTION_DY], down);
+            r[i] = ratio * 8192;                                /* 29 bits */
+        }
+        smear_plane_make(s, &s->px[pose], x[0], x[1], x[2]);
+        smear_plane_make(s, &s->py[pose], y[0], y[1], y[2]);
+        smear_plane_make(s, &s->ratio[pose], r[0], r[1], r[2]);
+    }
+}
+
+/* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of
+ * the planes above. A point that was at or behind the eye has no place; the least denominator sends it far
+ * out, in the direction from which it crosses the plane of the eye. */
+static void pose_displacement(const struct setup *s, int pose, int32_t x, int32_t y, int32_t out[2])
+{
+    int32_t ratio = plane_at(&s->ratio[pose], x, y);
+    uint32_t d = (uint32_t)max_i32(ratio, 1 << 12);
+    int zeros = count_leading_zeros(d);
+    int32_t r = (int32_t)recip_norm(d << zeros);
+    const int32_t here[2] = { x * 256 + 128 - s->v[0][VERTEX_X], y * 256 + 128 - s->v[0][VERTEX_Y] };
+    for (int i = 0; i < 2; i++) {
+        int32_t n = plane_at(i == 0 ? &s->px[pose] : &s->py[pose], x, y);
+        n = narrow_sat(n - ((int64_t)ratio * here[i] >> 20));
+        /* n r / 2^32 = n / d 2^(29 - zeros), and q8 is 2^20 n / d. */
+        out[i] = scale_sat(mulh_i32(n, r), zeros - 9);
+    }
+}
+
+/* Brings a vector below 2^bits, direction kept. */
+static void shorten(int32_t v[2], int bits)
+{
+    while ((magnitude_i32(v[0]) | magnitude_i32(v[1])) >> bits != 0) {
+        v[0] /= 2;
+        v[1] /= 2;
+    }
+}
+
+/* Displacement between the poses at a pixel, q8 px. */
+static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
+{
+    if (s->velocity_affine) {
+        out[0] = (plane_at(&s->vx, x, y) + 512) >> 10;
+        out[1] = (plane_at(&s->vy, x, y) + 512) >> 10;
+        return;
+    }
+    int32_t open[2], close[2] = { 0, 0 };
+    pose_displacement(s, 0, x, y, open);
+    shorten(open, 29);
+    if (s->poses == 2) {
+        pose_displacement(s, 1, x, y, close);
+        shorten(close, 29);
+    }
+    out[0] = close[0] - open[0];
+    out[1] = close[1] - open[1];
+    shorten(out, 22);
+}
+
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3,
+                          int32_t out[2])
+{
+    /* Up to 128 px and shutters of 360 degrees, products have 32 bits. */
+    if (((magnitude_i32(displacement[0]) | magnitude_i32(displacement[1])) >> 15 | (uint32_t)scale >> 16)
+        == 0) {
+        out[0] = displacement[0] * scale >> 8;
+        out[1] = displacement[1] * scale >> 8;
+    } else {
+        int64_t k = scale;
+        out[0] = narrow_sat((displacement[0] * k) >> 8);
+        out[1] = narrow_sat((displacement[1] * k) >> 8);
+    }
+    if (!clamp)
+        return;
+    /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
+    shorten(out, 27);
+    int32_t sx = out[0] >> 12, sy = out[1] >> 12;
+    uint32_t square = (uint32_t)(sx * sx) + (uint32_t)(sy * sy);
+    uint32_t reach = (uint32_t)reach_q3 * 2u;
+    if (square > reach * reach) {
+        uint32_t length = sqrt_floor_64((uint64_t)square << 8);     /* 1/256 px */
+        int zeros = count_leading_zeros(length);
+        uint32_t r = recip_norm(length << zeros);
+        /* reach 2^16 r / 2^32 = reach / length 2^(45 - zeros), in 1/16 over 1/256 px; q16 is wanted. */
+        int32_t factor = (int32_t)(mulh_u32(reach << 16, r) >> (25 - zeros));
+        out[0] = (int32_t)((int64_t)out[0] * factor >> 16);
+        out[1] = (int32_t)((int64_t)out[1] * factor >> 16);
+    }
+}
+
+static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
+{
+    smear_velocity_store(displacement, s->frame->velocity_scale, s->clamp_velocity, s->frame->reach_q3, out);
+}
+
+static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)
+{
+    if (t->velocity8 != NULL) {
+        t->velocity8[2 * at] = (int8_t)x;
+        t->velocity8[2 * at + 1] = (int8_t)y;
+    } else {
+        t->velocity16[2 * at] = (int16_t)x;
+        t->velocity16[2 * at + 1] = (int16_t)y;
+    }
+}
+
+void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown)
+{
+    int32_t still = !unknown ? 0 : t->velocity8 != NULL ? SMEAR_VELOCITY_UNKNOWN8 : SMEAR_VELOCITY_UNKNOWN16;
+    velocity_write(t, at, still, still);
+    if (target_is_inspected(t))
+        t->inspect[2 * at] = t->inspect[2 * at + 1] = 0;
+}
+
+static inline bool is_drawn(const struct span *p, int32_t i, uint32_t z, const uint16_t *depth)
+{
+    return p->mask != NULL ? p->mask[i >> 5] >> (i & 31) & 1u : z >> 16 > depth[i];
+}
+
+void smear_span_velocity(const struct setup *s, const struct span *p)
+{
+    const struct smear_raster_target *t = s->target;
+    const uint16_t *depth = p->depth;
+    uint32_t z = p->z;
+    if (s->poses == 0) {
+        for (int32_t i = 0; i < p->b - p->a; i++, z += (uint32_t)p->dz)
+            if (is_drawn(p, i, z, depth))
+                smear_velocity_still(t, p->at + i, s->velocity_unknown);
+        return;
+    }
+    /* Exact at multiples of 8 and at the span's ends; linear between. */
+    static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
+    int32_t x = p->a, at = p->at;
+    int32_t here[2], next[2], stored[2], stored_next[2];
+    displacement_at(s, x, p->y, here);
+    stored_velocity(s, here, stored);
+    while (x < p->b) {
+        int32_t end = min_i32((x & ~7) + 8, p->right - 1), n = end - x, step[2] = { 0, 0 },
+                wide[2] = { 0, 0 };
+        if (n > 0) {
+            displacement_at(s, end, p->y, next);
+            stored_velocity(s, next, stored_next);
+            for (int i = 0; i < 2; i++) {
+                int32_t change = stored_next[i] - stored[i];
+                step[i] = n == 8 ? (change + 4) >> 3
+                                 : (int32_t)(((int64_t)change * inverse[n] + 0x8000) >> 16);
+                if (target_is_inspected(t))
+                    wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
+            }
+        }
+        int32_t stop = min_i32(n > 0 ? end : x + 1, p->b);
+        /* q16, q14 */
+        int32_t vx = stored[0], vy = stored[1], ix = here[0] * 64 + 32, iy = here[1] * 64 + 32;
+        for (; x < stop; x++, at++, z += (uint32_t)p->dz) {
+            if (is_drawn(p, x - p->a, z, depth)) {
+                velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
+                if (target_is_inspected(t)) {
+                    t->inspect[2 * at] = (int32_t)((int64_t)ix * s->frame->inspect_scale >> 22);
+                    t->inspect[2 * at + 1] = (int32_t)((int64_t)iy * s->frame->inspect_scale >> 22);
+                }
+            }
+            vx += step[0];
+            vy += step[1];
+            ix += wide[0];
+            iy += wide[1];
+        }
+        for (int i = 0; i < 2 && n > 0; i++) {
+            here[i] = next[i];
+            stored[i] = stored_next[i];
+        }
+    }
+    /* Marks the tiles: their maximum must be looked for. */
+    for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
+        t->moving[tile] = 1;
+}
+

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* moving.h - the moving triangles of a tile row, and a tile in which some are seen. */
+#ifndef SMEAR_MOVING_H
+#define SMEAR_MOVING_H
+
+#include "geometry/path.h"
+#include "raster/target.h"
+
+/* A moving triangle of the tile row, in submission order. */
+struct smear_moving_triangle {
+    uint32_t triangle;
+    uint8_t first, last;        /* tile columns it may touch during the exposure */
+    uint16_t nearest;           /* depth code it does not exceed: larger is nearer */
+};
+
+/* A tile, or some beside each other, to be finished by a time-resolved method. */
+struct smear_moving_tile {
+    const struct smear_raster_frame *frame;
+    const struct smear_shutter *shutter;
+    struct smear_raster_target still;   /* the still scene, drawn; y0, y1 are the tiles', x0, x1, too, or
+                                         * a little beyond. Only read. */
+    int32_t x0, x1;                     /* the tiles' */
+    const struct smear_moving_triangle *moving;    /* of the row: those whose columns meet these are seen here */
+    uint32_t moving_count;
+    int32_t column, last_column;
+    uint32_t blend;                     /* blended draws of the row, still and moving
+                                         * ones; or SMEAR_NO_TRIANGLE */
+    uint32_t *out;                      /* finished working pixels, rows `pitch` apart */
+    int32_t pitch;
+    int32_t tile;                       /* edge, pixels */
+    void *work;                         /* memory of the worker's own */
+    uint32_t work_bytes;                /* timemask: 0 is what it asks for */
+};
+
+static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_moving_tile *t)
+{
+    return m->first <= t->last_column && m->last >= t->column;
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* subframes.h - the moving triangles of some tiles drawn again at several instants. */
+#ifndef SMEAR_SUBFRAMES_H
+#define SMEAR_SUBFRAMES_H
+
+#include "temporal/moving.h"
+
+/* Instants of which codes add up in 16 bits: without SMEAR_WITH_LINEAR there are no more. */
+enum { SMEAR_PACKED_INSTANTS = 256 };
+
+/* How all moving triangles of a tile go on from one instant to the next, nearly, in 1/16 px. */
+struct smear_step {
+    int16_t x, y;
+};
+
+/* Bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
+size_t smear_subframes_work(int32_t width, int32_t height);
+
+/* The mean of `instants` (1 .. 1024) sharp instants at the middles of slots of equal weight. Still
+ * opaque surfaces are taken from `still`; moving triangles and all blended draws are drawn at every instant.
+ * `step`, one per tile, or null: what lies between instants is filled in along the way, where
+ * nothing is blended. Returns the samples taken. */
+uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants,
+                               const struct smear_step *step);
+
+#endif

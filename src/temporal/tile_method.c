@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/* tile_method.c - the rules by which a tile gets its method. */
+#include "temporal/tile_method.h"
+
+#include "smear.h"
+
+#include "base/fixmath.h"
+
+/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where moving triangles go
+ * apart, as many as keep a step of one within `spread` of that of another; from `most` on a time mask, whose closed forms
+ * do not care how long a way is, costs less. Measured on the scenes of the quality suite (make chart): fewer instants cost
+ * a tenth less and are seen as teeth at the ends of long streaks (failure rows 3 and 22). */
+struct preset {
+    int32_t target;                     /* from this error on, 1/64 codes */
+    int32_t least, step, spread, most;  /* 1/16 px */
+    int32_t intervals;                     /* at least, of what passes through the near plane */
+    int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
+};
+
+enum {
+    INSTANTS_MAX = 64,
+    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
+};
+
+static const struct preset presets[] = {
+    { SMEAR_DRAFT, 2, 288, 512, 32, 6, 8, 2, 768, 2 },
+    { 128, 3, 352, 448, 32, 6, 32, 7, 512, 3 },
+    { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
+    { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
+    { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
+    { 20, 15, 64, 36, 1000, 16, 32, 8, 256, 6 },
+    { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
+};
+
+static const struct preset *preset_of(int32_t target)
+{
+    const struct preset *p = presets;
+    while (target < p->target)
+        p++;
+    return p;
+}
+
+static int32_t largest(int32_t low, int32_t high)
+{
+    return max_i32(high, -low);
+}
+
+static bool has_ways(const struct smear_tile_load *load)
+{
+    return load->x0 <= load->x1;
+}
+
+/* Longest way, 1/16 px. */
+static int32_t travel_of(const struct smear_tile_load *load)
+{
+    if (!has_ways(load))
+        return load->curvature;
+    int32_t x = largest(load->x0, load->x1), y = largest(load->y0, load->y1);
+    return max_i32(x, y) + (min_i32(x, y) >> 1) + load->curvature;
+}
+
+/* The same along x or y, whichever is more. */
+static int32_t reach_of(const struct smear_tile_load *load)
+{
+    return has_ways(load) ? max_i32(largest(load->x0, load->x1), largest(load->y0, load->y1)) + load->curvature : load->curvature;
+}
+
+/* One per half pixel of travel, at least 2: even a motion of less than a pixel needs them, where edges are hard. */
+static int32_t instants_for(const struct smear_tile_load *load, int32_t most)
+{
+    if ((load->flags & PATH_INTERVAL) != 0)        /* its way is not known */
+        return most;
+    return min_i32(max_i32((travel_of(load) + 7) >> 3, 2), most);
+}
+
+/* How unlike moving triangles go, 1/16 px of the whole exposure. */
+static int32_t spread_of(const struct smear_tile_load *load)
+{
+    return has_ways(load) ? max_i32(load->x1 - load->x0, load->y1 - load->y0) + load->curvature : 0;
+}
+
+static bool may_fill(const struct smear_chooser *chooser, const struct smear_tile_load *load)
+{
+    return chooser->fills && (load->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
+}
+
+void smear_tile_method_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
+                       int32_t instants)
+{
+    *step = (struct smear_step){ 0, 0 };
+    if (chooser->method != SMEAR_AUTO || !has_ways(load) || !may_fill(chooser, load))
+        return;
+    step->x = (int16_t)(load->x / instants);
+    step->y = (int16_t)(load->y / instants);
+}
+
+static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t curvature, int32_t edge, int32_t tap,
+                            int32_t sparse)
+{
+    choice->method = TILE_TIMEMASK;
+    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, curvature, edge, tap,
+                                                            sparse };
+}
+
+static void choose_subframes(struct smear_tile_choice *choice, int32_t instants)
+{
+    choice->method = TILE_SUBFRAMES;
+    choice->instants = instants;
+}
+
+/* Instants that SMEAR_AUTO takes of a tile. */
+static int32_t auto_instants(const struct preset *p, const struct smear_chooser *chooser,
+                             const struct smear_tile_load *load)
+{
+    const int32_t travel = travel_of(load);
+    int32_t instants = travel / 16 + 1;
+    if (may_fill(chooser, load)) {
+        instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
+        if (p->least <= 3 && travel < 8)        /* half a pixel */
+            instants = 2;
+        instants = max_i32(instants, spread_of(load) / p->spread + 1);
+    }
+    /* What passes through the near plane is in intervals: the mask draws them all, an instant one of them. How they go is
+     * not known, as clipping moves their ends. */
+    if ((load->flags & PATH_INTERVAL) != 0)
+        instants = clamp_i32(instants, p->intervals, PATH_INTERVALS);
+    return instants;
+}
+
+static void choose_auto(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
+                        const struct smear_tile_load *load, bool closed_form)
+{
+    const struct preset *p = preset_of(chooser->target);
+    const int32_t instants = auto_instants(p, chooser, load);
+    if (closed_form && (load->flags & PATH_INTERVAL) == 0 && (instants > p->most || !chooser->fills)) {
+        /* A texture shows where its surface is all over, not only at edges. */
+        const int32_t curvature = (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32);
+        choose_timemask(choice, p->slots, curvature, p->edge, p->tap, p->sparse);
+    } else {
+        choose_subframes(choice, min_i32(instants, INSTANTS_MAX));
+    }
+}
+
+void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
+                  const struct smear_tile_load *load)
+{
+    const bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
+    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0)
+        choice->method = TILE_COPY;
+    else if (chooser->method == SMEAR_AUTO)
+        choose_auto(choice, chooser, load, closed_form);
+    else if (chooser->method == SMEAR_TIMEMASK && closed_form)
+        choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
+    else
+        choose_subframes(choice, instants_for(load, chooser->samples));
+}
+
+/* Pixels x instants, saturated. Triangles that go apart are not known to share a tile. */
+static uint32_t expected(const struct preset *p, const struct smear_chooser *chooser,
+                         const struct smear_way_areas *areas)
+{
+    uint32_t sum = 0;
+    for (int i = 0; i <= WAY_CLASSES; i++) {
+        const bool is_piece = i == WAY_CLASSES;
+        const int16_t way = is_piece ? 0 : (int16_t)((2 * i + 1) << (WAY_CLASS_SHIFT - 1));
+        const struct smear_tile_load load = { .x0 = way, .x1 = way, .x = way, .weight = 1,
+                                              .flags = (uint16_t)(TILE_MOVES | (is_piece ? PATH_INTERVAL : 0)) };
+        const uint32_t area = is_piece ? areas->interval_area : areas->area[i];
+        const uint32_t instants = (uint32_t)min_i32(auto_instants(p, chooser, &load), INSTANTS_MAX);
+        if (area > (UINT32_MAX - sum) / instants)
+            return UINT32_MAX;
+        sum += area * instants;
+    }
+    return sum;
+}
+
+int32_t smear_tile_method_target(const struct smear_chooser *chooser, const struct smear_way_areas *areas, uint32_t budget,
+                            uint32_t *work)
+{
+    const struct preset *p = preset_of(chooser->target);
+    int32_t target = chooser->target;
+    *work = expected(p, chooser, areas);
+    while (*work > budget && p != presets) {
+        target = (--p)->target;
+        *work = expected(p, chooser, areas);
+    }
+    return target;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* timemask.h - a tile blurred by the time each moving triangle covers each pixel. */
+#ifndef SMEAR_TIMEMASK_H
+#define SMEAR_TIMEMASK_H
+
+#include "temporal/moving.h"
+
+/* Bytes of work memory per worker: 7.6 kB, whatever the tile. Half or a quarter of it does, too, at the cost
+ * of more set-up: tell by smear_moving_tile.work_bytes. */
+size_t smear_timemask_work(int32_t tile);
+
+struct smear_timemask_settings {
+    int32_t slots;              /* 8, 16 or 32 */
+    int32_t curvature;               /* q8 px: an edge may be off by this much where paths are
+                                 * bent; else the shutter is split */
+    int32_t edge;               /* what an edge may err where it turns: 2^-edge px of contrast
+                                 * squared, per px of its length */
+    int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
+    int32_t sparse;             /* px of travel per px between samples: fewer are taken
+                                 * where all moves far; 0: never */
+};
+
+/* Opaque moving triangles. Cutouts and blended draws are for subframes.h. Returns the fragments taken;
+ * `is_smooth`: whether samples were taken apart. */
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t,
+                             const struct smear_timemask_settings *settings, bool *is_smooth);
+
+#endif

@@ -1,0 +1,476 @@
+/* SPDX-License-Identifier: MIT */
+/* timemask_cover.c - edges of a moving triangle in a block of pixels, and the runs they leave in a row. */
+#include "temporal/timemask_cover.h"
+
+enum {
+    SLOT_Q = 14,                /* fraction bits of slots in planes */
+    BENT_Q = 12                 /* after a multiplication with bends */
+};
+
+/* ------------------------------------------------------------------ bounds */
+
+/* Only where the plane is >= 0 can pixels be covered: a bound of rows'
+ * pixels, or of rows where it is nearly level. */
+static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
+{
+    uint32_t ax = (uint32_t)abs_i32(p->dx), ay = (uint32_t)abs_i32(p->dy);
+    bool steep = ax >= ay >> 2;
+    uint32_t size = steep ? ax : ay;
+    if (size == 0)
+        return;
+    int zeros = count_leading_zeros(size);
+    int32_t r = (int32_t)recip_norm(size << zeros);             /* 1 / size = r 2^(zeros - 61) */
+    const int64_t most = 1 << 28;
+    if (!steep) {
+        int64_t best = (int64_t)p->at + max_i32(p->dx * c->x0, p->dx * (c->x1 - 1));
+        int64_t rows = best * r >> (61 - zeros);
+        rows = rows > most ? most : rows < -most ? -most : rows;
+        if (p->dy > 0)
+            c->y0 = max_i32(c->y0, (int32_t)-rows - 1);
+        else
+            c->y1 = min_i32(c->y1, (int32_t)rows + 2);
+        return;
+    }
+    int64_t at = (int64_t)p->at * r >> (45 - zeros);
+    int32_t step = (int32_t)((int64_t)p->dy * r >> (45 - zeros)), place;
+    at = at > most ? most : at < -most ? -most : at;
+    place = (int32_t)at;
+    if (p->dx > 0) {
+        c->left[c->lefts].at = -place - 0x1000;
+        c->left[c->lefts++].step = -step;
+    } else {
+        c->right[c->rights].at = place + 0x1000;
+        c->right[c->rights++].step = step;
+    }
+}
+
+/* ------------------------------------------------------------------ edges */
+
+/* An edge function at one time, q8 px^2 rounded down: exact in its sign. */
+SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i, int j)
+{
+    int32_t ax = p->x[i], ay = p->y[i], dx = p->x[j] - ax, dy = p->y[j] - ay;
+    /* A centre on the edge counts (0, else -1) for edges that go up and those that go right. */
+    int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
+    int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
+    /* Steps are below 2^22: far beyond 2^26 the sign is the same all
+     * over the block. Differences of two still fit. */
+    const int32_t most = (1 << 30) - (1 << 28);
+    int32_t at = here > most ? most : here < -most ? -most : (int32_t)here;
+    return (struct timemask_plane){ at, -dy, dx };
+}
+
+/* The order in which everyone takes the vertices of an edge. */
+static bool is_before(const struct timemask_pose *a, const struct timemask_pose *b, int i, int j)
+{
+    if (a->y[i] != a->y[j])
+        return a->y[i] < a->y[j];
+    if (a->x[i] != a->x[j])
+        return a->x[i] < a->x[j];
+    if (b->y[i] != b->y[j])
+        return b->y[i] < b->y[j];
+    return b->x[i] < b->x[j];
+}
+
+/* Twice the value in the middle of the pixels that may be
+ * covered; more or less by `reach` at their corners. */
+SMEAR_INLINE int32_t plane_middle(const struct timemask_plane *p, const struct timemask_cover *c,
+                                  int32_t *reach)
+{
+    *reach = abs_i32(p->dx) * (c->x1 - 1 - c->x0) + abs_i32(p->dy) * (c->y1 - 1 - c->y0);
+    return 2 * p->at + p->dx * (c->x0 + c->x1 - 1) + p->dy * (c->y0 + c->y1 - 1);
+}
+
+/* The other side of an edge: -e - 1, so that >= 0 is exactly what was < 0. */
+static inline struct timemask_plane other_side(const struct timemask_plane *p)
+{
+    return (struct timemask_plane){ ~p->at, -p->dx, -p->dy };
+}
+
+/* a n / d in q14 for n = 2^slots_log2, to nearest: d = 2^(61 - zeros) / recip, its sign apart. */
+static inline int32_t slots_over(int32_t a, uint32_t recip, int shift)
+{
+    return (int32_t)(((int64_t)a * (int32_t)recip + ((int64_t)1 << (shift - 1))) >> shift);
+}
+
+/* Twice what the middle lies off the mean of both ends; far off the block it does not matter. */
+static struct timemask_plane bow_of(const struct timemask_plane *start, const struct timemask_plane *middle,
+                                    const struct timemask_plane *end)
+{
+    const int64_t most = 1 << 28;
+    int64_t at = 2 * (int64_t)middle->at - start->at - end->at;
+    at = at > most ? most : at < -most ? -most : at;
+    return (struct timemask_plane){ (int32_t)at, 2 * middle->dx - start->dx - end->dx,
+                                    2 * middle->dy - start->dy - end->dy };
+}
+
+/* Largest magnitude in the block, or a bit more. */
+static inline int32_t plane_size(const struct timemask_plane *p, const struct timemask_cover *c)
+{
+    return abs_i32(p->at + p->dx * c->middle_x + p->dy * c->middle_y) + abs_i32(p->dx) * c->middle_x
+         + abs_i32(p->dy) * c->middle_y;
+}
+
+/* How an edge's functions at start and end differ over the block: `d` in
+ * its middle, `h` more or less at its corners. */
+struct sweep {
+    struct timemask_plane start, end, bow;
+    int32_t d, h, bows;         /* bows: twice the largest bow */
+    int32_t length;             /* of the edge, about, q8 px */
+    bool reversed;
+};
+
+/* What an edge that crosses may be off: where it moves by p px and is off by e px, a part e / p
+ * of its contrast is wrong over p pixels. The squares of that add up to e^2 / p, which is held
+ * below 2^-edge px. `off` is e x length in q8. */
+static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
+{
+    return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> edge;
+}
+
+/* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the
+ * block's middle it is off by up to h / 2 and the bow; multiplied with 1 - (what the
+ * difference is more) / difference, by h^2 / (2 d). */
+static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_t edge)
+{
+    int32_t size = abs_i32(w->d);
+    if (size == 0 || size < w->length >> 7 || w->h > size >> 1)
+        return false;
+    int zeros = count_leading_zeros((uint32_t)size);
+    uint32_t r = recip_norm_precise((uint32_t)size << zeros);
+    enum timemask_form form = COVER_EVEN;
+    int32_t part = 0;
+    if (!is_near(w, (w->h >> 1) + (w->bows >> 1), edge)) {
+        part = (int32_t)(mulh_u32((uint32_t)w->h << zeros, r) >> 14);           /* h / d, q15 */
+        int32_t off = (int32_t)((int64_t)w->h * part >> 16);
+        form = is_near(w, off + (w->bows >> 1), edge) ? COVER_BENT : COVER_BOWED;
+        if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, edge)))
+            return false;
+    }
+    bool leaves = (w->d > 0) != w->reversed;
+    struct timemask_crossing *x = leaves ? &c->leave[c->leaves++] : &c->enter[c->enters++];
+    int shift = 61 - zeros - (SLOT_Q - 1) - c->slots_log2;
+    int32_t sign = w->d < 0 ? -1 : 1;
+    x->mean = (struct timemask_plane){ slots_over(sign * (w->start.at + w->end.at + 1), r, shift),
+                                       slots_over(sign * (w->start.dx + w->end.dx), r, shift),
+                                       slots_over(sign * (w->start.dy + w->end.dy), r, shift) };
+    x->curvature = (struct timemask_plane){ 1 << 30, 0, 0 };
+    x->bow = 0;
+    c->form = form > c->form ? form : c->form;
+    if (form != COVER_EVEN) {
+        int down = 31 - zeros;          /* |differences| < d < 2^(32 - zeros) */
+        x->curvature.dx = (int32_t)((int64_t)(-sign * (w->start.dx - w->end.dx)) * r >> down);
+        x->curvature.dy = (int32_t)((int64_t)(-sign * (w->start.dy - w->end.dy)) * r >> down);
+        x->curvature.at = (1 << 30) - x->curvature.dx * c->middle_x - x->curvature.dy * c->middle_y;
+    }
+    if (form == COVER_BOWED) {
+        int32_t bow = w->bow.at + w->bow.dx * c->middle_x + w->bow.dy * c->middle_y;
+        x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
+    }
+    x->slack = (part << c->slots_log2 >> 1) + (abs_i32(x->bow) << c->slots_log2 >> 2);
+    /* Covered only where it is left after the start, entered before the end. */
+    struct timemask_plane seen = leaves ? x->mean
+        : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
+    seen.at += (1 << (SLOT_Q - 1 + c->slots_log2)) + x->slack;
+    bound_add(c, &seen);
+    return true;
+}
+
+/* Adds edge i -> j to its kind. False: it is outside everywhere. */
+static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const pose[3], int i, int j,
+                     int32_t edge)
+{
+    const struct timemask_pose *a = pose[0], *m = pose[1], *b = pose[2];
+    struct sweep w;
+    w.reversed = !is_before(a, b, i, j);
+    if (w.reversed) {
+        int keep = i;
+        i = j;
+        j = keep;
+    }
+    w.start = edge_at(a, i, j);
+    w.end = edge_at(b, i, j);
+    struct timemask_plane middle = edge_at(m, i, j);
+    w.bow = bow_of(&w.start, &middle, &w.end);
+    w.bows = plane_size(&w.bow, c);
+    int32_t reach_start, reach_end;
+    int32_t start = plane_middle(&w.start, c, &reach_start), end = plane_middle(&w.end, c, &reach_end);
+    if (min_i32(start - reach_start, end - reach_end) >= w.bows)
+        return !w.reversed;     /* inside everywhere, or outside */
+    if (max_i32(start + reach_start, end + reach_end) < -w.bows)
+        return w.reversed;
+
+    int32_t mx = w.start.dx + w.end.dx, my = w.start.dy + w.end.dy;
+    int32_t ddx = w.start.dx - w.end.dx, ddy = w.start.dy - w.end.dy;
+    w.d = w.start.at - w.end.at + ddx * c->middle_x + ddy * c->middle_y;
+    w.h = abs_i32(ddx) * c->middle_x + abs_i32(ddy) * c->middle_y;
+    w.length = (abs_i32(mx) + abs_i32(my)) >> 1;
+    int32_t moves = abs_i32(w.d) + w.h + w.bows;
+    if (moves > w.length >> 7 && crossing_add(c, &w, edge))
+        return true;
+    struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
+    if (w.reversed)
+        p = other_side(&p);
+    if (moves <= w.length >> 7) {       /* by less than 1/128 px */
+        c->still[c->stills++] = p;
+    } else {
+        c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
+        p.at = add_wrap(p.at, (moves >> 1) + 1);
+    }
+    bound_add(c, &p);
+    return true;
+}
+
+/* Pixels that are left before they are entered. */
+static void bound_pairs(struct timemask_cover *c)
+{
+    for (int i = 0; i < c->leaves; i++)
+        for (int k = 0; k < c->enters; k++) {
+            const struct timemask_plane *l = &c->leave[i].mean, *e = &c->enter[k].mean;
+            struct timemask_plane p = { l->at - e->at + c->leave[i].slack + c->enter[k].slack, l->dx - e->dx,
+                                        l->dy - e->dy };
+            bound_add(c, &p);
+        }
+}
+
+static int64_t area_of(const struct timemask_pose *p)
+{
+    return (int64_t)(p->x[1] - p->x[0]) * (p->y[2] - p->y[0])
+         - (int64_t)(p->x[2] - p->x[0]) * (p->y[1] - p->y[0]);
+}
+
+bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
+                          int32_t height, int32_t slots_log2, int32_t edge)
+{
+    int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            left = min_i32(left, pose[k]->x[i]);
+            right = max_i32(right, pose[k]->x[i]);
+            top = min_i32(top, pose[k]->y[i]);
+            bottom = max_i32(bottom, pose[k]->y[i]);
+        }
+    c->x0 = max_i32((left + 255) >> 8, 0);
+    c->y0 = max_i32((top + 255) >> 8, 0);
+    c->x1 = min_i32((right >> 8) + 1, width);
+    c->y1 = min_i32((bottom >> 8) + 1, height);
+    if (c->x0 >= c->x1 || c->y0 >= c->y1
+        || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
+        return false;
+    c->slots_log2 = slots_log2;
+    c->middle_x = (width + 1) >> 1;
+    c->middle_y = (height + 1) >> 1;
+    c->enters = c->leaves = c->stills = c->turns = c->lefts = c->rights = 0;
+    c->form = COVER_EVEN;
+    if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))
+        return false;
+    bound_pairs(c);
+    return c->y0 < c->y1;
+}
+
+/* ------------------------------------------------------------------ edges that may do anything */
+
+/* Slots [0, n). */
+static inline uint32_t below(int32_t n)
+{
+    return n >= 32 ? UINT32_MAX : (1u << n) - 1u;
+}
+
+/* e(u) = start + (end - start) u + 2 bow u (1 - u), brought to 18 bits and times 4 n^2, which fits. */
+struct parabola {
+    int32_t start, end, bow;    /* 2 n start, 2 n end, 2 bow */
+    int32_t slots;
+};
+
+/* In the middle of a slot. */
+static inline int32_t parabola_at(const struct parabola *p, int32_t slot)
+{
+    int32_t u = 2 * slot + 1, rest = 2 * p->slots - u;
+    return rest * (p->start + p->bow * u) + p->end * u;
+}
+
+/* The first slot of (low, high] whose sign is that of `high`; that of `low` is the other one. */
+static int32_t sign_change(const struct parabola *p, int32_t low, int32_t high)
+{
+    int32_t sign = high < p->slots ? parabola_at(p, high) : p->end;
+    while (high - low > 1) {
+        int32_t middle = (low + high) >> 1;
+        if ((parabola_at(p, middle) ^ sign) >= 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return high;
+}
+
+/* Slots in which e >= 0. */
+static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t slots_log2)
+{
+    const int32_t slots = 1 << slots_log2;
+    uint32_t size = (uint32_t)abs_i32(start) | (uint32_t)abs_i32(end) | (uint32_t)abs_i32(bow) | 1u;
+    int shift = count_leading_zeros(size) - 14, up = max_i32(shift, 0), down = max_i32(-shift, 0);
+    struct parabola p = { (shl_wrap(start, up) >> down) * 2 * slots, (shl_wrap(end, up) >> down) * 2 * slots,
+                          (shl_wrap(bow, up) >> down) * 2, slots };
+    if ((start ^ end) < 0) {    /* it crosses once */
+        uint32_t before = below(sign_change(&p, -1, slots));
+        return start >= 0 ? before : ~before;
+    }
+    /* Not at all, or twice: around u = 1/2 + (end - start) / (4 bow), where it is farthest off. */
+    if (p.bow == 0)
+        return start >= 0 ? UINT32_MAX : 0;
+    int32_t top = clamp_i32((slots >> 1) + (p.end - p.start) / (4 * p.bow), 0, slots - 1);
+    if ((parabola_at(&p, top) ^ start) >= 0)
+        return start >= 0 ? UINT32_MAX : 0;
+    uint32_t away = below(sign_change(&p, top, slots)) & ~below(sign_change(&p, -1, top));
+    return start >= 0 ? ~away : away;
+}
+
+/* Writes the runs of a mask. */
+static int32_t put_runs(uint32_t *out, int32_t x, uint32_t mask)
+{
+    int32_t count = 0;
+    while (mask != 0) {
+        uint32_t low = mask & (0u - mask), rest = mask + low;      /* adding carries over the lowest run */
+        int32_t from = 31 - count_leading_zeros(low);
+        int32_t to = rest == 0 ? 32 : 31 - count_leading_zeros(rest & (0u - rest));
+        out[count++] = timemask_run(x, from, to);
+        mask &= ~below(to);
+    }
+    return count;
+}
+
+/* What still and turning edges leave of runs. */
+static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out, int32_t count)
+{
+    uint32_t run[TIMEMASK_WIDTH];
+    int32_t n = count;
+    for (int32_t i = 0; i < n; i++)
+        run[i] = out[i];
+    count = 0;
+    for (int32_t k = 0; k < n; k++) {
+        int32_t x = timemask_run_x(run[k]), outside = 0;
+        for (int i = 0; i < c->stills; i++)
+            outside |= timemask_plane_at(&c->still[i], x, y);
+        if (outside < 0)
+            continue;
+        uint32_t mask = UINT32_MAX, all = 0;
+        for (int i = 0; i < c->turns && mask != 0; i++) {
+            const struct timemask_turning *t = &c->turn[i];
+            int32_t start = timemask_plane_at(&t->start, x, y), end = timemask_plane_at(&t->end, x, y);
+            int32_t bow = timemask_plane_at(&t->bow, x, y);
+            int32_t low = min_i32(start, end), high = max_i32(start, end);
+            low += bow < 0 ? (bow - 1) >> 1 : 0;
+            high += bow > 0 ? (bow + 1) >> 1 : 0;
+            if (low >= 0 || high < 0) {
+                mask &= (low >= 0) != t->reversed ? UINT32_MAX : 0;
+                continue;
+            }
+            uint32_t inside = turn_mask(start, end, bow, c->slots_log2);
+            mask &= t->reversed ? ~inside : inside;
+            all = 1;
+        }
+        if (mask == UINT32_MAX || (mask != 0 && all == 0))
+            out[count++] = run[k];
+        else
+            count += put_runs(out + count, x,
+                              mask & below(timemask_run_to(run[k])) & ~below(timemask_run_from(run[k])));
+    }
+    return count;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+/* A crossing on its way along a row. */
+struct walk {
+    int32_t mean, step, curvature, bend_step;
+};
+
+SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x, int32_t y)
+{
+    return (struct walk){ timemask_plane_at(&p->mean, x, y), p->mean.dx, timemask_plane_at(&p->curvature, x, y),
+                          p->curvature.dx };
+}
+
+/* The slot in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
+SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t slots_log2,
+                             enum timemask_form form)
+{
+    int32_t slot;
+    if (form == COVER_EVEN) {
+        slot = w->mean;
+    } else {
+        slot = mulh_i32(w->mean, w->curvature);
+        w->curvature = add_wrap(w->curvature, w->bend_step);
+    }
+    w->mean = add_wrap(w->mean, w->step);
+    if (form == COVER_BOWED) {
+        const int32_t most = 1 << (BENT_Q + slots_log2);
+        slot = clamp_i32(slot + (most >> 1), 0, most);
+        slot += ((slot >> 3) * ((most - slot) >> 3) >> (6 + slots_log2)) * p->bow >> 14;
+    }
+    return slot;
+}
+
+SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
+                              uint32_t *out, int enters, int leaves, enum timemask_form form)
+{
+    const int q = form == COVER_EVEN ? SLOT_Q : BENT_Q;
+    const int32_t slots = 1 << c->slots_log2;
+    /* Slots count from the segment's middle, but for bows. */
+    const int32_t half = (form == COVER_BOWED ? 0 : slots << q >> 1) + (1 << (q - 1));
+    struct walk enter[3], leave[3];
+    int32_t count = 0;
+    for (int i = 0; i < enters; i++)
+        enter[i] = walk_start(&c->enter[i], x0, y);
+    for (int i = 0; i < leaves; i++)
+        leave[i] = walk_start(&c->leave[i], x0, y);
+    for (int32_t x = x0; x < x1; x++) {
+        int32_t from = -half, to = (slots << q) - half;
+        for (int i = 0; i < leaves; i++)
+            to = min_i32(to, walk_on(&leave[i], &c->leave[i], c->slots_log2, form));
+        for (int i = 0; i < enters; i++)
+            from = max_i32(from, walk_on(&enter[i], &c->enter[i], c->slots_log2, form));
+        to = (to + half) >> q;
+        from = (from + half) >> q;
+        if (from < to)
+            out[count++] = timemask_run(x, from, to);
+    }
+    return count;
+}
+
+SMEAR_INLINE int32_t row_kind(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
+                              uint32_t *out, enum timemask_form form)
+{
+    switch (c->enters << 2 | c->leaves) {
+    case 0x1: return row_form(c, x0, x1, y, out, 0, 1, form);
+    case 0x4: return row_form(c, x0, x1, y, out, 1, 0, form);
+    case 0x5: return row_form(c, x0, x1, y, out, 1, 1, form);
+    case 0x6: return row_form(c, x0, x1, y, out, 1, 2, form);
+    case 0x9: return row_form(c, x0, x1, y, out, 2, 1, form);
+    default:  return row_form(c, x0, x1, y, out, c->enters, c->leaves, form);
+    }
+}
+
+int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, uint32_t *out)
+{
+    int32_t x0 = c->x0, x1 = c->x1, count;
+    for (int i = 0; i < c->lefts; i++)
+        x0 = max_i32(x0, (c->left[i].at + c->left[i].step * y) >> 16);
+    for (int i = 0; i < c->rights; i++)
+        x1 = min_i32(x1, ((c->right[i].at + c->right[i].step * y) >> 16) + 1);
+    if (x0 >= x1)
+        return 0;
+    if ((c->enters | c->leaves) == 0) {
+        const uint32_t run = timemask_run(0, 0, 1 << c->slots_log2);
+        for (int32_t x = x0; x < x1; x++)
+            out[x - x0] = run + (uint32_t)x;
+        count = x1 - x0;
+    } else if (c->form == COVER_EVEN) {
+        count = row_kind(c, x0, x1, y, out, COVER_EVEN);
+    } else if (c->form == COVER_BENT) {
+        count = row_kind(c, x0, x1, y, out, COVER_BENT);
+    } else {
+        count = row_kind(c, x0, x1, y, out, COVER_BOWED);
+    }
+    return (c->stills | c->turns) == 0 || count == 0 ? count : row_cut(c, y, out, count);
+}

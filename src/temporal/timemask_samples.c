@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT */
+/* timemask_samples.c - entries of pixels: taken, lost, merged, averaged. */
+#include "temporal/timemask_samples.h"
+
+void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
+                                int32_t slots_log2, bool linear)
+{
+    size_t pixels = (size_t)1 << pixels_log2;
+    b->any = (uint32_t *)memory;
+    b->held = b->any + pixels;
+    b->color = b->held + TIMEMASK_ENTRIES * pixels;
+    b->depth = (uint16_t *)(void *)(b->color + TIMEMASK_ENTRIES * pixels);
+    b->farthest = b->depth + TIMEMASK_ENTRIES * pixels;
+    b->count = (uint8_t *)(b->farthest + pixels);
+    b->pixels_log2 = pixels_log2;
+    b->slots_log2 = slots_log2;
+    b->linear = linear;
+}
+
+void smear_timemask_samples_clear(struct timemask_samples *b)
+{
+    size_t pixels = (size_t)1 << b->pixels_log2;
+    __builtin_memset(b->any, 0, pixels * sizeof *b->any);
+    __builtin_memset(b->farthest, 255, pixels * sizeof *b->farthest);
+    __builtin_memset(b->count, 0, pixels);
+}
+
+static inline uint32_t count_bits(uint32_t m)
+{
+    m -= m >> 1 & 0x55555555u;
+    m = (m & 0x33333333u) + (m >> 2 & 0x33333333u);
+    return ((m + (m >> 4)) & 0x0f0f0f0fu) * 0x01010101u >> 24;
+}
+
+/* ------------------------------------------------------------------ depth in time */
+
+uint32_t smear_timemask_slope(int32_t slope)
+{
+    uint32_t size = min_u32((uint32_t)abs_i32(slope), 15u << 14), sign = slope < 0 ? 128u : 0;
+    if (size < 8)
+        return sign | size;
+    int exponent = 29 - count_leading_zeros(size);
+    return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
+}
+
+/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of
+ * the exposure less b's, in 1/32, `slope` a's slope less b's. */
+static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
+{
+    int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
+    int32_t begin = depth + slope * (2 * first - last_slot), end = depth + slope * (2 * last - last_slot);
+    if (begin > 0 && end > 0)
+        return both;
+    if (begin <= 0 && end <= 0)
+        return 0;
+    /* They cross: slots before are those whose difference has the sign of the first. */
+    int32_t count = clamp_i32(-begin / (2 * slope), 0, last - first - 1) + 1;
+    uint32_t before = both & ((2u << (first + count - 1)) - 1u);
+    return begin > 0 ? before : both & ~before;
+}
+
+/* ------------------------------------------------------------------ merging */
+
+/* 2^22 / n, rounded up. */
+static const uint32_t over[33] = {
+    0, 4194304, 2097152, 1398102, 1048576, 838861, 699051, 599187, 524288, 466034, 419431, 381301,
+    349526, 322639, 299594, 279621, 262144, 246724, 233017, 220753, 209716, 199729, 190651, 182362,
+    174763, 167773, 161320, 155345, 149797, 144632, 139811, 135301, 131072
+};
+
+/* (a wa + b wb) / n with n = wa + wb slots: equal codes keep their mean. */
+static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
+{
+    uint32_t n = wa + wb, by = over[n];
+    if (linear) {       /* sums are below 2^21 */
+        uint32_t red = smear_srgb_decode[pixel_red(a)] * wa + smear_srgb_decode[pixel_red(b)] * wb;
+        uint32_t green = smear_srgb_decode[pixel_green(a)] * wa + smear_srgb_decode[pixel_green(b)] * wb;
+        uint32_t blue = smear_srgb_decode[pixel_blue(a)] * wa + smear_srgb_decode[pixel_blue(b)] * wb;
+        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5],
+                          smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
+                          smear_srgb_encode[mulh_u32(blue << 11, by) >> 5]);
+    }
+    /* Below 2^13: products with by / 2^4 fit. */
+    uint32_t red_blue = (a & 0xff00ffu) * wa + (b & 0xff00ffu) * wb + (n >> 1) * 0x10001u;
+    uint32_t green = pixel_green(a) * wa + pixel_green(b) * wb + (n >> 1);
+    by = (by + 15u) >> 4;
+    return ((red_blue >> 16) * by >> 18) << 16 | (green * by >> 18) << 8 | (red_blue & 0xffffu) * by >> 18;
+}
+
+static inline uint32_t distance(uint32_t a, uint32_t b)
+{
+    return a > b ? a - b : b - a;
+}
+
+struct entry {
+    uint32_t held, color, depth;
+};
+
+static inline struct entry entry_at(const struct timemask_samples *b, uint32_t pixel, uint32_t i)
+{
+    uint32_t at = (i << b->pixels_log2) + pixel;
+    return (struct entry){ b->held[at], b->color[at], b->depth[at] };
+}
+
+static inline void entry_put(struct timemask_samples *b, uint32_t pixel, uint32_t i, const struct entry *e)
+{
+    uint32_t at = (i << b->pixels_log2) + pixel;
+    b->held[at] = e->held;
+    b->color[at] = e->color;
+    b->depth[at] = (uint16_t)e->depth;
+}
+
+/* Two entries in one: in the course of the longer. */
+static struct entry entry_join(const struct entry *a, const struct entry *b, bool linear)
+{
+    uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
+    const struct entry *longer = wa < wb ? b : a;
+    struct entry e = { a->held | b->held, longer->color, longer->depth };
+    if ((a->color ^ b->color) << 8 != 0)
+        e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
+    return e;
+}
+
+enum { ALIKE = 48 * 64 };       /* no need to look for better ones */
+
+/* How much it matters that two entries become one: by depth and colour. */
+static inline uint32_t apart(const struct entry *a, const struct entry *b)
+{
+    uint32_t color = distance(pixel_red(a->color), pixel_red(b->color))
+                   + distance(pixel_green(a->color), pixel_green(b->color))
+                   + distance(pixel_blue(a->color), pixel_blue(b->color));
+    return (distance(a->depth, b->depth) + 16u) * (color + 16u);
+}
+
+/* All entries are taken: two that are alike share one. What is new first
+ * looks for one like itself, from the latest on. */
+static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, const struct entry *fresh)
+{
+    struct entry all[TIMEMASK_ENTRIES];
+    uint32_t first = 0, second = TIMEMASK_ENTRIES, least = UINT32_MAX;
+    for (uint32_t i = TIMEMASK_ENTRIES; i-- > 0 && least > ALIKE;) {
+        all[i] = entry_at(b, pixel, i);
+        uint32_t d = apart(&all[i], fresh);
+        if (d < least) {
+            least = d;
+            first = i;
+        }
+    }
+    for (uint32_t i = 0; i < TIMEMASK_ENTRIES && least > 4 * ALIKE; i++)
+        for (uint32_t j = i + 1; j < TIMEMASK_ENTRIES; j++) {
+            uint32_t d = apart(&all[i], &all[j]);
+            if (d < least) {
+                least = d;
+                first = i;
+                second = j;
+            }
+        }
+    struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh,
+                                     b->linear);
+    entry_put(b, pixel, first, &joined);
+    if (second < TIMEMASK_ENTRIES)
+        entry_put(b, pixel, second, fresh);
+    /* It goes on in the longer's course for the other's slots, too. */
+    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->slots_log2) - 1) >> 5;
+    int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
+    if (lowest < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)lowest;
+}
+
+/* ------------------------------------------------------------------ fragments */
+
+void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, const struct timemask_fragment *f)
+{
+    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    uint32_t mask = f->mask, n = b->count[pixel];
+    for (uint32_t i = 0; i < n;) {
+        uint32_t at = (i << b->pixels_log2) + pixel, both = b->held[at] & mask;
+        if (both != 0) {
+            int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
+            int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
+            uint32_t taken = deeper > most   ? both
+                           : deeper <= -most ? 0
+                                             : nearer_slots(deeper, turn, both, last_slot);
+            mask &= ~both | taken;
+            b->held[at] &= ~taken;
+            if (b->held[at] == 0) {     /* the last one takes its place */
+                struct entry last = entry_at(b, pixel, --n);
+                entry_put(b, pixel, i, &last);
+                continue;
+            }
+        }
+        i++;
+    }
+    b->count[pixel] = (uint8_t)n;
+    if (mask == 0)
+        return;
+    b->any[pixel] |= mask;
+    if (f->low < b->farthest[pixel])
+        b->farthest[pixel] = (uint16_t)f->low;
+    for (uint32_t i = n; i-- > 0;) {
+        uint32_t at = (i << b->pixels_log2) + pixel;
+        if (timemask_is_same(b, at, f->color, f->depth)) {
+            b->held[at] |= mask;
+            return;
+        }
+    }
+    struct entry fresh = { mask, f->color, (uint32_t)f->depth };
+    if (n == TIMEMASK_ENTRIES) {
+        merge(b, pixel, &fresh);
+        return;
+    }
+    entry_put(b, pixel, n, &fresh);
+    b->count[pixel] = (uint8_t)(n + 1);
+}
+
+int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
+                                    int32_t stride)
+{
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    int32_t farthest = UINT16_MAX;
+    for (int32_t y = 0; y < rows; y++)
+        for (int32_t i = y * stride; i < y * stride + width; i++) {
+            if (b->any[i] != all)
+                return 0;
+            farthest = min_i32(farthest, b->farthest[i]);
+        }
+    return farthest;
+}
+
+/* ------------------------------------------------------------------ means */
+
+/* Linear light. */
+static uint32_t mean_linear(const struct timemask_samples *b, uint32_t pixel, uint32_t still)
+{
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red = half, green = half, blue = half;
+    for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
+        bool own = i < b->count[pixel];
+        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : still;
+        rest -= n;
+        red += n * smear_srgb_decode[pixel_red(color)];
+        green += n * smear_srgb_decode[pixel_green(color)];
+        blue += n * smear_srgb_decode[pixel_blue(color)];
+    }
+    const int down = b->slots_log2 + 4;
+    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down],
+                      smear_srgb_encode[blue >> down]);
+}
+
+uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t still)
+{
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2)), count = b->count[pixel];
+    if (count == 1 && b->held[pixel] == all)
+        return b->color[pixel] & 0xffffffu;
+    if (b->linear)
+        return mean_linear(b, pixel, still);
+    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
+    for (uint32_t i = 0, at = pixel; i < count; i++, at += 1u << b->pixels_log2) {
+        uint32_t n = count_bits(b->held[at]), color = b->color[at];
+        rest -= n;
+        red_blue += (color & 0xff00ffu) * n;
+        green += (color >> 8 & 0xffu) * n;
+    }
+    red_blue += (still & 0xff00ffu) * rest;
+    green += (still >> 8 & 0xffu) * rest;
+    return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
+}
+
+/* ------------------------------------------------------------------ sums */
+
+/* Adds n slots of a colour. */
+static inline void sum_add(uint32_t sum[TIMEMASK_SUM_WORDS], uint32_t color, uint32_t n, bool linear)
+{
+    if (linear) {
+        sum[0] += n * smear_srgb_decode[pixel_red(color)];
+        sum[1] += n * smear_srgb_decode[pixel_green(color)];
+        sum[2] += n * smear_srgb_decode[pixel_blue(color)];
+        sum[3] += n;
+    } else {
+        sum[0] += (color & 0xff00ffu) * n;
+        sum[1] += (pixel_green(color) << 16 | 1u) * n;
+    }
+}
+
+void smear_timemask_samples_sum(const struct timemask_samples *b, uint32_t pixel,
+                              uint32_t sum[TIMEMASK_SUM_WORDS])
+{
+    sum[0] = sum[1] = sum[2] = sum[3] = 0;
+    for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2)
+        sum_add(sum, b->color[at], count_bits(b->held[at]), b->linear);
+}
+
+void smear_timemask_samples_sum_before(const struct timemask_samples *b, uint32_t pixel, int32_t code,
+                                     uint32_t sum[TIMEMASK_SUM_WORDS])
+{
+    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    sum[0] = sum[1] = sum[2] = sum[3] = 0;
+    for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2) {
+        int32_t nearer = ((int32_t)b->depth[at] - code) * 32, slope = timemask_slope_of(b->color[at]);
+        sum_add(sum, b->color[at], count_bits(nearer_slots(nearer, slope, b->held[at], last_slot)),
+                b->linear);
+    }
+}
