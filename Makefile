@@ -60,7 +60,7 @@ CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers tables clean
+.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers house tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -137,6 +137,10 @@ readme-pictures: $(BIN)/smear-demo
 ## files of src/ include only what lies above them
 layers:
 	sh tests/layers.sh $(ROOMS)
+
+## how src/ is built, measured: longest functions, switches of the top floor
+house:
+	sh tests/house.sh
 
 ## writes src/base/tables.c again
 tables: build/gentables
