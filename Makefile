@@ -7,7 +7,7 @@ BUILD  := build/$(TARGET)
 .DEFAULT_GOAL := all
 
 OPT    ?= -O2
-CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -MMD -MP $(OPT)
+CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP $(OPT)
 
 # SAN=1: address and undefined behaviour sanitizers. CHECK=1: every fixed-point promise is checked.
 ifeq ($(SAN),1)
@@ -49,7 +49,7 @@ DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c p
         png_write.c ppm.c) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
         present_surface.c scene.c stage.c)
-REF_SRC   := $(wildcard tests/ref_*.c) tests/filter_ref.c
+REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
@@ -121,13 +121,13 @@ $(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
 $(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -static -o $@ $^ -lm -lpthread
 
-$(BUILD)/view_linux_init: tests/view_linux_init.c
+$(BUILD)/view_linux_init: tests/shell/view_linux_init.c
 	$(CC) -std=c11 -D_DEFAULT_SOURCE -Os -static -Wall -Wextra -o $@ $<
 
-$(BUILD)/mkcpio: tests/mkcpio.c
+$(BUILD)/mkcpio: tests/shell/mkcpio.c
 	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
 
-$(BUILD)/view_x11_user: $(call objects,tests/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+$(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## pictures of the README again
@@ -136,11 +136,11 @@ readme-pictures: $(BIN)/smear-demo
 
 ## files of src/ include only what lies above them
 layers:
-	sh tests/layers.sh $(ROOMS)
+	sh tests/shell/layers.sh $(ROOMS)
 
 ## how src/ is built, measured: longest functions, switches of the top floor
 house:
-	sh tests/house.sh
+	sh tests/shell/house.sh
 
 ## writes src/base/tables.c again
 tables: build/gentables
@@ -156,7 +156,7 @@ build/gentables: tools/gentables.c
 ## what `make dist` and `make install` write, compiled and run
 dist-test: dist build/tapes/golden.c
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
-	sh tests/dist.sh
+	sh tests/shell/dist.sh
 
 ## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
 dist: build/dist-single
@@ -189,7 +189,8 @@ help:
 # ---------------------------------------------------------------------- tests
 
 EXR_SUITES := exr
-ALL_SUITES := $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+# Suites of one source file each, and suites of frames, tools and measures: suite_NAME() in test_NAME.c.
+ALL_SUITES := $(patsubst test_%.c,%,$(notdir $(wildcard tests/unit/test_*.c tests/suite/test_*.c)))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath path raster tables texture tilemax,$(ALL_SUITES))
@@ -199,20 +200,21 @@ SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fix
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
-EXR_SRC  := tests/exr.c
+EXR_SRC  := tests/suite/exr.c
 endif
 
 # The chart without what measures.
 CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
-TEST_SRC := tests/run.c tests/test.c tests/accuracy.c tests/rig.c $(wildcard tests/failures*.c) $(SUITES:%=tests/test_%.c) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
+TEST_SRC := tests/run.c tests/test.c tests/rig.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
+    $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
-$(BUILD)/tests/run.o: $(wildcard tests/test_*.c)
+$(BUILD)/tests/run.o: $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
@@ -231,8 +233,8 @@ run-suite: $(TESTS)
 
 test-headers:
 	@mkdir -p $(BUILD)
-	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/header.c
-	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/header.c
+	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/unit/header.c
+	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c
 
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c
@@ -249,18 +251,18 @@ test-readme: $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme_timed.ppm
 	! cmp -s $(BUILD)/readme.ppm $(BUILD)/readme_timed.ppm
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
-	    grep -q "RUN($$name);" tests/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
+	    grep -q "RUN($$name);" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 
 FUZZ_CC := clang-14
-FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -DSMEAR_CHECK=1
-FUZZERS := $(patsubst tests/fuzz_%.c,%,$(wildcard tests/fuzz_*.c))
+FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -I. -DSMEAR_CHECK=1
+FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC))
 
 build/fuzz/obj/%.o: %.c
 	@mkdir -p $(@D)
 	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -MMD -MP -c -o $@ $<
 
-build/fuzz/%: tests/fuzz_%.c $(FUZZ_OBJ)
+build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm
 
@@ -270,9 +272,9 @@ build/fuzz/%: tests/fuzz_%.c $(FUZZ_OBJ)
 ## fuzzers of blobs, models, pictures and the library (needs clang-14), FUZZ_SECONDS=10 each
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
-	    mkdir -p build/fuzz/found-$$name tests/corpus/$$name && \
+	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
 	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
-	        build/fuzz/found-$$name tests/corpus/$$name || exit 1; \
+	        build/fuzz/found-$$name tests/fuzz/corpus/$$name || exit 1; \
 	done
 
 include platform/programs.mk
@@ -282,7 +284,7 @@ include tools/web/web.mk
 NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)
 $(BUILD)/demo-screen:  $(filter-out $(NOT_OF_SCREENS),$(FIRMWARE_OBJ))
 $(BUILD)/model-screen: $(filter-out $(NOT_OF_SCREENS),$(MODEL_OBJ))
-$(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/tests/target_print.o $(BUILD)/libsmear-display.a $(LIB)
+$(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/platform/print.o $(BUILD)/libsmear-display.a $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
@@ -290,17 +292,15 @@ cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
 	$(RUN_BENCH) $< > $(BUILD)/cost.txt
 	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
 
-build/tapes/view_cost: tests/view_cost.c tools/view/cost.c $(TAPES_SRC)
+build/tapes/view_cost: tests/target/view_cost.c tools/view/cost.c $(TAPES_SRC)
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -Itests -o $@ \
-	    $(filter-out tests/target_tapes.c,$^) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ \
+	    $(filter-out tests/target/target_tapes.c,$^) -lm
 
 build/tapes/cost.c: build/tapes/view_cost
 	build/tapes/view_cost tapes $@ build/tapes/cost.counts
 
-$(BUILD)/build/tapes/cost.o: CFLAGS += -Itests
-
-$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) tests/target_print.c tests/target_bench.c tests/play.c build/tapes/cost.c) $(LIB)
+$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) platform/print.c tests/target/target_bench.c platform/play.c build/tapes/cost.c) $(LIB)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -15,7 +15,7 @@
 #include "display.h"
 #include "platform.h"
 
-#include "../tests/target_print.h"
+#include "print.h"
 
 #include <stdbool.h>
 

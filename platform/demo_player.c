@@ -2,7 +2,7 @@
 /* demo_player.c - see demo_player.h. */
 #include "demo_player.h"
 
-#include "../tests/play.h"
+#include "play.h"
 
 #define DAY 0xa9d6efu
 

@@ -4,7 +4,7 @@
  *
  *     demo_props OUT.c
  *
- * The output holds one tape (tests/play.h) per level of detail, named as in levels[]; its only
+ * The output holds one tape (platform/play.h) per level of detail, named as in levels[]; its only
  * frame has one draw per prop, in the order of demo_scene.h. Metres; x is the way the car drives,
  * y up, z to its right. */
 #include "demo_scene.h"

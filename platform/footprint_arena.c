@@ -4,7 +4,7 @@
  * (tiles of 16); timed with one. 0: refused. */
 #include "platform.h"
 
-#include "../tests/target_print.h"
+#include "print.h"
 
 #include <smear.h>
 

@@ -12,7 +12,7 @@
 # A switch's row says how much less flash there is than with everything.
 set -u
 [ $# -gt 0 ] || set -- cortex-m0plus:-Os cortex-m33:-O2
-. tests/lib.sh
+. tests/shell/lib.sh
 out=build/footprint/switches
 roots=$(interface)
 mkdir -p "$out"
@@ -24,7 +24,7 @@ measure() {
     shift
     list=$out/$target$optimization-$name
     # shellcheck disable=SC2086
-    sh tests/compile_cached.sh "$out/$target$optimization" "$list.list" $compile $optimization -Wall -Werror \
+    sh tests/shell/compile_cached.sh "$out/$target$optimization" "$list.list" $compile $optimization -Wall -Werror \
         -fcallgraph-info=su "$@" -- src/*.c src/*/*.c || exit 1
     # shellcheck disable=SC2046,SC2086
     {

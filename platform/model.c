@@ -11,7 +11,7 @@
 #include "display.h"
 #include "platform.h"
 
-#include "../tests/target_print.h"
+#include "print.h"
 
 #include MODEL_HEADER
 

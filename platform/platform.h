@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* platform.h - what the programs for targets (tests/target_*.c) need of a machine. The library
+/* platform.h - what the programs for targets (tests/target) need of a machine. The library
  * needs nothing of it and never includes this file. main() is an ordinary main: arguments and
  * status work. */
 #ifndef SMEAR_PLATFORM_H

@@ -4,7 +4,7 @@
 # Uses BUILD (build/$(TARGET)), LIB_SRC and LIB (the library's sources, and its archive for the
 # target), the pattern rule $(BUILD)/%.o: %.c, what target.mk sets, and
 #   UNIT_SUITES   test suites that need neither libc nor floating point: NAME stands for
-#                 suite_NAME() in tests/test_NAME.c
+#                 suite_NAME() in tests/unit/test_NAME.c
 #   HOST_CC       the host's compiler, for the program that records the tapes
 #   SCRIPTS       linker scripts; TARGET_TESTS: golden, where unit tests take too long
 #   PLATFORM_OBJ  further objects of the port; RUN_NEEDS: what RUN needs to be built first
@@ -15,30 +15,28 @@
 #
 # A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
 # DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
-# tests/target_demo.sh and platform/lm3s6965evb/target.mk. For demo-run and model-run, SHOW is a command
+# tests/shell/target_demo.sh and platform/lm3s6965evb/target.mk. For demo-run and model-run, SHOW is a command
 # if it is not to run the program; SHOWN is what their names end in where other programs are shown.
 
 HOST_CC      ?= cc
 TARGET_TESTS ?= unit golden
 
 TAPES     := build/tapes
-TAPES_SRC := tests/target_tapes.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
+TAPES_SRC := tests/target/target_tapes.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
              $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
 
-PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(PLATFORM_OBJ) $(BUILD)/tests/target_print.o
-PLAYER_OBJ  := $(PROGRAM_OBJ) $(BUILD)/tests/target_golden.o $(BUILD)/tests/play.o
+PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(PLATFORM_OBJ) $(BUILD)/platform/print.o
+PLAYER_OBJ  := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_golden.o $(BUILD)/platform/play.o
 GOLDEN_OBJ  := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/golden.o
 SMALL_OBJ   := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/small.o
-BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target_bench.o $(BUILD)/tests/play.o \
+BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_bench.o $(BUILD)/platform/play.o \
                $(BUILD)/$(TAPES)/bench.o
-UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target_unit.o $(BUILD)/tests/test.o \
-               $(UNIT_SUITES:%=$(BUILD)/tests/test_%.o)
-
-$(BUILD)/$(TAPES)/%.o: CFLAGS += -Itests
+UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_unit.o $(BUILD)/tests/test.o \
+               $(UNIT_SUITES:%=$(BUILD)/tests/unit/test_%.o)
 
 $(TAPES)/target_tapes: $(TAPES_SRC)
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -Itests -o $@ $(TAPES_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ $(TAPES_SRC) -lm
 
 $(TAPES)/golden.c: $(TAPES)/target_tapes tests/golden.txt
 	$(TAPES)/target_tapes golden $@ tests/golden.txt
@@ -49,7 +47,7 @@ $(TAPES)/small.c: $(TAPES)/target_tapes tests/golden.txt
 $(TAPES)/bench.c: $(TAPES)/target_tapes
 	$(TAPES)/target_tapes bench $@
 
-$(BUILD)/tests/target_unit.o: CFLAGS += \
+$(BUILD)/tests/target/target_unit.o: CFLAGS += \
     -D'TARGET_SUITES=$(foreach suite,$(UNIT_SUITES),SUITE($(suite)))'
 
 $(BUILD)/target_golden$(EXE): $(GOLDEN_OBJ) $(LIB) $(SCRIPTS)
@@ -70,12 +68,12 @@ $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 .PHONY: switches-test
 ## golden frames with each switch of smear_config.h off
 switches-test: $(TAPES)/golden.c
-	sh tests/target_switches.sh build/switches
+	sh tests/shell/target_switches.sh build/switches
 
 # ---------------------------------------------------------------------- template
 
 # platform/template with one core and with two, on a board of threads; and for a real core.
-TEMPLATE_SRC := platform/template/firmware.c tests/target_template.c tools/image/crc32.c
+TEMPLATE_SRC := platform/template/firmware.c tests/target/target_template.c tools/image/crc32.c
 
 $(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
@@ -106,12 +104,11 @@ FIRMWARE_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform
                 $(BUILD)/platform/demo_player.o $(BUILD)/platform/demo_scene.o \
                 $(BUILD)/$(PROPS)/props.o
 
-$(BUILD)/$(PROPS)/props.o: CFLAGS += -Itests
 $(BUILD)/platform/demo.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"'
 
 $(PROPS)/demo_props: $(PROPS_SRC) platform/demo_scene.h
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -o $@ $(PROPS_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ $(PROPS_SRC) -lm
 
 $(PROPS)/props.c: $(PROPS)/demo_props
 	$(PROPS)/demo_props $@
@@ -120,11 +117,11 @@ $(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
-SCREEN_SRC := tests/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
+SCREEN_SRC := tests/target/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
               $(LIB_SRC) $(wildcard tools/image/*.c)
 
 $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -Itests -o $@ $(SCREEN_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -I. -o $@ $(SCREEN_SRC) -lm
 
 .PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
 ## the demo as firmware for TARGET
@@ -141,7 +138,7 @@ demo-run: $(BUILD)/demo$(SHOWN)$(EXE) $(RUN_NEEDS)
 
 ## its frames and, where there is a display, screenshots against the host's
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
-	RUN="$(RUN)" sh tests/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
+	RUN="$(RUN)" sh tests/shell/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
 
 print-run:
 	@echo $(RUN)
@@ -188,7 +185,7 @@ tiny-firmware: $(BUILD)/tiny$(EXE)
 ## its frames against the host's, and what it takes
 tiny-test: $(BUILD)/tiny$(EXE) $(RUN_NEEDS)
 	$(MAKE) --no-print-directory -s TARGET=host build/host/tiny
-	RUN="$(RUN)" SIZE="$(SIZE)" sh tests/target_tiny.sh $(BUILD)/tiny-test $< build/host/tiny
+	RUN="$(RUN)" SIZE="$(SIZE)" sh tests/shell/target_tiny.sh $(BUILD)/tiny-test $< build/host/tiny
 
 ## instructions per frame
 tiny-cost: $(BUILD)/tiny$(EXE)
@@ -199,7 +196,7 @@ tiny-cost: $(BUILD)/tiny$(EXE)
 ERROR_SRC := platform/device_error.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c $(LIB_SRC)
 
 $(PROPS)/device_error: $(ERROR_SRC) platform/demo_player.h platform/demo_scene.h
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -Itests -o $@ $(ERROR_SRC) -lm
+	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -I. -o $@ $(ERROR_SRC) -lm
 
 .PHONY: device-chart
 ## speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"
@@ -252,7 +249,7 @@ model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 .PHONY: symbols-test
 ## what the firmware calls, from its symbols
 symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
-	HOOKS='$(SYMBOLS_HOOKS)' sh tests/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
+	HOOKS='$(SYMBOLS_HOOKS)' sh tests/shell/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 

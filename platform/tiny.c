@@ -10,7 +10,7 @@
 #include "tiny.h"
 #include "tiny_plane.h"
 
-#include "../tests/target_print.h"
+#include "print.h"
 
 #include <stdbool.h>
 

@@ -63,7 +63,7 @@ exr() {
 suite layers $make -s layers
 jobs=-j$(getconf _NPROCESSORS_ONLN)
 suite build $make -s $jobs all build/host/run
-suite demo sh tests/demo.sh build/test/demo
+suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
 suite tables $make -s test-tables
 suite readme $make -s test-readme
@@ -77,21 +77,21 @@ else
     needs openexr-through-pkg-config "libopenexr-dev pkg-config" || true
 fi
 needs python3 "python3" || true        # cli.sh reads statistics with it
-suite command-line sh tests/cli.sh build/smear
-suite view sh tests/view.sh build/smear
+suite command-line sh tests/shell/cli.sh build/smear
+suite view sh tests/shell/view.sh build/smear
 suite build-demo-screen $make -s build/host/demo-screen
-suite view-display sh tests/view_display.sh build/host/demo-screen
+suite view-display sh tests/shell/view_display.sh build/host/demo-screen
 if needs tmux "tmux"; then
-    suite view-terminal sh tests/view_term.sh build/smear
+    suite view-terminal sh tests/shell/view_term.sh build/smear
 fi
 if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite build-x11-user $make -s build/host/view_x11_user
-    suite view-x11 sh tests/view_x11.sh build/smear build/host/view_x11_user
+    suite view-x11 sh tests/shell/view_x11.sh build/smear build/host/view_x11_user
 fi
 if needs wasm-ld-14 "clang-14 lld-14" && needs xz "xz-utils" && needs chromedriver "chromium chromium-driver" && needs node "nodejs"; then
     suite build-web $make -s web build/web/libc_test
     suite web-libc build/web/libc_test
-    suite web node tests/web.js build/web/index.html build/smear
+    suite web node tests/shell/web.js build/web/index.html build/smear
 fi
 suite golden-host $make -s TARGET=host target-test
 suite switches $make -s switches-test
@@ -100,15 +100,15 @@ needs pkg-config "pkg-config" || true
 suite dist $make -s dist-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
-suite device-chart sh tests/device_chart.sh build/test/device-chart
+suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
-suite view-sanitized sh tests/view.sh build/host-san-check/smear
+suite view-sanitized sh tests/shell/view.sh build/host-san-check/smear
 if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
-    suite view-linux sh tests/view_linux.sh build/smear build/kernel build/host/smear-static \
+    suite view-linux sh tests/shell/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
     suite demo-linux $make -s TARGET=linux demo-test
 fi
@@ -124,15 +124,15 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
     suite demo-rp2040 $make -s TARGET=rp2040 demo-test
-    suite model sh tests/target_model.sh build/smear tests/arm.gltf
+    suite model sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test
     fi
-    suite objects-cortex-m0plus sh tests/target_objects.sh build/objects
+    suite objects-cortex-m0plus sh tests/shell/target_objects.sh build/objects
     # 40 kB of code for the renderer and its filter: all surfaces and formats, SMEAR_RECONSTRUCT and SMEAR_ACCUMULATE.
     suite objects-core env CODE_LIMIT=40960 \
-        SWITCHES="$(sh tests/core_switches.sh)" sh tests/target_objects.sh build/objects-core
+        SWITCHES="$(sh tests/shell/core_switches.sh)" sh tests/shell/target_objects.sh build/objects-core
 fi
 if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
     suite target-rv32imc $make -s TARGET=rv32imc target-test

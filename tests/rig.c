@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* rig.c - see rig.h. */
-#include "rig.h"
+#include "tests/rig.h"
 
-#include "test.h"
+#include "tests/test.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* run.c - the test program of the host: `run` executes every suite, `run WORD` the tests whose name contains WORD.
- * The Makefile lists the suites: SUITE(name) stands for suite_name() in tests/test_name.c. */
-#include "test.h"
+ * The Makefile lists the suites: SUITE(name) stands for suite_name() in test_name.c of tests/unit or tests/suite. */
+#include "tests/test.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test.c - counts and prints; needs nothing but test_print(), so it runs on bare metal too. */
-#include "test.h"
+#include "tests/test.h"
 
 #include <stddef.h>
 

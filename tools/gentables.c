@@ -115,7 +115,7 @@ int main(void)
     static uint32_t t[4096];
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* tables.c - written by tools/gentables.c (`make tables`); do not edit. */\n"
-           "#include \"tables.h\"\n");
+           "#include \"base/tables.h\"\n");
 
     for (int i = 0; i < 512; i++)       /* the reciprocal of the middle of each 1/512 of [1, 2) */
         t[i] = (uint32_t)floor(2048 / (1 + (i + 0.5) / 512) + 0.5);

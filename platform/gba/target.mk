@@ -59,7 +59,7 @@ symbols-test: gba-stages-test
 .PHONY: gba-stages-test gba-hot
 ## no function of one stage is called in the other
 gba-stages-test: $(BUILD)/libsmear.a
-	sh tests/gba_stages.sh $<
+	sh tests/shell/gba_stages.sh $<
 
 ## chooses again what lies in the Game Boy Advance's fast memory, and when; HOT_WAYS: for which ways to blur
 gba-hot: $(BUILD)/gbarun

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* board.h - what firmware.c needs of a board. Copy this folder and write these functions; those a
- * board has no use for stay empty, as said at each. tests/target_template.c is a board made of
+ * board has no use for stay empty, as said at each. tests/target/target_template.c is a board made of
  * threads. */
 #ifndef SMEAR_TEMPLATE_BOARD_H
 #define SMEAR_TEMPLATE_BOARD_H

@@ -5,7 +5,7 @@
 #include "sheet.h"
 #include "take.h"
 
-#include "../../tests/ref.h"
+#include "../ref/ref.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "truth.h"
 
 #include "take.h"
-#include "../../tests/ref.h"
+#include "../ref/ref.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -11,8 +11,8 @@ from=tools/dist
 rm -rf "$out"
 version=$(sh "$from/version.sh")
 
-headers=$(sh tests/layers.sh --order "$@" | grep '\.h$')
-sources=$(sh tests/layers.sh --order "$@" | grep '\.c$')
+headers=$(sh tests/shell/layers.sh --order "$@" | grep '\.h$')
+sources=$(sh tests/shell/layers.sh --order "$@" | grep '\.c$')
 names=$(echo "$sources" | sed 's|^src/||')
 switches=$(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_config.h | grep -v _ALL)
 

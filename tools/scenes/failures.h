@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* failures.h - scenes fail/..., each the smallest in which a kind of motion blur is known to go
- * wrong; tests/test_failures.c measures what does. Host only.
+ * wrong; tests/suite/test_failures.c measures what does. Host only.
  *
  * Flat scenes have one unit per pixel, the origin in the middle, +Y up. The frame that stands for
  * a scene is at FAIL_TIME, and `shutters` counts time from there in whole frames, so that with a

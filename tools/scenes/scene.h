@@ -3,7 +3,7 @@
  *
  * Everything that draws on the host starts from a scene: files (scene_from_model), the built-in
  * scenes of tests, bench and demo (pure functions of time), and it ends in two places: present.h
- * hands it to the library in fixed point, tests/ref_*.c draws it in double precision. Both see
+ * hands it to the library in fixed point, tools/ref/ draws it in double precision. Both see
  * the same floats. */
 #ifndef SMEAR_TOOLS_SCENE_H
 #define SMEAR_TOOLS_SCENE_H

@@ -538,7 +538,7 @@ bool tape_write(struct tape_writer *w, const char *path, const char *command, st
         return false;
     if (w->tape_count == 0)
         return fail(f, "no tape was begun");
-    add(&out, "/* Written by %s; do not edit. */\n#include \"play.h\"\n\n", command);
+    add(&out, "/* Written by %s; do not edit. */\n#include \"platform/play.h\"\n\n", command);
     for (int i = 0; i < w->object_count; i++) {
         const struct object *o = &w->object[i];
         add(&out, "static const %s o%d%s = ", o->type, i, o->is_array ? "[]" : "");

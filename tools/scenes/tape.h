@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tape.h - records presented frames as C source that tests/play.c plays on any target. Host only.
+/* tape.h - records presented frames as C source that platform/play.c plays on any target. Host only.
  *
  * One source holds any number of tapes; what they have in common (a mesh used in every frame, a
  * texture used by two tapes) is stored once. Everything is const, so it stays in flash; numbers are
@@ -26,7 +26,7 @@ bool tape_begin(struct tape_writer *writer, const char *name, const smear_desc *
 bool tape_add(struct tape_writer *writer, const struct presented *frame, const uint32_t *crc,
               struct failure *f);
 
-/* Writes the source; it includes "play.h" and defines tape_list and tape_count. `command` goes into
+/* Writes the source; it includes "platform/play.h" and defines tape_list and tape_count. `command` goes into
  * its first lines: who wrote it. */
 bool tape_write(struct tape_writer *writer, const char *path, const char *command,
                 struct failure *f);

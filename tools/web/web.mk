@@ -91,12 +91,12 @@ web-chart: $(BIN)/smear-bench
 
 ## frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
 web-bench: $(WEB)/index.html
-	node tests/web_bench.js $(WEB)/index.html
+	node tests/shell/web_bench.js $(WEB)/index.html
 
 # Its numbers on the host, under names that leave the host's alone.
 WEB_NAMES := sin cos tan atan atan2 exp log pow powf fmod remainder frexp ldexp lround llround ilogb strtod snprintf vsnprintf printf \
     fprintf
-$(WEB)/libc_test: tests/web_libc.c $(addprefix tools/web/libc/,math.c decimal.c printf.c decimal.h math.h)
+$(WEB)/libc_test: tests/target/web_libc.c $(addprefix tools/web/libc/,math.c decimal.c printf.c decimal.h math.h)
 	@mkdir -p $(WEB)/host
 	for name in math decimal printf; do \
 	    $(CC) -std=c11 -O1 -ffp-contract=off -fno-builtin -fno-math-errno -isystem tools/web/libc -c -o $(WEB)/host/$$name.o \

@@ -1,0 +1,961 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# cli.sh - the program smear as its users meet it: every option, every file it writes, every error
+# line.
+#
+#     sh tests/shell/cli.sh build/smear
+#
+# Works in a folder of its own. Prints each claim that does not hold and, last,
+# `N passed, N failed`.
+
+. "$(dirname "$0")/lib.sh"
+of_program "$@"
+in_passing cli
+mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
+
+render() { works render "$@"; }
+
+fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject, and no file
+    status=$1
+    subject=$2
+    shift 2
+    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
+    run "$@"
+    left=$(ls -A "$base/empty")
+    cd "$base/work" || return 1
+    has_failed "$status" "$subject" || return 1
+    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
+    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
+}
+
+usage() { # SUBJECT ARGUMENTS...
+    claim "bad usage: smear $(shift; echo "$*")" fails 2 "$@"
+}
+
+input() { # SUBJECT ARGUMENTS...
+    claim "bad input: smear $(shift; echo "$*")" fails 1 "$@"
+}
+
+out_has() { has "$base/out" "$1"; }
+err_has() { has "$base/err" "$1"; }
+starts_with() { # FILE OCTAL-BYTES
+    start=$(od -An -to1 -N"$(echo $2 | wc -w)" "$1" | tr -s ' \n' ' ' | sed 's/^ //;s/ $//')
+    [ "$start" = "$2" ] || { echo "starts with $(od -An -c -N8 "$1")"; return 1; }
+}
+stat_of() { # FILE KEY: its first value
+    sed -n "s/.*\"$2\":\"\{0,1\}\([^,}\"]*\).*/\1/p" "$1" | head -1
+}
+value_of() { sed -n "s/^$1=//p" "$base/out"; }
+
+# bytes FILE [SKIP]: of a PPM, in decimal, one to a line, behind its three header lines
+ppm_bytes() { tail -n +4 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | grep .; }
+ppm_pixel() { # FILE WIDTH X Y
+    first=$((($4 * $2 + $3) * 3 + 1))
+    ppm_bytes "$1" | sed -n "$first,$((first + 2))p" | tr '\n' ' ' | sed 's/ $//'
+}
+# pfm_value FILE WIDTH HEIGHT CHANNELS X Y CHANNEL: PFM has the bottom row first
+pfm_value() {
+    tail -n +4 "$1" | od -An -v -tf4 | tr -s ' ' '\n' | grep . |
+        sed -n "$(((($3 - 1 - $6) * $2 + $5) * $4 + $7 + 1))p"
+}
+# The CRC-32 that gzip puts in its trailer
+crc_of() {
+    gzip -c | tail -c 8 | od -An -tx1 -N4 | awk '{ print $4 $3 $2 $1 }'
+}
+
+# ------------------------------------------------------------------ scenes of our own
+
+# A plate of 2x2 at z = 0 that slides along x at 8 units per second, or spins; a wall behind it; two
+# cameras at (0, 0, 4): 1 unit at z = 0 is an eighth of the height for the first one.
+cat >"$base/in/plate.gltf" <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"name":"root","children":[1,2,3,4]},{"name":"plate","mesh":0},
+ {"name":"wall","mesh":1,"translation":[0,1.5,-2],"scale":[3,0.5,1]},
+ {"name":"front","camera":0,"translation":[0,0,4]},
+ {"name":"flat","camera":1,"translation":[0,0,4]}],
+"cameras":[{"type":"perspective","perspective":{"yfov":1.5707963267948966,"znear":0.5,"zfar":20}},
+ {"type":"orthographic","orthographic":{"xmag":4,"ymag":4,"znear":0.5,"zfar":20}}],
+"materials":[{"name":"red","doubleSided":true,"extensions":{"KHR_materials_unlit":{}},
+  "pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},
+ {"name":"green","extensions":{"KHR_materials_unlit":{}},
+  "pbrMetallicRoughness":{"baseColorFactor":[0,0.5,0,1]}}],
+"extensionsUsed":["KHR_materials_unlit"],
+"meshes":[{"name":"quad","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},
+ {"name":"back","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1}]}],
+"animations":[{"name":"slide","samplers":[{"input":2,"output":3}],
+  "channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]},
+ {"name":"spin","samplers":[{"input":2,"output":4}],
+  "channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]}],
+"bufferViews":[
+ {"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},
+ {"buffer":0,"byteOffset":60,"byteLength":8},{"buffer":0,"byteOffset":68,"byteLength":24},
+ {"buffer":0,"byteOffset":92,"byteLength":32}],
+"accessors":[
+ {"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]},
+ {"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},
+ {"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+ {"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"},
+ {"bufferView":4,"componentType":5126,"count":2,"type":"VEC4"}],
+END
+# Corners, indices, two times, two places and two turns.
+printf '"buffers":[{"byteLength":124,"uri":"data:application/octet-stream;base64,%s%s%s"}]}\n' \
+    AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAA \
+    AAABAAIAAAACAAMAAAAAAAAAgD8AAIDAAAAAAAAAAAAAAIBAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/ \
+    AAAAAAAAAADXs10/AAAAPw== >>"$base/in/plate.gltf"
+plate=$base/in/plate.gltf
+sed 's/"mode":4,//;s/"material":1}/"material":1},{"attributes":{"POSITION":0},"mode":0}/' "$plate" \
+    >"$base/in/points.gltf"
+
+# A textured quad; the texture is drawn below.
+cat >"$base/in/card.obj" <<'END'
+mtllib card.mtl
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl card
+f 1/1 2/2 3/3 4/4
+END
+printf 'newmtl card\nKd 1 1 1\nmap_Kd card.png\n' >"$base/in/card.mtl"
+
+small="--size 48x32 --fps 4 --reach 8"
+moving="$plate $small --time 0.5"
+
+# ------------------------------------------------------------------ files
+
+claim "the scene's name names the default output" render "$plate" --size 32x24
+claim "it lies in the current folder" exists plate.png
+claim "the program says so" out_has '^wrote plate.png$'
+claim "a built-in scene's slash becomes a dash" render builtin:demo/race --size 32x24
+claim "the file is there" exists demo-race.png
+rm -f plate.png demo-race.png
+claim "statistics alone write no picture" render $moving --stats s.json
+claim "no picture" [ ! -e plate.png ]
+claim "repetitions alone write no picture" render $moving --repeat 2
+claim "times are printed instead" out_has '^frame=0 total_us=[0-9.]* crc32=[0-9a-f]\{8\}$'
+claim "no picture either" [ ! -e plate.png ]
+
+for kind in png ppm pfm gif apng; do
+    claim "writes .$kind" render $moving -o "out.$kind"
+done
+claim "PNG" starts_with out.png "211 120 116 107"
+claim "PPM is P6" starts_with out.ppm "120 066 012"
+claim "PFM in colour is PF" starts_with out.pfm "120 106 012"
+claim "GIF" starts_with out.gif "107 111 106 070 071 141"
+claim "APNG has PNG's signature" starts_with out.apng "211 120 116 107"
+claim "APNG has an animation chunk" grep -c acTL out.apng
+claim "endings may be capitals" render $moving -o OUT.PPM
+claim "which changes nothing" same out.ppm OUT.PPM
+claim "PPM header" equals "$(sed -n 2p out.ppm)" "48 32"
+claim "PFM header" equals "$(sed -n 2,3p out.pfm | tr '\n' ' ')" "48 32 -1.0 "
+claim "PFM has the bottom row first and codes / 255" equals \
+    "$(pfm_value out.pfm 48 32 3 24 16 0 | awk '{ printf "%d", $1 * 255 + 0.5 }')" \
+    "$(ppm_pixel out.ppm 48 24 16 | cut -d' ' -f1)"
+
+claim "numbered files" render "$plate" $small --frames 1-3 -o 'f-%03d.ppm'
+claim "first" exists f-001.ppm
+claim "last" exists f-003.ppm
+claim "no other" [ ! -e f-004.ppm ]
+claim "frame i shows i / fps" same f-002.ppm out.ppm
+claim "a pattern without width" render "$plate" $small --frames 2-3 -o 'g%d.ppm' --depth 'd%02d.pfm'
+claim "has no zeros" exists g2.ppm
+claim "patterns of other files" exists d02.pfm
+claim "animations hold many frames" render "$plate" $small --frames 2-5 -o four.gif
+claim "a true-colour one" render "$plate" $small --frames 2-5 -o four.apng
+claim "and are larger than a single frame" is_true "$(wc -c <four.apng) > $(wc -c <out.apng)"
+claim "A-A is one frame and fits a still file" render "$plate" $small --frames 2-2 -o one.ppm
+claim "the same one" same one.ppm out.ppm
+claim "--option=value" render "$plate" --size=48x32 --fps=4 --time=0.5 --reach=8 -o equals.ppm
+claim "is --option value" same equals.ppm out.ppm
+cp "$plate" ./--odd.gltf
+claim "-- ends the options" render $small --time 0.5 -o dashes.ppm -- --odd.gltf
+claim "what follows is a file" same dashes.ppm out.ppm
+
+# ------------------------------------------------------------------ defaults and the shutter
+
+claim "written-out defaults" render "$plate" --size 320x240 --fps 30 --time 0 --clip 0 --camera 0 \
+    --shutter 180 --exposure centred --poses previous --method auto --samples 8 --quality balanced \
+    --reach 5% --tile 16 --shutter-mode native --light linear --filter nearest --clear 000000 \
+    --format rgb888 --dither ordered --threads 1 -o written.ppm
+claim "no options" render "$plate" -o nothing.ppm
+claim "are the same" same written.ppm nothing.ppm
+claim "the target of balanced" render $moving --target 1.5 -o target.ppm
+claim "is the default" same target.ppm out.ppm
+turn="$plate $small --time 0.25 --clip spin"
+claim "what auto aims at" render $turn --method accumulate --samples 256 -o truth.ppm
+for quality in draft balanced fine; do
+    claim "--quality $quality" render $turn --quality $quality -o $quality.ppm
+    run compare truth.ppm $quality.ppm
+    eval "rmse_$quality=\$(value_of rmse)"
+done
+claim "fine is better than draft" is_true "$rmse_fine < $rmse_draft && $rmse_balanced <= $rmse_draft"
+claim "the target of fine" render $turn --target 0.5 -o target.ppm
+claim "is fine" same target.ppm fine.ppm
+claim "--target" render $moving --method reconstruct --target 0.5 -o target.ppm
+claim "without a target" render $moving --method reconstruct -o reconstruct.ppm
+claim "does not change reconstruct" same target.ppm reconstruct.ppm
+
+claim "--method none" render $moving --method none -o none.ppm
+claim "--shutter 0" render $moving --shutter 0 -o shut.ppm
+claim "is none" same none.ppm shut.ppm
+claim "--method auto" render $moving --method auto -o auto.ppm
+claim "is the default" same auto.ppm out.ppm
+claim "--method reconstruct" render $moving --method reconstruct -o reconstruct.ppm
+claim "it blurs" differ none.ppm reconstruct.ppm
+claim "--method subframes" render $moving --method subframes -o subframes.ppm
+claim "32 instants at most" render $moving --method subframes --samples 32 -o instants.ppm
+claim "are the default" same subframes.ppm instants.ppm
+claim "2 instants" render $moving --method subframes --samples 2 -o instants.ppm
+claim "are fewer" differ subframes.ppm instants.ppm
+claim "--method timemask" render $moving --method timemask -o timemask.ppm
+claim "32 slots" render $moving --method timemask --samples 32 -o slots.ppm
+claim "are the default" same timemask.ppm slots.ppm
+claim "32 slots of a turn" render $turn --method timemask -o turn32.ppm
+claim "8 slots" render $turn --method timemask --samples 8 -o turn8.ppm
+claim "are fewer" differ turn32.ppm turn8.ppm
+for method in object layered; do
+    claim "--method $method" render $moving --method $method --stats $method.json -o $method.ppm
+    claim "it blurs" differ none.ppm $method.ppm
+    claim "tiles are told" is_true "$(sed -n "s/.*\"$method\":\([0-9]*\).*/\1/p" $method.json) > 0"
+    claim "with 3 threads" render $moving --method $method --threads 3 -o threads.ppm
+    claim "the same" same threads.ppm $method.ppm
+    claim "of a masked node" render $moving --method $method --mask plate -o masked.ppm
+    claim "the same, for nothing else moves" same masked.ppm $method.ppm
+    claim "by its root's index" render $moving --method $method --mask 0 -o masked.ppm
+    claim "the same again" same masked.ppm $method.ppm
+    claim "of one that opts out" render $moving --method $method --motion plate=none -o calm.ppm
+    claim "is the sharp frame" same calm.ppm none.ppm
+    claim "with a shutter of 0" render $moving --method $method --shutter 0 -o calm.ppm
+    claim "too" same calm.ppm none.ppm
+done
+claim "--method accumulate" render $moving --method accumulate -o accumulate.ppm
+claim "it blurs, too" differ none.ppm accumulate.ppm
+claim "8 instants" render $moving --method accumulate --samples 8 -o eight.ppm
+claim "are the default" same accumulate.ppm eight.ppm
+claim "one instant" render $moving --method accumulate --samples 1 -o first.ppm
+claim "is the sharp frame" same first.ppm none.ppm
+claim "64 instants" render $moving --method accumulate --samples 64 -o many.ppm
+claim "exact instants" render $moving --method accumulate --samples 64 --exact -o exact.ppm
+run compare many.ppm exact.ppm
+claim "of linear motion are as the library moves it" is_true "$(value_of rmse) < 1.5"
+for method in "auto --quality fine" subframes timemask; do
+    claim "$method of linear motion" render $moving --method $method -o timed.ppm
+    run compare timed.ppm exact.ppm
+    claim "is near the truth" is_true "$(value_of rmse) < 1.5"
+    claim "$method with a shutter of 0" render $moving --method $method --shutter 0 -o timed.ppm
+    claim "is none" same timed.ppm none.ppm
+    claim "$method with a cut" render "$plate" $small --frames 2-2 --cut 2 --method $method -o timed.ppm
+    claim "is none" same timed.ppm none.ppm
+done
+claim "exact instants of a turn" render "$plate" $small --clip spin --time 0.5 --method accumulate \
+    --samples 32 --exact -o turn.ppm
+claim "differ from the sharp frame" differ turn.ppm none.ppm
+claim "an exact frame that is cut" render "$plate" $small --clip slide --frames 2-2 --cut 2 \
+    --method accumulate --exact -o exactcut.ppm
+claim "is sharp" same exactcut.ppm none.ppm
+claim "an exact shutter of 0" render $moving --method accumulate --exact --shutter 0 \
+    -o exactshut.ppm
+claim "is sharp" same exactshut.ppm none.ppm
+claim "fractions of a degree are rounded" render $moving --shutter 180.3 -o rounded.ppm
+claim "to whole ones" same rounded.ppm out.ppm
+claim "a longer shutter" render $moving --shutter 360 -o longer.ppm
+claim "blurs more" differ longer.ppm out.ppm
+
+exact="--method accumulate --exact --samples 16 --clip slide"
+claim "an exposure around t" render $moving $exact -o centred.ppm
+claim "one that ends at t" render "$plate" $small $exact --exposure trailing --time 0.5625 \
+    -o trailing.ppm
+claim "are the same instants" same centred.ppm trailing.ppm
+claim "one that starts at t" render "$plate" $small $exact --exposure leading --time 0.4375 \
+    -o leading.ppm
+claim "as well" same centred.ppm leading.ppm
+for exposure in trailing leading; do
+    claim "the filter's exposure" render $moving --exposure $exposure -o filter-$exposure.ppm
+    claim "may be $exposure" differ filter-$exposure.ppm out.ppm
+done
+turning="$plate $small --time 0.5 --clip spin --method accumulate"
+claim "the pose a frame ago" render $turning --poses previous -o previous.ppm
+claim "the poses of the shutter" render $turning --poses shutter -o poses.ppm
+claim "are different things for what turns" differ previous.ppm poses.ppm
+
+for flag in fence corner box direction uniform fence,corner,box,direction,uniform; do
+    claim "--reconstruct $flag" render $moving --method reconstruct --reconstruct $flag -o "flag-$flag.ppm"
+done
+claim "a box is no tent" differ flag-box.ppm reconstruct.ppm
+
+# ------------------------------------------------------------------ what moves, what is seen
+
+claim "clips by name" render "$plate" $small --time 0.25 --clip spin -o spin.ppm
+claim "clips by index" render "$plate" $small --time 0.25 --clip 1 -o one.ppm
+claim "are the same" same spin.ppm one.ppm
+claim "no clip" render "$plate" $small --time 0.25 --clip none -o still.ppm --stats still.json
+claim "holds still" equals "$(stat_of still.json still)" "$(stat_of still.json none)"
+claim "all clips" render "$plate" $small --time 0.25 --clip all -o all.ppm
+claim "do both" differ all.ppm spin.ppm
+claim "clips stop at their end" render "$plate" $small --time 1.5 -o end.ppm
+claim "and stay there" render "$plate" $small --time 7 -o later.ppm
+claim "without moving" same end.ppm later.ppm
+claim "or loop" render "$plate" $small --time 1.5 --loop -o loop.ppm
+claim "from their start" same loop.ppm out.ppm
+
+claim "cameras by name" render $moving --camera flat --method none -o flat.ppm
+claim "cameras by index" render $moving --camera 1 --method none -o camera1.ppm
+claim "are the same" same flat.ppm camera1.ppm
+claim "and others are not" differ flat.ppm none.ppm
+claim "an eye of one's own" render $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none \
+    -o eye.ppm
+claim "may be the file's" same eye.ppm none.ppm
+claim "--fov has a default" render $moving --eye 0,0,4 --look 0,0,0 -o fov.ppm
+claim "of 45 degrees" render $moving --eye 0,0,4 --look 0,0,0 --fov 45 -o fov45.ppm
+claim "indeed" same fov.ppm fov45.ppm
+
+claim "a node without motion" render $moving --motion plate=none --stats none.json -o calm.ppm
+claim "is not blurred" same calm.ppm none.ppm
+claim "nor with the camera's, which stands" render $moving --motion plate=camera -o calm.ppm
+claim "either" same calm.ppm none.ppm
+claim "by index, and all below" render $moving --motion 0=none -o calm.ppm
+claim "the same" same calm.ppm none.ppm
+claim "the last setting" render $moving --motion root=none --motion plate=full -o full.ppm
+claim "counts" same full.ppm out.ppm
+claim "a cut" render "$plate" $small --frames 1-3 --cut 2 -o 'cut%d.ppm'
+claim "has no motion" same cut2.ppm none.ppm
+claim "the frame before" same cut1.ppm f-001.ppm
+claim "and the one after have" same cut3.ppm f-003.ppm
+
+claim "clear colour" render $moving --clear 204060 --method none -o clear.ppm
+claim "in the corner" equals "$(ppm_pixel clear.ppm 48 0 31)" "32 64 96"
+claim "the plate is red" equals "$(ppm_pixel clear.ppm 48 24 16)" "255 0 0"
+claim "light may be encoded" render $moving --light encoded -o encoded.ppm
+claim "which mixes darker" differ encoded.ppm out.ppm
+claim "a texture" render builtin:demo/race --size 16x16 -o "$base/in/card.png"
+claim "nearest texels" render "$base/in/card.obj" --size 64x64 -o nearest.ppm
+claim "bilinear texels" render "$base/in/card.obj" --size 64x64 --filter bilinear -o bilinear.ppm
+claim "are not the same" differ nearest.ppm bilinear.ppm
+
+claim "a built-in scene has its size" render builtin:suite/translate -o builtin.ppm
+works info builtin:suite/translate
+claim "as told" equals "$(sed -n 2p builtin.ppm)" "$(sed -n 's/^size: //;1s/x/ /p' "$base/out")"
+claim "which can be changed" render builtin:suite/translate --size 64x48 --time 0.1 --fps 24 \
+    -o small.ppm
+claim "to another" equals "$(sed -n 2p small.ppm)" "64 48"
+run render "$base/in/points.gltf" $small -o points.ppm
+claim "points are skipped" equals "$rc" 0
+claim "with one warning" equals "$(wc -l <"$base/err" | tr -d ' ')" 1
+claim "that names the file" err_has "^smear: .*points.gltf: warning: "
+
+# ------------------------------------------------------------------ depth and velocity
+
+planes="$plate $small --time 0.5"
+claim "depth and velocity" render $planes --depth d.pfm --velocity v.pfm -o planes.ppm
+claim "leave the picture alone" same planes.ppm out.ppm
+claim "depth has one channel" starts_with d.pfm "120 146 012"
+claim "velocity has three" starts_with v.pfm "120 106 012"
+claim "depth in scene units" is_true "$(pfm_value d.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
+    4 - $(pfm_value d.pfm 48 32 1 24 16 0) < 0.004"
+claim "a background of infinity" equals "$(pfm_value d.pfm 48 32 1 0 31 0)" inf
+vx=$(pfm_value v.pfm 48 32 3 24 16 0)
+vy=$(pfm_value v.pfm 48 32 3 24 16 1)
+claim "velocity in pixels per frame" is_true "$vx > 7.96 && $vx < 8.04 && $vy < 0.02 && $vy > -0.02"
+claim "a background of zero" equals "$(pfm_value v.pfm 48 32 3 0 31 0)" 0
+claim "the third channel is zero" equals "$(pfm_value v.pfm 48 32 3 24 16 2)" 0
+claim "the same by another method and exposure" render $planes --depth d2.pfm --velocity v2.pfm \
+    --method none --exposure trailing --shutter 90 -o planes.ppm
+claim "depth" same d.pfm d2.pfm
+claim "velocity" same v.pfm v2.pfm
+claim "velocity from open to close" render $planes --poses shutter --velocity v3.pfm -o planes.ppm
+vx=$(pfm_value v3.pfm 48 32 3 24 16 0)
+claim "is per frame, too" is_true "$vx > 7.96 && $vx < 8.04"
+claim "of an exact frame, too" render $planes --method accumulate --exact --velocity v4.pfm \
+    -o planes.ppm
+claim "the same" same v.pfm v4.pfm
+claim "orthographic depth" render $planes --camera flat --depth d4.pfm -o planes.ppm
+claim "is in scene units" is_true "$(pfm_value d4.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
+    4 - $(pfm_value d4.pfm 48 32 1 24 16 0) < 0.004"
+
+# ------------------------------------------------------------------ the device
+
+claim "grey of 50 % is dithered" render $moving --clear 7f7f7f --format l1 -o l1.ppm
+claim "to black and white" equals "$(ppm_bytes l1.ppm | sort -nu | tr '\n' ' ')" "0 255 "
+claim "pages of 8 rows" render builtin:demo/race --size 45x30 --format l1pages -o pages.ppm
+claim "hold the same" render builtin:demo/race --size 45x30 --format l1 -o l1.ppm
+claim "picture" same pages.ppm l1.ppm
+claim "16 greys" render builtin:demo/race --size 47x32 --format l4 -o l4.ppm
+claim "are 17 apart" is_true "$(ppm_bytes l4.ppm | awk '{ s += $1 % 17 } END { print s + 0 }') == 0"
+claim "256 greys" render builtin:demo/race --size 48x32 --format l8 -o l8.ppm
+claim "rgb332" render builtin:demo/race --size 48x32 --format rgb332 -o rgb332.ppm
+claim "has 4 blues" is_true "$(ppm_bytes rgb332.ppm | awk 'NR % 3 == 0' | sort -nu | wc -l) <= 4"
+claim "rgb555" render $moving --clear 808080 --format rgb555 --dither none -o rgb555.ppm
+claim "rounds both ways to nearest" equals "$(ppm_pixel rgb555.ppm 48 0 31)" "132 132 132"
+claim "red stays red" equals "$(ppm_pixel rgb555.ppm 48 24 16)" "255 0 0"
+claim "rgb565" render $moving --clear 808080 --format rgb565 --dither none -o rgb565.ppm \
+    --stats le.json
+claim "has a finer green" equals "$(ppm_pixel rgb565.ppm 48 0 31)" "132 130 132"
+claim "high byte first" render $moving --clear 808080 --format rgb565be --dither none -o be.ppm \
+    --stats be.json
+claim "shows the same" same rgb565.ppm be.ppm
+claim "and has other bytes" is_true "\"$(stat_of le.json crc32)\" != \"$(stat_of be.json crc32)\""
+for dither in ordered blue none; do
+    claim "--dither $dither" render builtin:demo/race --size 48x32 --format rgb332 \
+        --dither $dither -o "dither-$dither.ppm"
+    claim "rgb888 and --dither $dither" render $moving --dither $dither -o "full-$dither.ppm"
+    claim "rgb888 is never dithered" same full-$dither.ppm out.ppm
+done
+claim "ordered is the default" same dither-ordered.ppm rgb332.ppm
+claim "blue is another" differ dither-blue.ppm dither-ordered.ppm
+claim "none a third" differ dither-none.ppm dither-ordered.ppm
+
+claim "statistics" render $moving --stats s.json -o out2.ppm
+claim "leave the picture alone" same out2.ppm out.ppm
+for key in frames frame time_s us submit raster reduce class blur merge convert total triangles in \
+    drawn dropped split pixels samples tiles still uniform complex methods none accumulate \
+    reconstruct smooth subframes timemask arena_bytes crc32; do
+    claim "statistics have $key" grep -c "\"$key\":" s.json
+done
+claim "pixels" equals "$(stat_of s.json pixels)" 1536
+claim "triangles" equals "$(stat_of s.json in)" 4
+claim "time" equals "$(stat_of s.json time_s)" 0.5
+if command -v gzip >/dev/null; then
+    claim "CRC-32 of red, green and blue" equals "$(stat_of s.json crc32)" \
+        "$(tail -n +4 out.ppm | crc_of)"
+    to565='{ v[NR % 3] = int($1 * (NR % 3 == 2 ? 63 : 31) / 255 + 0.5) }
+           NR % 3 == 0 { w = v[1] * 2048 + v[2] * 32 + v[0]
+                         printf "\\0%o\\0%o", w % 256, int(w / 256) }'
+    claim "CRC-32 of RGB565, low byte first" equals "$(stat_of le.json crc32)" \
+        "$(printf '%b' "$(ppm_bytes rgb565.ppm | awk "$to565")" | crc_of)"
+fi
+claim "statistics of several frames" render "$plate" $small --frames 3-5 --stats three.json
+claim "are one object each" equals "$(grep -c '"frame":' three.json)" 3
+if command -v python3 >/dev/null; then
+    claim "they are JSON" python3 -c 'import json, sys; json.load(open(sys.argv[1]))' three.json
+fi
+claim "statistics of accumulate" render $moving --method accumulate --samples 4 --stats acc.json
+claim "count its instants" equals "$(stat_of acc.json samples)" 6144
+claim "statistics of an exact frame" render $moving --method accumulate --exact --samples 4 \
+    --format l8 --stats acc.json -o acc.ppm
+claim "as well" equals "$(stat_of acc.json samples)" 6144
+claim "and its triangles" equals "$(stat_of acc.json in)" 16
+claim "medians" render $moving --repeat 5 --stats five.json -o five.ppm
+claim "of the same picture" same five.ppm out.ppm
+claim "with the same CRC" equals "$(stat_of five.json crc32)" "$(stat_of s.json crc32)"
+claim "medians of an exact frame" render $moving --method accumulate --exact --repeat 3 \
+    --stats five.json
+
+race="builtin:demo/race --size 96x64"
+claim "one core" render $race -o core1.ppm --stats core1.json
+for threads in 2 3 8; do
+    claim "$threads cores" render $race --threads $threads -o core.ppm --stats core.json
+    claim "draw the same" same core.ppm core1.ppm
+    claim "to the last bit" equals "$(stat_of core.json crc32)" "$(stat_of core1.json crc32)"
+done
+claim "several cores and sharp frames" render $race --threads 2 --method accumulate -o a2.ppm
+claim "draw" render $race --method accumulate -o a1.ppm
+claim "the same" same a1.ppm a2.ppm
+
+claim "an ample arena" render $race --arena 10000000 -o ample.ppm --stats ample.json
+claim "changes nothing" same ample.ppm core1.ppm
+claim "and is not filled" equals "$(stat_of ample.json arena_bytes)" \
+    "$(stat_of core1.json arena_bytes)"
+run render $race --arena 1000 -o no.ppm
+claim "no room" equals "$rc" 1
+claim "tells what is needed" err_has "^smear: builtin:demo/race: needs [0-9]* bytes"
+claim "and draws nothing" [ ! -e no.ppm ]
+need=$(sed -n 's/.* needs \([0-9]*\) bytes.*/\1/p' "$base/err")
+claim "the least arena" render $race --arena "${need:-0}" -o least.ppm --stats least.json
+claim "is all that is used" is_true "$(stat_of least.json arena_bytes) <= ${need:-0}"
+run render $race --arena "$((${need:-1} - 1))" -o no.ppm
+claim "one byte less is too little" equals "$rc" 1
+parts=0
+for more in 40000 120000 240000 280000 320000 360000; do
+    render $race --arena "$((${need:-0} + more))" -o tight.ppm --stats tight.json
+    [ "$(stat_of tight.json split)" -gt 0 ] && [ "$(stat_of tight.json dropped)" -eq 0 ] || continue
+    parts=$((parts + 1))
+    claim "a tight arena draws the same picture" same tight.ppm core1.ppm
+done
+claim "in parts" is_true "$parts > 0"
+
+for tile in 8 16 32 64; do
+    claim "--tile $tile" render $moving --tile $tile --stats tile.json -o tile.ppm
+    claim "does not change what blurs in closed form" same tile.ppm out.ppm
+done
+for method in reconstruct subframes timemask; do
+    claim "--method $method" render $moving --tile 64 --method $method --stats tile.json
+    claim "one tile of 64" equals "$(stat_of tile.json $method)" 1
+done
+claim "no other method" equals "$(stat_of tile.json subframes)" 0
+claim "a reach in pixels" render $moving --reach 4 -o reach4.ppm
+claim "a reach of a share" render $moving --reach 12.5% -o reach12.ppm
+claim "of the height" same reach4.ppm reach12.ppm
+claim "the default reach is at most a tile" render "$plate" --size 64x240 --method reconstruct --tile 8 -o tile8.ppm
+claim "as large as it" render "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8 -o tile88.ppm
+claim "so" same tile8.ppm tile88.ppm
+claim "tiles of 4" render "$plate" --size 64x48 --method reconstruct --tile 4 -o tile4.ppm
+claim "1x1" render "$plate" --size 1x1 -o tiny.ppm
+claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
+claim "2048 high" render "$plate" --size 1x2048 -o high.ppm
+
+claim "statistics into a device" render $moving --stats /dev/null
+claim "leave it one" [ -c /dev/null ]
+mkfifo pipe
+cat pipe >piped.json &
+claim "statistics into a pipe" render $moving --stats pipe
+wait
+claim "arrive there" grep crc32 piped.json
+ln -s linked.json link.json
+claim "statistics through a link" render $moving --stats link.json
+claim "arrive behind it" grep crc32 linked.json
+
+# ------------------------------------------------------------------ compare
+
+claim "equal pictures" works compare out.ppm out.png
+claim "are equal" equals "$(tr '\n' ' ' <"$base/out")" \
+    "rmse=0.000000 psnr=inf ssim=1.000000 flip=0.000000 "
+claim "as floats, too" works compare out.pfm out.png
+claim "exactly" out_has '^rmse=0.000000$'
+claim "different pictures" works compare none.ppm out.png --diff diff.png
+claim "have a difference" is_true "$(value_of rmse) > 1 && $(value_of psnr) < 50 &&
+    $(value_of ssim) < 1 && $(value_of flip) > 0"
+claim "to be looked at" exists diff.png
+claim "of two equal ones" works compare out.ppm out.png --diff diff.ppm
+claim "it is black" equals "$(ppm_bytes diff.ppm | sort -nu | tr '\n' ' ')" "0 "
+claim "--gain" works compare none.ppm out.ppm --diff gain1.ppm --gain 1
+claim "scales it" works compare none.ppm out.ppm --diff gain2.pfm --gain 2
+for bad in "compare out.png" "compare" "compare a b c" "compare a b --diff d.jpg" \
+    "compare a b --diff" "compare a b --gain 0" "compare a b --frob" "compare a b --diff d.gif" \
+    "compare a b --diff %x.png"; do
+    claim "bad usage: smear $bad" fails 2 '*' $bad
+done
+input missing.png compare missing.png missing.png
+printf 'not a picture' >"$base/in/text.png"
+input "$base/in/text.png" compare "$base/in/text.png" "$base/work/out.png"
+input "$base/work/d.pfm" compare "$base/work/d.pfm" "$base/work/d.pfm"
+input "$base/work/small.ppm" compare "$base/work/out.ppm" "$base/work/small.ppm"
+input nowhere/d.png compare "$base/work/out.ppm" "$base/work/out.png" --diff nowhere/d.png
+
+# ------------------------------------------------------------------ info and help
+
+claim "info of a file" works info "$plate"
+for line in '^nodes: 5$' '1 "plate" under 0, mesh 0' '^clips: 2$' '0 "slide" 1 s, 1 channels' \
+    '^cameras: 2$' '0 "front" perspective, yfov 90, near 0.5, far 20' '1 "flat" orthographic' \
+    '^materials: ' '"green" opaque' '^textures: 0$' '^meshes: 2$' '2 triangles, 4 vertices' \
+    '^skipped primitives: 0$' '^bounds at 0 s: -5 -1 -2 to 3 2 0$' '^triangles: 4$' \
+    '^memory at 320x240 (' '^memory at 240x240 (' '^  auto  *[0-9]* bytes: window 112640, ' \
+    '^  auto, no window  *[0-9]* bytes: window 30720, ' '^  reconstruct  *[0-9]* bytes: window 112640, ' \
+    '^  none  *[0-9]* bytes: window 30720, '; do
+    claim "has $line" out_has "$line"
+done
+cp "$base/out" info.txt
+for method in auto reconstruct; do
+    need=$(sed -n "/^memory at 240x240/,\$s/^  $method  *\([0-9]*\) bytes.*/\1/p" info.txt)
+    claim "memory as told for $method" render "$plate" --size 240x240 --format rgb565 --method $method \
+        --arena "${need:-1}" --stats need.json
+    claim "draws in one part" equals "$(stat_of need.json split)" 0
+done
+run info "$base/in/points.gltf"
+claim "info counts what is skipped" out_has '^skipped primitives: 1$'
+claim "info of a textured file" works info "$base/in/card.obj"
+claim "has its size" out_has '0 16x16$'
+claim "info of a built-in scene" works info builtin:suite/pan
+claim "has its frame rate" out_has '^fps: '
+claim "the built-in scenes" works info builtin:
+claim "are listed" out_has '^builtin:demo/race '
+usage info info
+usage --frob info --frob "$plate"
+usage b info a b
+input missing.glb info missing.glb
+input builtin:nosuch info builtin:nosuch
+
+for command in render convert compare info bench chart help; do
+    claim "help $command" works help $command
+    claim "names it" out_has "smear $command"
+    claim "$command --help" works $command --help
+done
+claim "help" works help
+claim "lists commands" out_has 'smear compare A B'
+claim "--help" works --help
+claim "-h" works -h
+works help render >/dev/null
+for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure \
+    poses method samples exact reconstruct quality target reach tile motion cut light format \
+    dither arena threads repeat depth velocity stats; do
+    claim "help knows --$option" out_has "--$option"
+done
+works help convert >/dev/null
+for option in name clip keep scale fit up texture texture-size colors filter normals influences \
+    clip-error rows fov distance max-triangles max-flash max-ram; do
+    claim "help convert knows --$option" out_has "--$option"
+done
+usage nosuch help nosuch
+usage compare help render compare
+
+# ------------------------------------------------------------------ convert
+
+claim "a header" works convert "$plate" -o plate.h
+for line in '^triangles: 4$' '^vertices: 8 of 8$' '^clips: 2$' '  0 "slide" 1 s, 1 channels, 2 keys of 2' \
+    '^flash: [0-9]* bytes (meshes ' '^ram: [0-9]* bytes an actor with 2 poses' \
+    '^largest position error: 0\.0[0-9]* px, at rest 0\.0' '^wrote plate.h$'; do
+    claim "has $line" out_has "$line"
+done
+claim "its names are the file's" grep -q '^static const smear_model plate_model = {$' plate.h
+claim "a name of one's own" works convert "$plate" --name my_plate -o other.h
+claim "is in the header" grep -q '^#define MY_PLATE_CLIP_SLIDE 0$' other.h
+claim "a blob" works convert "$plate" -o plate.smr
+claim "begins with SMR1" starts_with plate.smr "123 115 122 061"
+claim "the same again" works convert "$plate" -o again.smr
+claim "is the same" same plate.smr again.smr
+claim "one clip" works convert "$plate" --clip spin -o spin.smr
+claim "is another file" differ plate.smr spin.smr
+claim "knows one clip" out_has '^clips: 1$'
+claim "no clips" works convert "$plate" --clip none -o still.h
+claim "knows none" out_has '^clips: 0$'
+claim "nothing moves" out_has 'nodes: 0$'
+claim "kept nodes" works convert "$plate" --clip none --keep wall --keep 1 -o kept.h
+claim "are nodes" out_has 'nodes: 2$'
+claim "a texture" works convert "$base/in/card.obj" --texture-size 8 -o card.h
+claim "is shrunk" out_has '0 8x8 from 16x16, palette8, '
+claim "rgb565" works convert "$base/in/card.obj" --texture rgb565 --filter bilinear -o card.h
+claim "is said" out_has '0 16x16 from 16x16, rgb565, rms error '
+claim "baked" works convert "$base/in/card.obj" --texture baked -o card.h
+claim "has no texture" out_has '^textures: 0$'
+claim "has colours" grep -q card_face_color_0 card.h
+claim "everything at once" works convert "$plate" --scale 0.5 --up z --normals flat --influences 1 --colors 16 \
+    --clip-error 1 --rows 64 --fov 30 --distance 9 --max-triangles 4 --max-flash 99999 --max-ram 9999 -o all.h
+claim "says what a pixel is" out_has '(64 rows, 30 degrees, at 9 units)$'
+claim "to a size" works convert "$plate" --fit 3 -o fit.h
+input "$plate" convert "$plate" --max-triangles 3 -o no.h
+claim "says how many there are" err_has 'has 4 triangles, more than 3 (--max-triangles)'
+input "$plate" convert "$plate" --max-flash 100 -o no.h
+claim "says what takes it" err_has 'bytes of flash (meshes [0-9]*, textures 0, animation [0-9]*), more than 100'
+input "$plate" convert "$plate" --max-ram 100 -o no.h
+claim "says how much" err_has 'bytes of RAM with 2 poses, more than 100'
+input "$plate" convert "$plate" --scale 1e4 -o no.h
+claim "says that it is too large" err_has 'reaches .* units, more than 30000: use --scale or --fit'
+input missing.glb convert missing.glb -o no.h
+input '""' convert '' -o no.h
+input builtin:demo/race convert builtin:demo/race -o no.h
+claim "says why" err_has "built-in scenes"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n' >"$base/in/line.obj"
+for output in no.h no.smr; do
+    input "$base/in/line.obj" convert "$base/in/line.obj" -o $output
+    claim "says that there is nothing to draw" err_has "nothing to draw"
+done
+input nowhere/x.h convert "$plate" -o nowhere/x.h
+usage convert convert
+usage convert convert "$plate"
+usage -o convert "$plate" -o out.c
+usage two convert one two -o x.h
+usage --frob convert "$plate" --frob -o x.h
+usage --clip convert "$plate" --clip nosuch -o x.h
+usage --clip convert "$plate" --clip spin --clip 1 -o x.h
+usage --keep convert "$plate" --keep nosuch -o x.h
+usage --name convert "$plate" --name 3d -o x.h
+usage --name convert "$plate" --name Fox -o x.h
+for wrong in "--scale 0" "--scale -1" "--scale nan" "--fit 0" "--up x" "--texture png" "--texture-size 0" \
+    "--texture-size 5000" "--colors 1" "--colors 257" "--filter cubic" "--normals smooth" "--influences 5" \
+    "--influences 0" "--clip-error 0" "--rows 0" "--fov 180" "--distance 0" "--max-triangles 0" "--max-flash x"; do
+    usage "${wrong% *}" convert "$plate" $wrong -o x.h
+done
+
+# ------------------------------------------------------------------ bad usage
+
+claim "the version" works --version
+claim "is that of the packages" out_has "^smear $(cd "$here" && sh tools/dist/version.sh)\$"
+usage more --version more
+usage "no command"
+usage frobnicate frobnicate
+usage --frob chart --frob
+usage nosuch chart --scenes nosuch
+usage nosuch chart --methods nosuch
+usage --jobs chart --jobs
+usage 0 chart --jobs 0
+input nosuch.csv chart --from nosuch.csv
+: >"$base/in/empty.csv"
+input "$base/in/empty.csv" chart --from "$base/in/empty.csv"
+claim "says that no line is there" err_has "no line of a chart"
+usage nosuch bench nosuch
+usage render render
+usage two render one two
+usage --frob render "$plate" --frob
+usage -x render "$plate" -x
+usage -oout.png render "$plate" -oout.png
+usage --size render "$plate" --size
+usage --loop render "$plate" --loop=yes
+for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' \
+    99999999999999999999x1; do
+    usage --size render "$plate" --size "$size"
+done
+for fps in 0 -1 nan inf -inf 30x '' 1e99 0x10 ' 30' + .; do
+    usage --fps render "$plate" --fps "$fps"
+done
+for time in -1 nan inf 1s '' 1e99; do
+    usage --time render "$plate" --time "$time"
+done
+for frames in 1 1- -3 3-1 a-b 1-2-3 -1-2 1.5-2 '' 1-99999999999; do
+    usage --frames render "$plate" --frames "$frames" -o '%d.png'
+done
+for shutter in -1 nan inf 3601 180deg ''; do
+    usage --shutter render "$plate" --shutter "$shutter"
+done
+for samples in 0 -1 nan 1.5 65537 8x ''; do
+    usage --samples render "$plate" --samples "$samples"
+done
+usage --samples render "$plate" --samples 1025
+for reach in 0 -1 nan 0% -5% 'nan%' '%' 12px 1.5 101% ''; do
+    usage --reach render "$plate" --reach "$reach"
+done
+usage --reach render "$plate" --reach 65
+usage --reach render "$plate" --reach 17 --tile 16
+usage --tile render "$plate" --method auto --tile 4
+usage --reach render "$plate" --reach 50%
+for tile in 0 2 12 128 16.0 -8 ''; do
+    usage --tile render "$plate" --tile "$tile"
+done
+for target in 0 -1 nan inf 256 ''; do
+    usage --target render "$plate" --target "$target"
+done
+for clear in fff 0000000 '#00000' 00000g -00000 ''; do
+    usage --clear render "$plate" --clear "$clear"
+done
+for arena in 0 -1 1.5 64k nan ''; do
+    usage --arena render "$plate" --arena "$arena"
+done
+for threads in 0 9 -1 two ''; do
+    usage --threads render "$plate" --threads "$threads"
+done
+for repeat in 0 -1 1.5 ''; do
+    usage --repeat render "$plate" --repeat "$repeat"
+done
+for cut in -1 x 1.5 ''; do
+    usage --cut render "$plate" --cut "$cut"
+done
+for vector in 1,2 1,2,3,4 a,b,c 1,,3 nan,0,0 0,0,inf '' '1, 2,3'; do
+    usage --eye render "$plate" --eye "$vector" --look 0,0,0
+    usage --look render "$plate" --eye 9,9,9 --look "$vector"
+done
+for fov in 0 -1 180 nan ''; do
+    usage --fov render "$plate" --eye 0,0,4 --look 0,0,0 --fov "$fov"
+done
+for option in --exposure --poses --method --quality --light --filter --format --dither \
+    --shutter-mode --reconstruct; do
+    usage $option render "$plate" $option frob
+    usage $option render "$plate" $option ''
+done
+usage --reconstruct render "$plate" --reconstruct fence,
+usage --reconstruct render "$plate" --reconstruct fence,frob
+usage --inside render "$plate" --inside mean
+usage --inside render "$plate" --method camera --inside gauss
+usage --camera-step render "$plate" --method camera --camera-step 3
+usage --camera-step render "$plate" --method timemask --camera-step 2
+usage --pingpong render "$plate" --pingpong taps=8
+for list in taps=1 taps=65 passes=0 passes=4 base=1 bias=0 bias=256 jitter=2 jitter=nan frob frob=1 taps taps=8, =; do
+    usage --pingpong render "$plate" --method pingpong --pingpong "$list"
+done
+usage --reconstruct render "$plate" --method camera --reconstruct fence
+for method in camera "camera --camera-step 4 --inside reconstruct --reconstruct fence,box" \
+    "camera --inside pingpong --pingpong passes=3,taps=4,base=4,bias=255,jitter=0.5,spread" \
+    "pingpong --camera-step 2" "reconstruct --camera-step 1"; do
+    claim "draws with --method $method" render builtin:suite/pan --size 64x48 --method $method -o filter.png
+done
+usage --mask render "$plate" --mask plate
+claim "says where it belongs" err_has "object and layered"
+for mask in '' , plate, ,plate nosuch 99 -1 plate=none; do
+    usage --mask render "$plate" --method object --mask "$mask"
+done
+usage --mask render builtin:suite/still --method layered --mask plate
+usage --shutter-mode render "$plate" --shutter-mode frob
+usage --shutter-mode render "$plate" --shutter-mode fixed:
+usage --shutter-mode render "$plate" --shutter-mode capped:30
+for value in 0s 2s 1001ms -1ms nans s ms 10us; do usage --shutter render "$plate" --shutter $value; done
+for value in turn turn=64 way=-1 turn=nan frob=1 =1 way=1, ''; do usage --scale render "$plate" --scale "$value"; done
+usage --scale render "$plate" --method accumulate --exact --scale turn=2
+usage --weights render "$plate" --weights gauss --method reconstruct
+usage --weights render "$plate" --weights guertin --method camera
+for weights in mcguire guertin jimenez; do
+    claim "draws with the weights of $weights" render builtin:suite/cross --size 64x48 --method reconstruct \
+        --weights $weights -o $weights.png
+done
+claim "weights differ" differ mcguire.png guertin.png
+claim "a shutter in seconds" render builtin:suite/cross --size 64x48 --fps 30 --shutter 16.6667ms -o seconds.png
+claim "is that in degrees" render builtin:suite/cross --size 64x48 --fps 30 --shutter 180 -o degrees.png
+claim "of the same length" same seconds.png degrees.png
+claim "at 10 Hz, fixed" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode fixed --poses shutter -o fixed.png
+claim "it is as at 30 Hz" render builtin:suite/cross --size 64x48 --fps 30 --poses shutter -o native.png
+claim "bit for bit" same fixed.png native.png
+claim "capped, too" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode capped --poses shutter -o capped.png
+claim "bit for bit" same capped.png native.png
+claim "at 60 Hz, fixed at 60" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode fixed:60 -o fixed.png
+claim "it is native" render builtin:suite/cross --size 64x48 --fps 60 -o native.png
+claim "bit for bit" same fixed.png native.png
+claim "capped does not lengthen" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode capped -o capped.png
+claim "bit for bit" same capped.png native.png
+claim "no motion of objects" render builtin:suite/cross --size 64x48 --scale objects=0 -o scaled.png
+claim "is the sharp frame" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.png
+claim "before a still camera" same scaled.png sharp.png
+claim "no motion of the camera" render builtin:suite/pan --size 64x48 --scale turn=0,way=0 -o scaled.png
+claim "is the sharp frame" render builtin:suite/pan --size 64x48 --shutter 0 -o sharp.png
+claim "of what stands still" same scaled.png sharp.png
+usage --shutter-mode render "$plate" --shutter-mode fixed:0
+
+claim "what stands still is drawn in every frame" render builtin:suite/arena --size 64x48 --frames 0-3 -o drawn%d.png
+claim "or kept" render builtin:suite/arena --size 64x48 --frames 0-3 --keep-still -o kept%d.png
+claim "the pictures are the same" same drawn3.png kept3.png
+claim "in a scene without motion of the camera" render builtin:suite/cross --size 64x48 --frames 0-3 -o drawn%d.png
+claim "likewise" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still -o kept%d.png
+claim "they are the same, too" same drawn3.png kept3.png
+claim "or where a display keeps its picture" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-display --stats kept.json -o kept%d.png
+claim "which shows the same" same drawn3.png kept3.png
+claim "and is not sent all" grep -q '"kept":[1-9]' kept.json
+claim "frames that are sent whole" render builtin:suite/cross --size 64x48 --frames 0-3 --format l4 --stats drawn.json -o drawn%d.png
+claim "have the CRCs" render builtin:suite/cross --size 64x48 --frames 0-3 --format l4 --keep-display --stats kept.json -o kept%d.png
+crcs() { grep -o '"crc32":"[0-9a-f]*"' "$1"; }
+same_crcs() { [ -n "$(crcs "$1")" ] && [ "$(crcs "$1")" = "$(crcs "$2")" ]; }
+claim "of those that are not" same_crcs drawn.json kept.json
+claim "what stands still counts as kept" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still --stats kept.json -o kept%d.png
+claim "with statistics, too" grep -q '"static_cached":1' kept.json
+claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
+claim "as coarse as a draft" render builtin:suite/cross --size 64x48 --quality draft -o drawn3.png
+claim "which it is" same drawn3.png kept3.png
+usage --budget render "$plate" --budget 0
+usage --budget render "$plate" --budget 10 --method subframes
+usage --keep-still render "$plate" --keep-still --method reconstruct
+usage --keep-display render "$plate" --keep-display --method reconstruct
+
+usage --time render "$plate" --time 1 --frames 0-0
+usage --exact render "$plate" --exact
+usage --exact render "$plate" --exact --method none
+usage --motion render "$plate" --exact --method accumulate --motion plate=none
+usage --reconstruct render "$plate" --method none --reconstruct box
+usage --reconstruct render "$plate" --reconstruct box
+usage --target render "$plate" --quality fine --target 1
+usage --eye render "$plate" --eye 1,2,3
+usage --look render "$plate" --look 1,2,3
+usage --fov render "$plate" --fov 45
+usage --camera render "$plate" --camera 0 --eye 1,2,3 --look 0,0,0
+usage --look render "$plate" --eye 1,2,3 --look 1,2,3
+usage --clip render "$plate" --clip nosuch
+usage --clip render "$plate" --clip 2
+usage --camera render "$plate" --camera nosuch
+usage --camera render "$plate" --camera 2
+for motion in plate plate=frob =none nosuch=none 5=none ''; do
+    usage --motion render "$plate" --motion "$motion"
+done
+for option in '--clip 0' --loop '--camera 0' '--eye 1,2,3 --look 0,0,0' '--filter nearest' \
+    '--motion a=none'; do
+    usage "${option%% *}" render builtin:suite/still $option
+done
+for name in out.jpg out out. .png png 'out.png.' '%d%d.png' '%x.png' '%4d.png' '%00d.png' \
+    '%0d.png' '%' '%%.png' '%s.png' '%0.png' '%-3d.png' '%.gif' '%d.gif' '%04d.apng' ''; do
+    usage -o render "$plate" -o "$name"
+done
+usage -o render "$plate" --frames 0-1 -o out.png
+usage -o render "$plate" --frames 0-1
+usage --depth render "$plate" --frames 0-1 -o out.gif --depth d.pfm
+usage --velocity render "$plate" --frames 0-1 -o out.gif --velocity v.pfm
+usage --depth render "$plate" --depth d.png
+usage --velocity render "$plate" --velocity v.gif
+usage same.pfm render "$plate" -o same.pfm --depth same.pfm
+usage --stats render "$plate" --stats ''
+
+# ------------------------------------------------------------------ bad input
+
+input missing.glb render missing.glb
+input builtin:nosuch render builtin:nosuch
+input builtin: render builtin: -o x.png
+mkdir "$base/in/folder.glb"
+input "$base/in/folder.glb" render "$base/in/folder.glb"
+: >"$base/in/empty.gltf"
+input "$base/in/empty.gltf" render "$base/in/empty.gltf"
+head -c 700 "$plate" >"$base/in/half.gltf"
+input "$base/in/half.gltf" render "$base/in/half.gltf"
+printf 'v 0 0 0\nf 1 2 3\n' >"$base/in/bad.obj"
+input "$base/in/bad.obj" render "$base/in/bad.obj"
+printf 'glTF\002\000\000\000\377\377\377\377' >"$base/in/short.glb"
+input "$base/in/short.glb" render "$base/in/short.glb"
+odd=$(printf 'two\nlines.glb')
+claim "a file name of two lines is one in the error" fails 1 'two?lines.glb' render "$odd"
+input nowhere/out.png render "$plate" -o nowhere/out.png
+input nowhere/out.gif render "$plate" -o nowhere/out.gif
+input nowhere/s.json render "$plate" --stats nowhere/s.json
+input nowhere/d.pfm render "$plate" --stats /dev/null --depth nowhere/d.pfm
+input nowhere/v.pfm render "$plate" --stats /dev/null --velocity nowhere/v.pfm
+# What is read is never replaced, and nothing is written twice, whatever it is called.
+cp -r "$base/in" "$base/before"
+cp out.ppm "$base/in/other.ppm"
+cp out.ppm "$base/in/picture.ppm"
+ln -s "$plate" "$base/in/link.json"
+input "$base/in/card.png" render "$base/in/card.obj" -o "$base/in/card.png"
+claim "says why" err_has "it has been read, and would be lost"
+input "$base/in/card.mtl" render "$base/in/card.obj" --stats "$base/in/card.mtl"
+input "$plate" render "$plate" --stats "$plate"
+input "$base/in/link.json" render "$plate" --stats "$base/in/link.json"
+input "$plate" view "$plate" --out null --frames 1 --record "$plate"
+input "$plate" view "$plate" --out null --frames 1 --check "$plate" --update
+claim "keeps no picture" missing "$plate.0000.png"
+for picture in picture other; do
+    input "$base/in/$picture.ppm" compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/$picture.ppm"
+    claim "it is as it was" same out.ppm "$base/in/$picture.ppm"
+done
+claim "another name beside it is free" works compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/diff.ppm"
+for name in plate.gltf card.obj card.mtl card.png; do claim "$name is as it was" same "$base/before/$name" "$base/in/$name"; done
+usage ./same.pfm render "$plate" -o same.pfm --depth ./same.pfm
+usage ../empty/same.pfm render "$plate" -o same.pfm --velocity ../empty/same.pfm
+usage ./s%04d.pfm render "$plate" --frames 0-1 -o s%d.pfm --depth ./s%04d.pfm
+claim "other folders, same names" render "$plate" $small -o "$base/in/same.pfm" --depth same.pfm
+mkdir "$base/in/there.png"
+input "$base/in/there.png" render "$plate" -o "$base/in/there.png"
+mkfifo "$base/in/pipe.h" "$base/in/pipe.ppm" "$base/in/pipe.gif" "$base/in/pipe"
+input "$base/in/pipe.h" convert "$plate" -o "$base/in/pipe.h"
+input "$base/in/pipe.ppm" compare "$base/work/out.ppm" "$base/work/out.ppm" --diff "$base/in/pipe.ppm"
+input "$base/in/pipe.gif" render "$plate" --frames 0-1 -o "$base/in/pipe.gif"
+input "$base/in/pipe" view "$plate" --frames 1 --check "$base/in/pipe" --update
+input "$base/in/pipe" view "$plate" --frames 1 --crc --record "$base/in/pipe"
+claim "what is no regular file stays" [ -p "$base/in/pipe.h" -a -p "$base/in/pipe.ppm" -a -p "$base/in/pipe.gif" -a -p "$base/in/pipe" ]
+if [ -c /dev/full ]; then
+    input /dev/full render "$plate" --stats /dev/full
+    "$smear" help >/dev/full 2>"$base/err"
+    claim "a full disk is an error" equals "$? $(cat "$base/err")" \
+        "1 smear: standard output: cannot be written (No space left on device)"
+fi
+# A disk that is full after the first 512 bytes.
+for args in "render builtin:suite/pan -o full.png" "render $plate -o full.pfm" "render $plate --frames 0-1 -o full.gif" \
+    "render $plate --frames 0-1 -o full.apng" "convert $plate -o full.h" "convert $plate -o full.smr"; do
+    mkdir "$base/full"
+    (cd "$base/full" && trap '' XFSZ && ulimit -f 1 && exec "$smear" $args) >/dev/null 2>"$base/err"
+    claim "no room for $args" equals "$? $(ls -A "$base/full" | wc -l) $(wc -l <"$base/err")" "1 0 1"
+    rm -rf "$base/full"
+done
+# A run that is ended leaves nothing. Those that last a minute are ended when they have begun to write.
+ended_by() { # SIGNAL FILE ARGUMENTS...
+    signal=$1 file=$2
+    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
+    shift 2
+    # who starts this suite may have signals ignored (nohup does)
+    default=
+    ! env --default-signal="$signal" true 2>"$base/err" || default="env --default-signal=$signal"
+    # shellcheck disable=SC2086
+    $default "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null &
+    process=$!
+    cd "$base/work" || return 1
+    wait_for 30 [ -e "$base/empty/$file.tmp" ]
+    kill -s "$signal" "$process"
+    wait "$process"
+    [ $? -gt 128 ] || { echo "not ended: $(cat "$base/err")"; return 1; }
+    equals "$(ls -A "$base/empty")" ""
+}
+for signal in TERM HUP PIPE; do
+    claim "an animation ended by $signal" ended_by $signal x.gif render builtin:demo/race --frames 0-2000 -o x.gif
+done
+claim "statistics ended" ended_by TERM x.json render builtin:demo/race --frames 0-2000 --stats x.json
+claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"
+run render "$base/in/vertices.obj" --size 16x16 -o empty.ppm
+claim "nothing to draw is a picture of the background, or one line" [ "$rc" -le 1 ]
+cp out.ppm kept.ppm
+run render "$plate" --arena 10 -o kept.ppm
+claim "a failed run leaves the old picture" same kept.ppm out.ppm
+claim "and no unfinished files" equals "$(ls | grep -c '\.tmp$')" 0
+
+finish

@@ -1,0 +1,483 @@
+/* SPDX-License-Identifier: MIT */
+/* failures.c - pictures and measures of the failure catalogue; see failures.h. */
+#include "tests/suite/failures.h"
+
+#include "tests/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One line per column of the table. */
+const struct fail_method fail_method[METHODS] = {
+    [NONE] = {"none", SMEAR_NONE, 0, 0, 0},
+    [ACCUMULATE] = {"accumulate 32", SMEAR_ACCUMULATE, 32, 0, 0},
+    [PLAIN] = {"reconstruct 8", SMEAR_RECONSTRUCT, 8, 0, 0},
+    [MENDED] = {"mended 8", SMEAR_RECONSTRUCT, 8,
+                SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
+    [SUBFRAMES] = {"subframes 32", SMEAR_SUBFRAMES, 32, 0, 0},
+    [TIMEMASK] = {"timemask 32", SMEAR_TIMEMASK, 32, 0, 0},
+    [AUTO] = {"auto balanced", SMEAR_AUTO, 0, 0, SMEAR_BALANCED},
+    [FINE] = {"auto fine", SMEAR_AUTO, 0, 0, SMEAR_FINE},
+    [CAMERA] = {"camera 8", SMEAR_CAMERA, 8, 0, 0},
+    [PINGPONG] = {"pingpong", SMEAR_PINGPONG, 0, 0, 0, .spread = true},
+    [HALF_SIZE] = {"half 8", SMEAR_HALF, 8, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
+    [JIMENEZ] = {"jimenez 8", SMEAR_RECONSTRUCT, 8, 0, 0, .weights = SMEAR_WEIGHTS_JIMENEZ},
+    [OBJECT] = {"object", SMEAR_OBJECT, 8, 0, 0},
+    [LAYERED] = {"layered 8", SMEAR_LAYERED, 8, 0, 0},
+};
+
+static bool broken(const struct subject *s, const char *why)
+{
+    test_state.failures_here++;
+    say("  %s: %s\n", s->name, why);
+    return false;
+}
+
+/* ------------------------------------------------------------------ drawing */
+
+struct present_options fail_options(const struct subject *s, const struct fail_method *method)
+{
+    struct present_options present = subject_options(s);
+    present.shutter_degrees = 360.0;
+    present.shutter_poses = true;
+    present.method = method->method;
+    present.samples = method->samples;
+    present.reconstruct = method->flags;
+    present.target = method->target;
+    present.weights = method->weights;
+    present.pingpong.spread = method->spread;
+    return present;
+}
+
+static int take_band(void *user, const smear_band *band)
+{
+    const struct canvas *canvas = user;
+    for (int y = 0; y < band->height; y++) {
+        const uint32_t *row = (const uint32_t *)band->pixels + (size_t)y * (band->stride / 4);
+        uint8_t *out = canvas->rgb + 3 * (size_t)(band->y + y) * (size_t)canvas->width;
+        for (int x = 0; x < canvas->width; x++, out += 3) {
+            out[0] = (uint8_t)(row[x] >> 16);
+            out[1] = (uint8_t)(row[x] >> 8);
+            out[2] = (uint8_t)row[x];
+        }
+    }
+    return 0;
+}
+
+static smear_context *context_for(const struct presented *p, int width, int height,
+                                  struct canvas *canvas, void **memory)
+{
+    smear_desc desc = presented_desc(p, width, height);
+    smear_context *ctx = NULL;
+    desc.reach = FAIL_REACH;
+    desc.tile = FAIL_TILE;
+    desc.format = SMEAR_XRGB8888;
+    desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
+    desc.timed = smear_method_is_temporal(p->frame.method);
+    desc.layers = p->frame.method == SMEAR_OBJECT || p->frame.method == SMEAR_LAYERED;
+    desc.max_triangles *= 5;
+    desc.max_draws += 4;        /* more may come in later frames */
+    desc.flush = take_band;
+    desc.user = canvas;
+    size_t bytes = smear_memory_size(&desc);
+    *memory = bytes != 0 ? malloc(bytes) : NULL;
+    if (*memory == NULL || smear_init(&ctx, &desc, *memory, bytes) != SMEAR_OK)
+        return NULL;
+    return ctx;
+}
+
+static int draw(const struct presented *p, smear_context *ctx)
+{
+    int result = presented_submit(p, ctx);
+    return result == SMEAR_OK ? smear_render(ctx) : result;
+}
+
+static uint8_t *draw_once(struct subject *s, const struct presented *p, int width, int height)
+{
+    struct canvas canvas = {.width = width, .rgb = malloc((size_t)width * (size_t)height * 3)};
+    void *memory = NULL;
+    smear_context *ctx = NULL;
+    if (canvas.rgb != NULL)
+        ctx = context_for(p, width, height, &canvas, &memory);
+    if (ctx == NULL || draw(p, ctx) != SMEAR_OK) {
+        broken(s, "the library does not draw the frame");
+        free(canvas.rgb);
+        canvas.rgb = NULL;
+    }
+    free(memory);
+    return canvas.rgb;
+}
+
+static const struct presented *present(struct subject *s, const struct present_options *options)
+{
+    struct failure f = {{0}};
+    const struct presented *p = presenter_frame(s->presenter, s->time, options, &f);
+    if (p == NULL)
+        broken(s, f.text);
+    return p;
+}
+
+uint8_t *fail_take(struct subject *s, const struct present_options *options, int width, int height)
+{
+    const struct presented *p = present(s, options);
+    if (p == NULL)
+        return NULL;
+    return draw_once(s, p, width != 0 ? width : s->width, height != 0 ? height : s->height);
+}
+
+uint8_t *fail_sharp(struct subject *s, const struct present_options *options)
+{
+    struct present_options sharp = *options;
+    sharp.method = SMEAR_NONE;
+    return fail_take(s, &sharp, 0, 0);
+}
+
+static void move_origin(int32_t origin[3], const int32_t offset[3])
+{
+    for (int i = 0; i < 3; i++)
+        origin[i] += offset[i];
+}
+
+enum { MOVED_DRAWS = 8 };
+
+/* Draws p with its draws and its cameras moved, Q16.16. */
+static uint8_t *draw_moved(struct subject *s, const struct presented *p, const int32_t draws[3],
+                           const int32_t cameras[3])
+{
+    struct presented moved = *p;
+    smear_draw draw[MOVED_DRAWS];
+    smear_transform pose[MOVED_DRAWS][3];
+    if (!CHECK(p->draw_count <= MOVED_DRAWS))
+        return NULL;
+    for (int i = 0; i < p->draw_count; i++) {
+        draw[i] = p->draw[i];
+        const smear_transform **of[3] = {&draw[i].now, &draw[i].open, &draw[i].close};
+        for (int k = 0; k < 3; k++)
+            if (*of[k] != NULL) {
+                pose[i][k] = **of[k];
+                move_origin(pose[i][k].origin, draws);
+                *of[k] = &pose[i][k];
+            }
+    }
+    for (int k = 0; k < 3; k++)
+        move_origin(moved.camera[k].pose.origin, cameras);
+    moved.frame.camera = &moved.camera[0];
+    moved.frame.open = p->frame.open != NULL ? &moved.camera[1] : NULL;
+    moved.frame.close = p->frame.close != NULL ? &moved.camera[2] : NULL;
+    moved.draw = draw;
+    return draw_once(s, &moved, s->width, s->height);
+}
+
+uint8_t *fail_take_away(struct subject *s, const struct present_options *options,
+                        const int offset[3])
+{
+    const struct presented *p = present(s, options);
+    int32_t fixed[3];
+    for (int i = 0; i < 3; i++)
+        fixed[i] = offset[i] * 65536;
+    return p != NULL ? draw_moved(s, p, fixed, fixed) : NULL;
+}
+
+uint8_t *fail_take_aside(struct subject *s, const struct present_options *options, int x, int y)
+{
+    const struct presented *p = present(s, options);
+    if (p == NULL)
+        return NULL;
+    int32_t unit = (int32_t)(p->world_scale * 65536), still[3] = {0};
+    return draw_moved(s, p, still, (int32_t[3]){-x * unit, y * unit, 0});
+}
+
+bool fail_look(struct subject *s, const struct present_options *options, struct shot *out)
+{
+    return shot_take(s, options,
+                     &(struct shot_options){.reach = FAIL_REACH, .tile = FAIL_TILE, .look = true},
+                     out);
+}
+
+/* ------------------------------------------------------------------ truth */
+
+struct remembered {
+    char name[80];
+    double time, degrees;
+    bool encoded;
+    smear_exposure exposure;
+    int width, height, instants;
+    struct ref_truth truth;
+    struct remembered *next;
+};
+
+static struct remembered *memory;
+
+static bool is_same(const struct remembered *r, const struct remembered *wanted)
+{
+    return strcmp(r->name, wanted->name) == 0 && fabs(r->time - wanted->time) < 1e-9
+        && fabs(r->degrees - wanted->degrees) < 1e-9 && r->encoded == wanted->encoded
+        && r->exposure == wanted->exposure && r->width == wanted->width
+        && r->height == wanted->height && r->instants == wanted->instants;
+}
+
+const struct ref_truth *fail_truth(struct subject *s, const struct present_options *options,
+                                   int width, int height, int instants)
+{
+    struct remembered wanted = {
+        .time = s->time, .degrees = options->shutter_degrees, .exposure = options->exposure,
+        .encoded = options->light == SMEAR_LIGHT_ENCODED, .instants = instants,
+        .width = width != 0 ? width : s->width, .height = height != 0 ? height : s->height,
+    };
+    memcpy(wanted.name, s->name, sizeof wanted.name);
+    for (struct remembered *r = memory; r != NULL; r = r->next)
+        if (is_same(r, &wanted))
+            return &r->truth;
+    static const enum ref_exposure exposure[] = {
+        [SMEAR_CENTRED] = REF_CENTRED, [SMEAR_TRAILING] = REF_TRAILING,
+        [SMEAR_LEADING] = REF_LEADING,
+    };
+    struct ref_truth_options o = {
+        .width = wanted.width, .height = wanted.height, .time = s->time, .fps = options->fps,
+        .shutter_degrees = wanted.degrees, .exposure = exposure[wanted.exposure],
+        .instants = instants, .encoded = wanted.encoded, .threads = 1,
+    };
+    struct failure f = {{0}};
+    struct remembered *r = malloc(sizeof *r);
+    if (r == NULL || !ref_truth(&s->scene, &o, &wanted.truth, &f)) {
+        free(r);
+        broken(s, f.text);
+        return NULL;
+    }
+    *r = wanted;
+    r->next = memory;
+    memory = r;
+    return &r->truth;
+}
+
+void fail_forget(void)
+{
+    while (memory != NULL) {
+        struct remembered *r = memory;
+        memory = r->next;
+        ref_truth_free(&r->truth);
+        free(r);
+    }
+}
+
+/* ------------------------------------------------------------------ frames in turn */
+
+bool reel_open(struct reel *reel, const char *scene)
+{
+    *reel = (struct reel){0};
+    if (!subject_open(&reel->subject, scene))
+        return false;
+    const struct subject *s = &reel->subject;
+    reel->canvas = (struct canvas){
+        .width = s->width, .rgb = malloc((size_t)s->width * (size_t)s->height * 3)};
+    return CHECK(reel->canvas.rgb != NULL);
+}
+
+void reel_close(struct reel *reel)
+{
+    free(reel->memory);
+    free(reel->canvas.rgb);
+    if (reel->subject.presenter != NULL)
+        subject_close(&reel->subject);
+    *reel = (struct reel){0};
+}
+
+bool reel_frame(struct reel *reel, const struct fail_method *method, double frame)
+{
+    struct subject *s = &reel->subject;
+    struct present_options options = fail_options(s, method);
+    options.keep_ids = true;
+    options.shutter_poses = false;
+    s->time = FAIL_TIME + frame / FAIL_FPS;
+    const struct presented *p = present(s, &options);
+    if (p == NULL)
+        return false;
+    if (reel->ctx == NULL)
+        reel->ctx = context_for(p, s->width, s->height, &reel->canvas, &reel->memory);
+    if (reel->ctx == NULL || draw(p, reel->ctx) != SMEAR_OK)
+        return broken(s, "the library does not draw the frame");
+    return true;
+}
+
+/* ------------------------------------------------------------------ differences */
+
+struct area fail_whole(const struct subject *s)
+{
+    return (struct area){0, 0, s->width, s->height};
+}
+
+struct area fail_around(const struct subject *s, int x, int y, int half_width, int half_height)
+{
+    x += s->width / 2;
+    y += s->height / 2;
+    return (struct area){x - half_width, y - half_height, x + half_width, y + half_height};
+}
+
+double fail_rmse(const struct subject *s, const uint8_t *rgb, const struct ref_truth *truth,
+                 struct area area)
+{
+    double sum = 0.0;
+    for (int y = area.y0; y < area.y1; y++)
+        for (int i = 3 * area.x0; i < 3 * area.x1; i++) {
+            size_t at = 3 * (size_t)y * (size_t)s->width + (size_t)i;
+            double d = rgb[at] - truth->code[at];
+            sum += d * d;
+        }
+    return sqrt(sum / (3.0 * (area.x1 - area.x0) * (area.y1 - area.y0)));
+}
+
+int fail_difference(const struct subject *s, const uint8_t *a, const uint8_t *b, struct area area)
+{
+    int worst = 0;
+    for (int y = area.y0; y < area.y1; y++)
+        for (int i = 3 * area.x0; i < 3 * area.x1; i++) {
+            size_t at = 3 * (size_t)y * (size_t)s->width + (size_t)i;
+            int d = abs(a[at] - b[at]);
+            worst = d > worst ? d : worst;
+        }
+    return worst;
+}
+
+double fail_error(const struct subject *s, const uint8_t *rgb, const struct ref_truth *truth,
+                  struct area area)
+{
+    double worst = 0.0;
+    for (int y = area.y0; y < area.y1; y++)
+        for (int i = 3 * area.x0; i < 3 * area.x1; i++) {
+            size_t at = 3 * (size_t)y * (size_t)s->width + (size_t)i;
+            worst = fmax(worst, fabs(rgb[at] - truth->code[at]));
+        }
+    return worst;
+}
+
+/* ------------------------------------------------------------------ streaks */
+
+/* A line through two colours. */
+struct ramp {
+    bool encoded;
+    double back[3], along[3];   /* along: fore - back, over its squared length */
+};
+
+static double value_of(double code, bool encoded)
+{
+    return encoded ? code / 255.0 : ref_srgb_decode(code / 255.0);
+}
+
+static struct ramp ramp_of(uint32_t fore, uint32_t back, bool encoded)
+{
+    struct ramp r = {.encoded = encoded};
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+        int shift = 16 - 8 * k;
+        r.back[k] = value_of(back >> shift & 255, encoded);
+        r.along[k] = value_of(fore >> shift & 255, encoded) - r.back[k];
+        square += r.along[k] * r.along[k];
+    }
+    for (int k = 0; k < 3; k++)
+        r.along[k] /= square;
+    return r;
+}
+
+static double alpha_of(const struct ramp *r, const double code[3])
+{
+    double alpha = 0.0;
+    for (int k = 0; k < 3; k++)
+        alpha += (value_of(code[k], r->encoded) - r->back[k]) * r->along[k];
+    return alpha;
+}
+
+void fail_alpha(const struct subject *s, const uint8_t *rgb, struct area area, uint32_t fore,
+                uint32_t back, bool encoded, double *alpha)
+{
+    struct ramp r = ramp_of(fore, back, encoded);
+    for (int y = area.y0; y < area.y1; y++)
+        for (int x = area.x0; x < area.x1; x++) {
+            const uint8_t *p = rgb + 3 * ((size_t)y * (size_t)s->width + (size_t)x);
+            *alpha++ = alpha_of(&r, (double[3]){p[0], p[1], p[2]});
+        }
+}
+
+void fail_alpha_truth(const struct ref_truth *truth, struct area area, uint32_t fore,
+                      uint32_t back, bool encoded, double *alpha)
+{
+    struct ramp r = ramp_of(fore, back, encoded);
+    for (int y = area.y0; y < area.y1; y++)
+        for (int x = area.x0; x < area.x1; x++)
+            *alpha++ = alpha_of(&r, truth->code + 3 * ((size_t)y * (size_t)truth->width
+                                                       + (size_t)x));
+}
+
+void fail_columns(const double *alpha, struct area area, double *column)
+{
+    int width = area.x1 - area.x0, height = area.y1 - area.y0;
+    for (int x = 0; x < width; x++) {
+        column[x] = 0.0;
+        for (int y = 0; y < height; y++)
+            column[x] += alpha[y * width + x] / height;
+    }
+}
+
+double fail_half_length(const double *column, int count)
+{
+    double peak = 0.0;
+    int first = -1, last = -1;
+    for (int x = 0; x < count; x++)
+        peak = fmax(peak, column[x]);
+    for (int x = 0; x < count; x++)
+        if (column[x] >= peak / 2) {
+            first = first < 0 ? x : first;
+            last = x;
+        }
+    if (first <= 0 || last >= count - 1)
+        return peak > 0.0 ? count : 0.0;        /* beyond the area */
+    double left = first - (column[first] - peak / 2) / (column[first] - column[first - 1]);
+    double right = last + (column[last] - peak / 2) / (column[last] - column[last + 1]);
+    return right - left;
+}
+
+/* ------------------------------------------------------------------ seams */
+
+static bool is_border(int at)
+{
+    return at % FAIL_TILE == 0 || at % FAIL_TILE == FAIL_TILE - 1;
+}
+
+static void add_second(struct seams *seams, double before, double here, double after, bool border)
+{
+    double second = fabs(before - 2.0 * here + after);
+    if (border) {
+        seams->border += second;
+        seams->border_count++;
+    } else {
+        seams->inside += second;
+        seams->inside_count++;
+    }
+}
+
+void fail_seams(const struct subject *s, const uint8_t *rgb, const struct ref_truth *truth,
+                struct area area, struct seams *of_rgb, struct seams *of_truth)
+{
+    const double *t = truth->code;
+    const int step[2] = {3, 3 * s->width};
+    for (int y = area.y0 + 1; y < area.y1 - 1; y++)
+        for (int x = area.x0 + 1; x < area.x1 - 1; x++)
+            for (int axis = 0; axis < 2; axis++) {
+                int at = 3 * (y * s->width + x) + 1, d = step[axis];    /* green */
+                if (fabs(t[at - d] - t[at]) + fabs(t[at + d] - t[at]) < 0.01)
+                    continue;
+                bool border = is_border(axis == 0 ? x : y);
+                add_second(of_rgb, rgb[at - d], rgb[at], rgb[at + d], border);
+                add_second(of_truth, t[at - d], t[at], t[at + d], border);
+            }
+}
+
+static double border_ratio(const struct seams *s)
+{
+    return s->border / (double)s->border_count / (s->inside / (double)s->inside_count);
+}
+
+double fail_seam_ratio(const struct seams *of_rgb, const struct seams *of_truth)
+{
+    return border_ratio(of_rgb) / border_ratio(of_truth);
+}

@@ -1,0 +1,2267 @@
+/* SPDX-License-Identifier: MIT */
+/* test_api.c - the library through its public interface: arguments, order, memory, capacities, poses kept from frame
+ * to frame, bands, workers and the filter alone. Host only: threads and floating point. */
+#include "tests/rig.h"
+#include "tests/test.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+void suite_api(void);
+
+/* ------------------------------------------------------------------ memory */
+
+static void test_the_memory_macro_is_never_below_the_memory_function(void)
+{
+    static const int width[] = { 1, 7, 8, 16, 33, 64, 96, 127, 128, 160, 240, 320, 321, 479, 480, 640, 2047, 2048 };
+    static const int height[] = { 1, 5, 8, 16, 17, 64, 128, 239, 240, 320, 480, 2048 };
+    static const unsigned reach[] = { 1, 5, 8, 9, 12, 15, 16, 17, 32, 33, 64 };
+    static const uint32_t triangles[] = { 1, 2, 7, 100, 600, 1024, 5000, 100000 };
+    static const int draws[] = { 1, 2, 8, 16, 255, 4096, 65535 };
+    for (size_t w = 0; w < sizeof width / sizeof width[0]; w++)
+        for (size_t h = 0; h < sizeof height / sizeof height[0]; h++)
+            for (size_t k = 0; k < sizeof reach / sizeof reach[0]; k++)
+                for (size_t n = 0; n < sizeof triangles / sizeof triangles[0]; n++)
+                    for (size_t d = 0; d < sizeof draws / sizeof draws[0]; d++)
+                        for (int format = SMEAR_RGB565; format <= SMEAR_L1_PAGES; format++) {
+                            smear_desc desc = {
+                                .width = (int16_t)width[w], .height = (int16_t)height[h],
+                                .reach = (int16_t)reach[k], .max_triangles = triangles[n],
+                                .max_draws = (uint16_t)draws[d], .format = (uint8_t)format, .flush = take_band
+                            };
+                            size_t room = SMEAR_MEMORY_SIZE(width[w], height[h], reach[k], triangles[n], draws[d]);
+                            size_t need = smear_memory_size(&desc);
+                            if (!CHECK(need > 0) || !CHECK(need <= room) || !CHECK(room % 8 == 0)) {
+                                CHECK_EQ(width[w], 0);
+                                CHECK_EQ(height[h], 0);
+                                CHECK_EQ(reach[k], 0);
+                                CHECK_EQ(triangles[n], 0);
+                                CHECK_EQ(draws[d], 0);
+                                return;
+                            }
+                        }
+}
+
+static void test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_function(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 },
+                                       { 3, 2048 } };
+    static const uint32_t triangles[] = { 1, 2, 7, 200, 600, 5000, 100000 };
+    static const unsigned draws[] = { 1, 4, 8, 255, 65535 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (size_t n = 0; n < sizeof triangles / sizeof triangles[0]; n++)
+            for (size_t k = 0; k < sizeof draws / sizeof draws[0]; k++)
+                for (unsigned tile = 8; tile <= 64; tile *= 2)
+                    for (unsigned reach = 1; reach <= tile; reach += reach < 15 ? 7 : 16) {
+                        const unsigned strip = tile * (1 + (unsigned)(i + n + k) % 16);
+                        smear_desc desc = {
+                            .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach, .tile = (int16_t)tile,
+                            .max_triangles = triangles[n], .max_draws = (uint16_t)draws[k], .format = SMEAR_RGB565,
+                            .timed = 1, .strip = (int16_t)strip, .flush = take_band
+                        };
+                        unsigned width = (unsigned)size[i][0], height = (unsigned)size[i][1];
+                        size_t windowed = smear_memory_size(&desc);
+                        desc.sharp = 1;
+                        size_t sharp = smear_memory_size(&desc);
+                        bool ok = CHECK(sharp > 0 && windowed > sharp);
+                        ok = CHECK(sharp <= SMEAR_MEMORY_SIZE_TIMED(width, height, triangles[n], draws[k], tile, strip))
+                             && ok;
+                        ok = CHECK(windowed <= SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles[n],
+                                                                             draws[k], tile, strip)) && ok;
+                        if (!ok) {
+                            CHECK_EQ(size[i][0], 0);
+                            CHECK_EQ(triangles[n], 0);
+                            CHECK_EQ(draws[k], 0);
+                            CHECK_EQ(tile, 0);
+                            return;
+                        }
+                    }
+    smear_desc desc = { .width = 240, .height = 240, .tile = 8, .reach = 8, .max_triangles = 600, .max_draws = 8,
+                        .format = SMEAR_RGB565, .sharp = 1, .timed = 1, .strip = 8, .flush = take_band };
+    size_t room = SMEAR_MEMORY_SIZE_TIMED(240, 240, 600, 8, 8, 8), need = smear_memory_size(&desc);
+    CHECK(room - need < need / 16);
+    CHECK(need <= 72u * 1024u);
+}
+
+static void test_the_memory_macro_wastes_less_than_an_eighth(void)
+{
+    smear_desc desc = { .width = 240, .height = 240, .reach = 12, .max_triangles = 600, .max_draws = 8,
+                        .format = SMEAR_RGB565, .flush = take_band };
+    size_t room = SMEAR_MEMORY_SIZE(240, 240, 12, 600, 8), need = smear_memory_size(&desc);
+    CHECK(room - need < need / 8);
+}
+
+static void test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_it_alone(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 64, 48 }, { 100, 70 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int variant = 0; variant < 14; variant++) {
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.format = (uint8_t)(variant == 7 ? SMEAR_L1_PAGES : variant % 8);
+            desc.timed = variant >= 8;
+            desc.tile = (int16_t)(variant >= 10 ? 8 << (variant - 10) : 0);
+            desc.sharp = variant == 1 || variant == 9 || variant == 11;
+            desc.bands = variant == 2 ? 1 : variant == 12 ? 2 : 0;
+            desc.reach = variant == 3 ? 20 : 8;
+            desc.accumulate = variant == 4;
+            desc.max_triangles = variant == 5 || variant == 13 ? 1 : 60;
+            struct rig r;
+            if (rig_begin(&r, &desc, variant & 1)) {
+                smear_context *other = (smear_context *)&r;
+                CHECK_EQ(smear_init(&other, &r.desc, r.block + GUARD, r.bytes - 1), SMEAR_ERR_MEMORY);
+                CHECK(other == NULL);
+                for (int k = 0; k < 3; k++) {
+                    int method = desc.accumulate ? SMEAR_ACCUMULATE : desc.timed ? SMEAR_SUBFRAMES + k : 0;
+                    if (desc.bands == 2)
+                        r.reports_sent = true;
+                    CHECK_EQ(render_scene(&r, k * 0.2, method), SMEAR_OK);
+                    CHECK(guards_intact(&r));
+                }
+            }
+            rig_end(&r);
+        }
+}
+
+static void test_memory_must_exist_and_be_aligned(void)
+{
+    smear_desc desc = small_desc(16, 16);
+    desc.flush = take_band;
+    size_t bytes = smear_memory_size(&desc);
+    uint64_t *memory = malloc(bytes + 16);
+    smear_context *ctx = NULL;
+    CHECK_EQ(smear_init(&ctx, &desc, NULL, bytes), SMEAR_ERR_MEMORY);
+    for (int shift = 1; shift < 8; shift++)
+        CHECK_EQ(smear_init(&ctx, &desc, (uint8_t *)memory + shift, bytes + 8), SMEAR_ERR_MEMORY);
+    CHECK_EQ(smear_init(&ctx, &desc, memory, 0), SMEAR_ERR_MEMORY);
+    CHECK(ctx == NULL);
+    CHECK_EQ(smear_init(&ctx, &desc, memory, bytes + 16), SMEAR_OK);
+    CHECK(ctx != NULL);
+    smear_stats stats;
+    smear_get_stats(ctx, &stats);
+    CHECK_EQ(stats.arena_bytes, (int64_t)bytes);
+    free(memory);
+}
+
+/* ------------------------------------------------------------------ arguments */
+
+static void test_every_bad_field_of_a_desc_is_refused(void)
+{
+    static const struct { size_t offset, size; int32_t value; } bad[] = {
+#define BAD(field, value) { offsetof(smear_desc, field), sizeof ((smear_desc *)0)->field, value }
+        BAD(width, 0), BAD(width, -1), BAD(width, 2049), BAD(height, 0), BAD(height, -5), BAD(height, 2049),
+        BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 2), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
+        BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(dither, SMEAR_DITHER_BLUE + 1), BAD(bands, 3),
+        BAD(workers, 9), BAD(workers, 255), BAD(accumulate, 3), BAD(band_rows, 1), BAD(band_rows, 6), BAD(band_rows, 32), BAD(band_rows, -8), BAD(band_rows, 12),
+        BAD(vertex_cache, 8), BAD(vertex_cache, 65), BAD(vertex_cache, 8192),
+        BAD(max_triangles, (16 << 20) + 1), BAD(max_triangles, -1)
+#undef BAD
+    };
+    uint8_t *memory = malloc(1 << 20);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        smear_desc desc = small_desc(64, 48);
+        desc.flush = take_band;
+        desc.tile = 16;
+        CHECK(smear_memory_size(&desc) > 0);
+        int16_t half = (int16_t)bad[i].value;
+        uint8_t byte = (uint8_t)bad[i].value;
+        const void *value = bad[i].size == 4 ? (const void *)&bad[i].value
+                          : bad[i].size == 2 ? (const void *)&half : (const void *)&byte;
+        memcpy((uint8_t *)&desc + bad[i].offset, value, bad[i].size);
+        smear_context *ctx = NULL;
+        if (!CHECK(smear_memory_size(&desc) == 0)
+            || !CHECK_EQ(smear_init(&ctx, &desc, memory, 1 << 20), SMEAR_ERR_ARG))
+            CHECK_EQ((int64_t)i, -1);
+        CHECK(ctx == NULL);
+    }
+    smear_desc desc = small_desc(64, 48);
+    smear_context *ctx = NULL;
+    CHECK_EQ(smear_init(&ctx, &desc, memory, 1 << 20), SMEAR_ERR_ARG);      /* no flush */
+    desc.flush = take_band;
+    CHECK_EQ(smear_init(NULL, &desc, memory, 1 << 20), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_init(&ctx, NULL, memory, 1 << 20), SMEAR_ERR_ARG);
+    CHECK(smear_memory_size(NULL) == 0);
+    free(memory);
+}
+
+static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
+{
+    smear_desc given = { .width = 100, .height = 80, .reach = 4, .tile = 8, .format = SMEAR_XRGB8888,
+                         .dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
+                         .max_triangles = 1024, .vertex_cache = 64 };
+    smear_desc zero = { .width = 100, .height = 80 };
+    struct rig a, b;
+    if (rig_begin(&a, &given, false) && rig_begin(&b, &zero, false)) {
+        CHECK(a.bytes == b.bytes);
+        for (int k = 0; k < 3; k++) {
+            struct scene s;
+            make_scene(&s, 0.3 * k, SMEAR_RECONSTRUCT);
+            s.frame.samples = 8;
+            s.frame.shutter_degrees = 180;
+            uint8_t *picture = rig_copy(&a, &s.frame, s.draw, SCENE_DRAWS);
+            CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
+            same_picture(&b, picture);
+            free(picture);
+        }
+        rig_end(&b);
+    }
+    rig_end(&a);
+}
+
+static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        const smear_camera good = s.camera;
+        smear_camera bad[16];
+        int count = 0;
+        for (int i = 0; i < 16; i++)
+            bad[i] = good;
+        bad[count++].focal = 0;
+        bad[count++].focal = -1;
+        bad[count++].near_plane = 0;
+        bad[count++].near_plane = -65536;
+        bad[count++].far_plane = good.near_plane;
+        bad[count++].far_plane = -1;
+        bad[count++].half_height = -1;
+        bad[count].half_height = 65536;
+        bad[count++].far_plane = 0;                 /* orthographic needs one */
+        bad[count++].pose.basis[4] = 2 * SMEAR_BASIS_ONE + 1;
+        bad[count++].pose.basis[8] = INT32_MIN;
+        for (int i = 0; i < count; i++) {
+            smear_frame f = { .camera = &bad[i] };
+            if (!CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG))
+                CHECK_EQ(i, -1);
+            f.camera = &good;
+            f.open = &bad[i];
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+            f.open = NULL;
+            f.close = &bad[i];
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        smear_frame f = { .camera = NULL };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_begin(r.ctx, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_begin(NULL, &s.frame), SMEAR_ERR_ARG);
+        for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {           /* desc.timed is 0 */
+            f = (smear_frame){ .camera = &good, .method = (uint8_t)method };
+            CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        }
+        static const smear_frame bad_filter[] = {
+            { .method = SMEAR_HALF + 1 }, { .method = SMEAR_PINGPONG },    /* desc.passes is 0 */
+            { .method = SMEAR_HALF },                                       /* desc.half is 0 */
+            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG },
+            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG + 1 }, { .camera_step = 3 }, { .camera_step = 8 },
+            { .pingpong.passes = 4 }, { .pingpong.taps = 1 }, { .pingpong.taps = 65 }, { .pingpong.base = 1 },
+            { .pingpong.base = 65 }, { .pingpong.jitter = 129 }, { .pingpong.spread = 2 }
+        };
+        for (size_t i = 0; i < sizeof bad_filter / sizeof *bad_filter; i++) {
+            f = bad_filter[i];
+            f.camera = &good;
+            if (!CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG))
+                CHECK_EQ((int64_t)i, -1);
+        }
+        const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
+        f = (smear_frame){ .camera = &good, .shutter = closed };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .method = SMEAR_ACCUMULATE };       /* desc.accumulate is 0 */
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .exposure = SMEAR_LEADING + 1 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .light = SMEAR_LIGHT_ENCODED + 1 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .samples = 1025 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f = (smear_frame){ .camera = &good, .shutter_degrees = 3601 };
+        CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
+        CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
+    }
+    rig_end(&r);
+
+    desc.sharp = 1;
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_RECONSTRUCT);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_ERR_ARG);      /* no window */
+        CHECK_EQ(render_scene(&r, 0, SMEAR_DEFAULT_METHOD), SMEAR_OK);
+    }
+    rig_end(&r);
+}
+
+static void test_every_bad_draw_is_refused_and_the_rest_is_drawn(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (!rig_begin(&r, &desc, false)) {
+        rig_end(&r);
+        return;
+    }
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
+
+    smear_mesh mesh[12];
+    int meshes = 0;
+    for (int i = 0; i < 12; i++)
+        mesh[i] = square;
+    mesh[meshes++].position = NULL;
+    mesh[meshes++].index = NULL;
+    mesh[meshes++].shift = -33;
+    mesh[meshes++].shift = 63;
+    mesh[meshes++].uv_shift = 16;
+    mesh[meshes++].scale = -1;
+    mesh[meshes++].offset[0] = (1 << 20) + 1;
+    mesh[meshes++].offset[2] = -(1 << 20) - 1;
+    smear_texture texture[12];
+    int textures = 0;
+    for (int i = 0; i < 12; i++)
+        texture[i] = checker_texture;
+    texture[textures++].texels = NULL;
+    texture[textures++].width = 0;
+    texture[textures++].height = 0;
+    texture[textures++].width = 4097;
+    texture[textures++].height = 65535;
+    texture[textures++].format = SMEAR_TEXEL_PALETTE8 + 1;
+    texture[textures++].format = SMEAR_TEXEL_PALETTE8;      /* no palette */
+    texture[textures++].wrap_u = SMEAR_MIRROR + 1;
+    texture[textures++].wrap_v = 200;
+
+    rig_forget_output(&r);
+    CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+    for (int i = 0; i < meshes; i++) {
+        smear_draw d = { .mesh = &mesh[i], .now = &s.pose[3] };
+        CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    }
+    for (int i = 0; i < textures; i++) {
+        smear_material m = { .texture = &texture[i] };
+        smear_draw d = { .mesh = &square, .material = &m, .now = &s.pose[3] };
+        CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    }
+    smear_material m = { .alpha = SMEAR_BLEND + 1 };
+    smear_draw d = { .mesh = &square, .material = &m, .now = &s.pose[3] };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    d = (smear_draw){ .mesh = NULL };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    d = (smear_draw){ .mesh = &square, .motion = SMEAR_MOTION_NONE + 1 };
+    CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(r.ctx, NULL), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(NULL, &s.draw[1]), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    same_picture(&r, picture);
+    free(picture);
+    rig_end(&r);
+}
+
+static void test_calls_out_of_turn_are_refused(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        static const uint32_t color[32], depth[32];
+        static const int16_t velocity[64];
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);             /* twice */
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        CHECK_EQ(smear_filter_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_ERR_ORDER);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);
+        for (int y = 0; y < 32; y++)
+            CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_ERR_ORDER);     /* one row too many */
+        CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
+    }
+    rig_end(&r);
+}
+
+static void test_a_frame_begun_again_is_forgotten(void)
+{
+    smear_desc desc = small_desc(32, 32);
+    struct rig r;
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
+        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
+        same_picture(&r, picture);
+        free(picture);
+    }
+    rig_end(&r);
+}
+
+static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
+{
+    smear_desc desc = small_desc(48, 32);
+    desc.max_draws = 2;
+    struct rig r;
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 2);
+        rig_forget_output(&r);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[2]), SMEAR_OK);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[0]), SMEAR_ERR_FULL);
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[3]), SMEAR_ERR_FULL);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        same_picture(&r, picture);
+        free(picture);
+    }
+    rig_end(&r);
+}
+
+/* ------------------------------------------------------------------ capacity */
+
+/* Frames 0 to 2 of the scene with ample room, then with `tight`: the same pictures, unless triangles are dropped.
+ * Returns how often the tighter one was split, -1 when triangles were dropped. */
+static int compare_with_ample(const smear_desc *tight, int method)
+{
+    smear_desc ample = *tight;
+    ample.max_triangles = 2000;
+    struct rig a, b;
+    int splits = -1;
+    if (rig_begin(&a, &ample, false) && rig_begin(&b, tight, false)) {
+        splits = 0;
+        for (int k = 0; k < 3 && splits >= 0; k++) {
+            smear_stats sa, sb;
+            CHECK_EQ(render_scene(&a, 0.25 * k, method), SMEAR_OK);
+            CHECK_EQ(render_scene(&b, 0.25 * k, method), SMEAR_OK);
+            smear_get_stats(a.ctx, &sa);
+            smear_get_stats(b.ctx, &sb);
+            CHECK_EQ(sa.triangles_split, 0);
+            CHECK_EQ(sa.triangles_dropped, 0);
+            CHECK(b.bands_in_order);
+            if (sb.triangles_dropped != 0)
+                splits = -1;
+            else if (same_picture(&a, b.picture))
+                splits += (int)sb.triangles_split;
+        }
+        rig_end(&b);
+    }
+    rig_end(&a);
+    return splits;
+}
+
+static void test_a_full_triangle_list_changes_no_pixel(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT };
+    for (int m = 0; m < 3; m++) {
+        int most = 0;
+        for (uint32_t room = 120; room >= 20; room -= 4) {
+            smear_desc tight = small_desc(96, 136);
+            tight.accumulate = 1;
+            tight.max_triangles = room;
+            int splits = compare_with_ample(&tight, method[m]);
+            if (splits < 0)             /* a single row is too much by now */
+                break;
+            most = splits > most ? splits : most;
+        }
+        CHECK(most > 0);
+    }
+}
+
+/* A tall heap of small triangles: many rows, each with a handful. */
+static int16_t heap_position[3 * 3 * 300];
+static uint16_t heap_index[3 * 300];
+static uint8_t heap_color[4 * 300];
+
+static smear_mesh make_heap(void)
+{
+    for (int i = 0; i < 300; i++) {
+        int x = -200 + i * 37 % 400, y = -230 + i * 460 / 300;
+        const int corner[3][2] = { { x, y }, { x + 60, y + i % 7 }, { x + 20, y + 40 } };
+        for (int k = 0; k < 3; k++) {
+            heap_position[3 * (3 * i + k)] = (int16_t)corner[k][0];
+            heap_position[3 * (3 * i + k) + 1] = (int16_t)corner[k][1];
+            heap_position[3 * (3 * i + k) + 2] = (int16_t)(i * 13 % 50);
+            heap_index[3 * i + k] = (uint16_t)(3 * i + k);
+        }
+        for (int c = 0; c < 3; c++)
+            heap_color[4 * i + c] = (uint8_t)(i * (31 + 20 * c));
+        heap_color[4 * i + 3] = 255;
+    }
+    return (smear_mesh){ .position = heap_position, .index = heap_index, .face_color = heap_color,
+                         .triangle_count = 300, .vertex_count = 900, .shift = STEP };
+}
+
+static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
+    smear_mesh heap = make_heap();
+    for (int m = 0; m < 5; m++)
+        for (int alpha = SMEAR_OPAQUE; alpha <= SMEAR_BLEND; alpha += SMEAR_BLEND) {
+            struct rig ample, tight;
+            smear_desc desc = small_desc(64, 128);
+            desc.max_triangles = 2000;
+            desc.timed = method[m] >= SMEAR_SUBFRAMES;
+            smear_desc small = desc;
+            small.max_triangles = desc.timed ? 150 : 220;
+            if (rig_begin(&ample, &desc, false) && rig_begin(&tight, &small, false)) {
+                for (int k = 0; k < 3; k++) {
+                    smear_transform pose = pose_at(0.1 * k, 0, -2, 0.1 * k, 0);
+                    smear_material material = { .color = { 255, 255, 255, 100 }, .alpha = (uint8_t)alpha };
+                    smear_camera camera = camera_at(0, 0, 0, 0);
+                    smear_draw d = { .id = 7, .mesh = &heap, .material = &material, .now = &pose };
+                    smear_frame f = { .camera = &camera, .method = method[m] };
+                    CHECK_EQ(rig_frame(&ample, &f, &d, 1), SMEAR_OK);
+                    CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
+                    smear_stats stats;
+                    smear_get_stats(tight.ctx, &stats);
+                    CHECK(stats.triangles_split >= (desc.timed ? 1u : 2u));
+                    CHECK_EQ(stats.triangles_dropped, 0);
+                    same_picture(&ample, tight.picture);
+                }
+                rig_end(&tight);
+            }
+            rig_end(&ample);
+        }
+}
+
+static void test_a_row_that_does_not_fit_drops_triangles_and_counts_them(void)
+{
+    smear_mesh heap = make_heap();
+    struct rig r;
+    smear_desc desc = small_desc(64, 16);
+    desc.max_triangles = 8;
+    if (rig_begin(&r, &desc, false)) {
+        smear_transform pose = pose_at(0, 0, -2, 0, 0);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_draw d = { .mesh = &heap, .now = &pose };
+        smear_frame f = { .camera = &camera };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        smear_stats stats;
+        smear_get_stats(r.ctx, &stats);
+        CHECK(stats.triangles_dropped > 0);
+        CHECK(stats.triangles_drawn > 0);
+        CHECK_EQ(stats.triangles_in, 300);
+        CHECK(r.bands_in_order && r.next_row == 16);
+    }
+    rig_end(&r);
+}
+
+static void test_the_size_of_the_vertex_cache_changes_no_pixel(void)
+{
+    uint8_t *picture[3] = { NULL, NULL, NULL };
+    for (int cache = 16; cache <= 4096; cache *= 4) {
+        struct rig r;
+        smear_desc desc = small_desc(96, 72);
+        desc.vertex_cache = (uint16_t)cache;
+        if (rig_begin(&r, &desc, false)) {
+            for (int k = 0; k < 3; k++) {
+                CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
+                if (picture[k] == NULL) {
+                    picture[k] = malloc(r.picture_room);
+                    memcpy(picture[k], r.picture, r.picture_room);
+                } else {
+                    same_picture(&r, picture[k]);
+                }
+            }
+        }
+        rig_end(&r);
+    }
+    for (int k = 0; k < 3; k++)
+        free(picture[k]);
+}
+
+/* ------------------------------------------------------------------ wild input */
+
+static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
+{
+    static const int32_t wild[] = { INT32_MAX, INT32_MIN, -INT32_MAX, 1, -1, 0, 0x40000000, SMEAR_BASIS_ONE };
+    enum { WILD = sizeof wild / sizeof wild[0] };
+    struct rig r;
+    smear_desc desc = small_desc(40, 24);
+    desc.accumulate = desc.timed = 1;
+    if (!rig_begin(&r, &desc, true)) {
+        rig_end(&r);
+        return;
+    }
+    uint32_t random = 1;
+    for (int n = 0; n < 2400; n++) {
+        struct scene s;
+        make_scene(&s, 0.1 * (n % 7), 1 + n % 6);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            for (int e = 0; e < 12; e++) {
+                random = random * 1664525u + 1013904223u;
+                int32_t value = wild[random >> 24 & (WILD - 1)];
+                if ((random >> 16 & 3u) < (unsigned)n % 4u) {
+                    if (e < 9)
+                        s.pose[i].basis[e] = value;
+                    else
+                        s.pose[i].origin[e - 9] = value;
+                }
+            }
+        smear_mesh mesh = square;
+        random = random * 1664525u + 1013904223u;
+        mesh.scale = wild[random >> 29] < 0 ? 1 : wild[random >> 29];
+        mesh.shift = (int8_t)((int)(random >> 16 & 127u) % 95 - 32);
+        mesh.offset[0] = (int32_t)(random >> 8 & 0xfffffu);
+        if (n % 2)
+            s.draw[0].mesh = &mesh;
+        if (n % 5 == 0) {
+            s.camera.half_height = wild[random >> 20 & 7u] > 0 ? wild[random >> 20 & 7u] : 0;
+            s.camera.near_plane = 1;
+            s.camera.far_plane = random & 64u ? INT32_MAX : 2;
+            for (int e = 0; e < 3; e++)
+                s.camera.pose.origin[e] = wild[random >> (4 * e) & 7u];
+        }
+        if (n % 5 == 1)
+            s.camera.focal = random & 128u ? INT32_MAX : 1;
+        s.frame.shutter_degrees = n % 3 ? 0 : 3600;
+        s.frame.exposure = (uint8_t)(n % 3);
+        s.frame.samples = 3;
+        s.frame.shutter_poses = n % 7 == 0;
+        if (!CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK) || !CHECK(guards_intact(&r)))
+            break;
+    }
+    /* And then a plain frame as ever. */
+    struct rig fresh;
+    if (rig_begin(&fresh, &desc, true)) {
+        CHECK_EQ(render_scene(&fresh, 0.1, SMEAR_NONE), SMEAR_OK);
+        CHECK_EQ(render_scene(&r, 0.1, SMEAR_NONE), SMEAR_OK);
+        same_picture(&r, fresh.picture);
+    }
+    rig_end(&fresh);
+    rig_end(&r);
+}
+
+static void test_frames_of_every_shape_are_covered_by_bands_in_order(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 1, 64 }, { 7, 5 }, { 5, 7 }, { 8, 8 }, { 9, 1 }, { 17, 33 },
+                                       { 2048, 3 }, { 3, 2048 }, { 2048, 20 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int format = 0; format <= SMEAR_L1_PAGES; format++) {
+            struct rig r;
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.format = (uint8_t)format;
+            desc.reach = (int16_t)(format % 2 ? 0 : 3);
+            if (rig_begin(&r, &desc, true)) {
+                for (int k = 0; k < 2; k++) {
+                    CHECK_EQ(render_scene(&r, 0.2 * k, 0), SMEAR_OK);
+                    CHECK(r.bands_in_order);
+                    CHECK_EQ(r.next_row, size[i][1]);
+                    CHECK_EQ(r.inspected, size[i][1]);
+                }
+            }
+            rig_end(&r);
+        }
+}
+
+static void test_an_index_out_of_range_drops_its_triangle_only(void)
+{
+    static const uint16_t index[] = { 0, 1, 4, 0, 1, 2, 65535, 0, 1, 0, 2, 3 };
+    struct rig r;
+    smear_desc desc = small_desc(48, 48);
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        smear_mesh mesh = square;
+        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[4], 1);
+        mesh.index = index;
+        mesh.triangle_count = 4;
+        s.draw[4].mesh = &mesh;
+        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[4], 1), SMEAR_OK);
+        same_picture(&r, picture);
+        smear_stats stats;
+        smear_get_stats(r.ctx, &stats);
+        CHECK_EQ(stats.triangles_dropped, 2);
+        CHECK_EQ(stats.triangles_in, 4);
+        free(picture);
+    }
+    rig_end(&r);
+}
+
+static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    if (rig_begin(&r, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0, 0);
+        smear_mesh empty = square, no_vertex = square;
+        empty.triangle_count = 0;
+        empty.index = NULL;
+        no_vertex.vertex_count = 0;
+        smear_draw d[2] = { { .mesh = &empty }, { .mesh = &no_vertex } };
+        CHECK_EQ(rig_frame(&r, &s.frame, d, 2), SMEAR_OK);
+        for (size_t i = 0; i < 16 * 16; i++)
+            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
+    }
+    rig_end(&r);
+}
+
+static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
+{
+    struct rig here, there;
+    smear_desc desc = small_desc(96, 72);
+    if (rig_begin(&here, &desc, false) && rig_begin(&there, &desc, false)) {
+        for (int k = 0; k < 3; k++) {
+            struct scene s;
+            make_scene(&s, 0.3 * k, 0);
+            CHECK_EQ(rig_frame(&here, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            const int32_t shift[3] = { 10000 * 65536, -7000 * 65536, 20000 * 65536 };
+            for (int axis = 0; axis < 3; axis++) {
+                for (int i = 0; i < SCENE_DRAWS; i++)
+                    s.pose[i].origin[axis] += shift[axis];
+                s.camera.pose.origin[axis] += shift[axis];
+            }
+            CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            same_picture(&here, there.picture);
+        }
+        rig_end(&there);
+    }
+    rig_end(&here);
+}
+
+/* ------------------------------------------------------------------ flush */
+
+static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
+                                      SMEAR_AUTO, SMEAR_AUTO };
+    for (int m = 0; m < 7; m++) {
+        struct rig r, fresh;
+        smear_desc desc = small_desc(48, 64);
+        desc.accumulate = desc.timed = 1;
+        desc.bands = m & 1 ? 2 : 1;
+        desc.sharp = m == 6;
+        if (rig_begin(&r, &desc, false) && rig_begin(&fresh, &desc, false)) {
+            int bands = 0;
+            r.reports_sent = fresh.reports_sent = desc.bands == 2;
+            for (int k = 0; k < 12; k++) {
+                CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
+                bands = fresh.bands;
+                r.fail_at = k & 1 ? -1 : k / 2 % bands;
+                r.fail_with = -77 - k;
+                int result = render_scene(&r, 0.1 * k, method[m]);
+                if (k & 1) {
+                    CHECK_EQ(result, SMEAR_OK);
+                    same_picture(&fresh, r.picture);
+                } else {
+                    CHECK_EQ(result, -77 - k);
+                    CHECK_EQ(r.bands, r.fail_at + 1);
+                }
+            }
+            CHECK(bands > 1);
+            r.fail_at = 1;
+            r.fail_with = 5;                        /* not negative: goes on */
+            CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
+            CHECK_EQ(r.bands, bands);
+            rig_end(&fresh);
+        }
+        rig_end(&r);
+    }
+}
+
+/* A display that takes its time: a thread that frees the oldest band after a while. */
+struct slow_display {
+    struct rig *rig;
+    atomic_int handed, sent;
+    atomic_bool over;
+    const uint8_t *held[2];
+    size_t held_size[2];
+    bool overwritten;
+    uint8_t copy[2][64 * 8 * 4];
+};
+
+static struct slow_display display;
+
+static void *send_slowly(void *unused)
+{
+    (void)unused;
+    for (;;) {
+        int sent = atomic_load(&display.sent);
+        if (sent == atomic_load(&display.handed)) {
+            if (atomic_load(&display.over))
+                return NULL;
+            sched_yield();
+            continue;
+        }
+        for (int i = 0; i < 20; i++)
+            sched_yield();
+        /* What was handed over must not have changed while it was being sent. */
+        int slot = sent & 1;
+        if (memcmp(display.held[slot], display.copy[slot], display.held_size[slot]) != 0)
+            display.overwritten = true;
+        atomic_store(&display.sent, sent + 1);
+        smear_band_done(display.rig->ctx);
+    }
+}
+
+static int hand_to_slow_display(void *user, const smear_band *band)
+{
+    int slot = atomic_load(&display.handed) & 1;
+    display.held[slot] = band->pixels;
+    display.held_size[slot] = band->size;
+    memcpy(display.copy[slot], band->pixels, band->size);
+    int result = take_band(user, band);
+    atomic_fetch_add(&display.handed, 1);
+    return result;
+}
+
+static void yield(void *user)
+{
+    (void)user;
+    sched_yield();
+}
+
+static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_AUTO };
+    struct rig one, two;
+    smear_desc desc = small_desc(64, 50);
+    desc.timed = 1;
+    smear_desc twice = desc;
+    twice.bands = 2;
+    twice.flush = hand_to_slow_display;
+    twice.idle = yield;
+    if (rig_begin(&one, &desc, false) && rig_begin(&two, &twice, false)) {
+        memset(&display, 0, sizeof display);
+        display.rig = &two;
+        pthread_t thread;
+        if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
+            for (int k = 0; k < 8; k++) {
+                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 3]), SMEAR_OK);
+                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 3]), SMEAR_OK);
+                same_picture(&one, two.picture);
+            }
+            atomic_store(&display.over, true);
+            pthread_join(thread, NULL);
+            CHECK(!display.overwritten);
+            CHECK_EQ(atomic_load(&display.sent), 8 * 7);
+        }
+        rig_end(&two);
+    }
+    rig_end(&one);
+}
+
+/* ------------------------------------------------------------------ workers */
+
+struct helper {
+    smear_context *ctx;
+    int worker, frames;
+};
+
+static void *help(void *argument)
+{
+    struct helper *h = argument;
+    for (int i = 0; i < h->frames; i++)
+        smear_work(h->ctx, h->worker);
+    return NULL;
+}
+
+static void test_any_number_of_workers_draws_the_same_picture(void)
+{
+    enum { FRAMES = 9, METHODS = 6 };
+    static const uint8_t method[METHODS] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES,
+                                             SMEAR_TIMEMASK, SMEAR_AUTO };
+    uint8_t *picture[FRAMES] = { NULL };
+    smear_stats first[FRAMES];
+    for (int workers = 1; workers <= 8; workers++) {
+        struct rig r;
+        smear_desc desc = small_desc(150, 60);
+        desc.workers = (uint8_t)workers;
+        desc.accumulate = desc.timed = 1;
+        desc.crc = 1;
+        desc.max_triangles = 50;
+        desc.idle = yield;
+        desc.format = SMEAR_RGB565;
+        if (rig_begin(&r, &desc, false)) {
+            pthread_t thread[8];
+            struct helper helper[8];
+            for (int i = 1; i < workers; i++) {
+                helper[i] = (struct helper){ r.ctx, i, FRAMES };
+                CHECK_EQ(pthread_create(&thread[i], NULL, help, &helper[i]), 0);
+            }
+            for (int k = 0; k < FRAMES; k++) {
+                smear_stats stats;
+                CHECK_EQ(render_scene(&r, 0.2 * k, method[k % METHODS]), SMEAR_OK);
+                smear_get_stats(r.ctx, &stats);
+                if (workers == 1) {
+                    first[k] = stats;
+                    picture[k] = malloc(r.picture_room);
+                    memcpy(picture[k], r.picture, r.picture_room);
+                } else {
+                    same_picture(&r, picture[k]);
+                    CHECK_EQ(stats.crc32, first[k].crc32);
+                    CHECK_EQ(stats.samples, first[k].samples);
+                    CHECK_EQ(stats.triangles_drawn, first[k].triangles_drawn);
+                    CHECK_EQ(stats.tiles_complex, first[k].tiles_complex);
+                    CHECK_EQ(stats.tiles_smooth, first[k].tiles_smooth);
+                    CHECK_EQ(stats.tiles_subframes, first[k].tiles_subframes);
+                }
+            }
+            for (int i = 1; i < workers; i++)
+                pthread_join(thread[i], NULL);
+        }
+        rig_end(&r);
+    }
+    for (int k = 0; k < FRAMES; k++)
+        free(picture[k]);
+}
+
+static void test_work_of_an_index_that_is_no_helper_returns_at_once(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    desc.workers = 2;
+    if (rig_begin(&r, &desc, false)) {
+        smear_work(NULL, 1);
+        smear_work(r.ctx, 0);
+        smear_work(r.ctx, 2);
+        smear_work(r.ctx, -1);
+    }
+    rig_end(&r);
+}
+
+/* ------------------------------------------------------------------ motion */
+
+/* A rig with one square in front of a still camera, whose velocity is read where it is drawn. */
+enum { MOTION_W = 64, MOTION_H = 64, STEPS = 2 };      /* velocities may be off by 2/256 px */
+
+static smear_camera motion_camera;
+static const smear_material motion_material = { .unlit = 1 };
+
+static bool motion_open(struct rig *r)
+{
+    smear_desc desc = small_desc(MOTION_W, MOTION_H);
+    /* focal 1: 32 px per unit at distance 1; the square lies at distance 4, 8 px per unit. */
+    motion_camera = camera_at(0, 0, 0, 0);
+    return rig_begin(r, &desc, true);
+}
+
+/* The square at (x, y); z is -4 unless a test moves it. */
+static smear_transform motion_pose(double x, double y)
+{
+    return pose_at(x, y, -4, 0, 0);
+}
+
+/* Draws one frame of draws and returns the velocity at the pixel, 1/256 px per frame. */
+static void motion_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count, int px, int py,
+                         int32_t velocity[2])
+{
+    CHECK_EQ(rig_frame(r, frame, draw, count), SMEAR_OK);
+    size_t at = (size_t)py * MOTION_W + (size_t)px;
+    velocity[0] = r->velocity[2 * at];
+    velocity[1] = r->velocity[2 * at + 1];
+}
+
+static bool all_still(const struct rig *r)
+{
+    for (int i = 0; i < 2 * MOTION_W * MOTION_H; i++)
+        if (r->velocity[i] != 0)
+            return false;
+    return true;
+}
+
+/* Frame `k` of a square that moves 0.25 units right and 0.125 up: 2 px right, 1 px up. */
+static void moving_square(struct rig *r, int k, const smear_draw *like, smear_frame frame, int32_t velocity[2])
+{
+    smear_transform now = motion_pose(0.25 * k, 0.125 * k);
+    smear_draw d = *like;
+    d.mesh = &square;
+    d.material = &motion_material;
+    d.now = &now;
+    frame.camera = &motion_camera;
+    motion_frame(r, &frame, &d, 1, 32 + 2 * k, 31 - k, velocity);
+}
+
+static void test_a_known_draw_moves_and_unknown_ones_stand_still(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        const smear_frame plain = { .camera = NULL };
+        const smear_draw known = { .id = 5 }, anonymous = { .id = 0 };
+        smear_draw cut = { .id = 5, .cut = 1 };
+        int32_t v[2];
+        moving_square(&r, 0, &known, plain, v);         /* first frame */
+        CHECK(all_still(&r));
+        moving_square(&r, 1, &known, plain, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        CHECK_NEAR(v[1], -256, STEPS);
+        moving_square(&r, 2, &cut, plain, v);           /* teleported */
+        CHECK(all_still(&r));
+        moving_square(&r, 3, &known, plain, v);         /* and on from there */
+        CHECK_NEAR(v[0], 512, STEPS);
+        moving_square(&r, 3, &known, plain, v);         /* stopped: no blur is left over */
+        CHECK(all_still(&r));
+        moving_square(&r, 4, &anonymous, plain, v);     /* without identity: and id 5 is away */
+        CHECK(all_still(&r));
+        moving_square(&r, 5, &known, plain, v);         /* back again: its earlier pose is unknown */
+        CHECK(all_still(&r));
+        moving_square(&r, 6, &known, plain, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        const smear_draw other = { .id = 6 };
+        moving_square(&r, 7, &other, plain, v);         /* first sight of this id */
+        CHECK(all_still(&r));
+    }
+    rig_end(&r);
+}
+
+static void test_a_cut_of_the_camera_stops_everything_for_one_frame(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        const smear_draw known = { .id = 5 };
+        int32_t v[2];
+        moving_square(&r, 0, &known, (smear_frame){ .cut = 0 }, v);
+        moving_square(&r, 1, &known, (smear_frame){ .cut = 1 }, v);
+        CHECK(all_still(&r));
+        moving_square(&r, 2, &known, (smear_frame){ .cut = 0 }, v);
+        CHECK_NEAR(v[0], 512, STEPS);
+        /* The picture of a cut is the sharp one. */
+        uint8_t *sharp = NULL;
+        for (int k = 0; k < 2; k++) {
+            struct scene s;
+            make_scene(&s, 0.3, k == 0 ? SMEAR_NONE : SMEAR_RECONSTRUCT);
+            s.frame.cut = 1;
+            if (k == 0)
+                sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+            else
+                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        }
+        same_picture(&r, sharp);
+        free(sharp);
+    }
+    rig_end(&r);
+}
+
+static void test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        for (int k = 0; k < 8; k++) {
+            smear_transform pose[2] = { pose_at(0.25 * k - 1.5, 0.8, -4, 0, 0), pose_at(0.25 * k - 0.5, -1.2, -4, 0, 0) };
+            smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &pose[0] },
+                                { .id = 2, .mesh = &square, .now = &pose[1] } };
+            smear_frame f = { .camera = &motion_camera };
+            CHECK_EQ(rig_frame(&r, &f, d, k < 5 ? 1 : 2), SMEAR_OK);
+            size_t first = (size_t)(32 - 6) * MOTION_W + (size_t)(20 + 2 * k);
+            size_t second = (size_t)(32 + 10) * MOTION_W + (size_t)(28 + 2 * k);
+            CHECK_NEAR(r.velocity[2 * first], k == 0 ? 0 : 512, STEPS);
+            CHECK_NEAR(r.velocity[2 * second], k <= 5 ? 0 : 512, STEPS);
+        }
+    }
+    rig_end(&r);
+}
+
+static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        int32_t v[4][2] = { { 0 } };
+        for (int k = 0; k < 2; k++) {
+            /* Four squares, all but the last moving with the camera's pan to the right. */
+            motion_camera = camera_at(0.25 * k, 0, 0, 0);
+            smear_transform pose[4];
+            smear_draw d[4];
+            static const double corner[4][2] = { { -1.5, 1.5 }, { 1.5, 1.5 }, { -1.5, -1.5 }, { 1.5, -1.5 } };
+            for (int i = 0; i < 4; i++) {
+                pose[i] = pose_at(corner[i][0] + 0.5 * k, corner[i][1], -4, 0, 0);
+                d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &motion_material,
+                                     .now = &pose[i] };
+            }
+            d[1].motion = SMEAR_MOTION_CAMERA;
+            d[2].motion = SMEAR_MOTION_NONE;
+            d[3].cut = 1;
+            smear_frame f = { .camera = &motion_camera };
+            CHECK_EQ(rig_frame(&r, &f, d, 4), SMEAR_OK);
+            for (int i = 0; i < 4 && k == 1; i++) {
+                int x = (int)(32 + 8 * (corner[i][0] + 0.25)), y = (int)(32 - 8 * corner[i][1]);
+                for (int axis = 0; axis < 2; axis++)
+                    v[i][axis] = r.velocity[2 * (y * MOTION_W + x) + axis];
+            }
+        }
+        CHECK_NEAR(v[0][0], 512, STEPS);            /* object 4 px right, camera 2 px: 2 px */
+        CHECK_NEAR(v[1][0], -512, STEPS);           /* as if it stood still: camera only */
+        CHECK_EQ(v[2][0], 0);
+        CHECK_NEAR(v[3][0], -512, STEPS);
+        for (int i = 0; i < 4; i++)
+            CHECK_NEAR(v[i][1], 0, STEPS);
+    }
+    rig_end(&r);
+}
+
+static void test_motion_none_writes_zero_over_what_moves_behind_it(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        for (int order = 0; order < 2; order++)
+            for (int k = 0; k < 2; k++) {
+                smear_transform back = pose_at(0.25 * k, 0, -8, 0, 0), front = pose_at(0, 0, -4, 0, 0);
+                for (int i = 0; i < 9; i++)
+                    back.basis[i] *= 4;
+                smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &back },
+                                    { .id = 2, .mesh = &square, .now = &front, .motion = SMEAR_MOTION_NONE } };
+                if (order == 1) {
+                    smear_draw swap = d[0];
+                    d[0] = d[1];
+                    d[1] = swap;
+                }
+                smear_frame f = { .camera = &motion_camera };
+                CHECK_EQ(rig_frame(&r, &f, d, 2), SMEAR_OK);
+                CHECK_EQ(r.velocity[2 * (32 * MOTION_W + 32)], 0);
+                CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 44)], k == 1 ? 256 : -256 * order, STEPS);
+            }
+    }
+    rig_end(&r);
+}
+
+static void test_given_poses_win_over_kept_ones(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        smear_transform now = motion_pose(0, 0), before = motion_pose(-0.5, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open = &before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 32, 32, v);         /* in the very first frame */
+        CHECK_NEAR(v[0], 1024, STEPS);
+        motion_frame(&r, &f, &d, 1, 32, 32, v);
+        CHECK_NEAR(v[0], 1024, STEPS);
+        smear_camera earlier = camera_at(-0.25, 0, 0, 0);
+        f.open = &earlier;
+        motion_frame(&r, &f, &d, 1, 32, 32, v);         /* camera 2 px right as well */
+        CHECK_NEAR(v[0], 512, STEPS);
+        d.open = NULL;
+        d.cut = 1;
+        motion_frame(&r, &f, &d, 1, 32, 32, v);
+        CHECK_NEAR(v[0], -512, STEPS);
+    }
+    rig_end(&r);
+}
+
+static void test_shutter_poses_are_scaled_to_a_frame(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        smear_transform now = motion_pose(0, 0), open = motion_pose(-0.25, 0), close = motion_pose(0.25, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open = &open, .close = &close };
+        int32_t v[2];
+        /* 4 px between the poses: in half a frame, in a frame, in two. */
+        static const int degrees[] = { 180, 360, 720 };
+        for (int i = 0; i < 3; i++) {
+            smear_frame f = { .camera = &motion_camera, .open = &motion_camera, .close = &motion_camera,
+                              .shutter_poses = 1, .shutter_degrees = (uint16_t)degrees[i] };
+            motion_frame(&r, &f, &d, 1, 32, 32, v);
+            CHECK_NEAR(v[0], 4 * 256 * 360 / degrees[i], 2);
+        }
+        /* Without poses of its own a draw stands still, kept ones or not. */
+        smear_frame f = { .camera = &motion_camera, .shutter_poses = 1 };
+        for (int k = 0; k < 2; k++) {
+            smear_transform place = motion_pose(0.25 * k, 0);
+            smear_draw plain = { .id = 1, .mesh = &square, .now = &place };
+            CHECK_EQ(rig_frame(&r, &f, &plain, 1), SMEAR_OK);
+            CHECK(all_still(&r));
+        }
+    }
+    rig_end(&r);
+}
+
+static void test_deformed_meshes_move_vertex_by_vertex(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        int16_t before[12];
+        memcpy(before, square_position, sizeof before);
+        for (int i = 0; i < 4; i++)
+            before[3 * i] = (int16_t)(before[3 * i] - (before[3 * i + 1] > 0 ? 128 : 0));    /* the top leans right */
+        smear_transform now = motion_pose(0, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .now = &now, .open_position = before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 32, 25, v);
+        CHECK_NEAR(v[0], 1024 * 29 / 32, 8);
+        motion_frame(&r, &f, &d, 1, 32, 38, v);
+        CHECK_NEAR(v[0], 1024 * 3 / 32, 8);
+        d.motion = SMEAR_MOTION_CAMERA;
+        motion_frame(&r, &f, &d, 1, 32, 25, v);
+        CHECK_EQ(v[0], 0);
+    }
+    rig_end(&r);
+}
+
+static void test_what_was_behind_the_camera_moves_in_the_right_direction(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        /* A wide floor-like square at x = 1 crosses the near plane on its way in: from behind the eye to z = -2. */
+        smear_transform before = pose_at(1, 0, 0.5, 0, 0), now = pose_at(1, 0, -2, 0, 0);
+        smear_draw d = { .id = 1, .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
+        smear_frame f = { .camera = &motion_camera };
+        int32_t v[2];
+        motion_frame(&r, &f, &d, 1, 48, 32, v);
+        CHECK(v[0] < -8 * 256);                 /* it came from far right */
+        CHECK(abs(v[1]) <= abs(v[0]) / 8 + 256);
+        for (int i = 0; i < MOTION_W * MOTION_H; i++)
+            CHECK(abs(r.velocity[2 * i]) <= 1 << 22 && abs(r.velocity[2 * i + 1]) <= 1 << 22);
+    }
+    rig_end(&r);
+}
+
+/* ------------------------------------------------------------------ methods */
+
+static void test_a_still_scene_is_the_same_picture_by_every_method(void)
+{
+    static const int16_t size[][2] = { { 96, 72 }, { 7, 5 }, { 1, 40 }, { 40, 1 }, { 33, 65 } };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            struct rig r;
+            smear_desc desc = small_desc(size[i][0], size[i][1]);
+            desc.accumulate = desc.timed = 1;
+            if (rig_begin(&r, &desc, false)) {
+                struct scene s;
+                make_scene(&s, 0.2, SMEAR_NONE);
+                s.frame.light = (uint8_t)light;
+                uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+                for (int n = 1; n <= 1024; n = n * 7 + 1) {
+                    s.frame.method = SMEAR_RECONSTRUCT;
+                    s.frame.samples = (uint16_t)n;
+                    s.frame.reconstruct = (uint8_t)(n & 31);
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    same_picture(&r, sharp);
+                    smear_stats stats;
+                    smear_get_stats(r.ctx, &stats);
+                    CHECK_EQ(stats.samples, 0);
+                    CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                    for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
+                        s.frame.method = (uint8_t)method;
+                        s.frame.target = (uint16_t)n;
+                        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                        same_picture(&r, sharp);
+                        smear_get_stats(r.ctx, &stats);
+                        CHECK_EQ(stats.samples, 0);
+                        CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                        CHECK_EQ(stats.tiles_none, stats.tiles_still);
+                    }
+                    if (n > 100)
+                        continue;
+                    s.frame.method = SMEAR_ACCUMULATE;
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    same_picture(&r, sharp);
+                }
+                free(sharp);
+            }
+            rig_end(&r);
+        }
+}
+
+static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
+{
+    static const int16_t rows[] = { 0, 8, 16, 24, 64, 72, 2048 - 2048 % 8 };
+    struct rig windowed;
+    smear_desc desc = small_desc(100, 70);
+    desc.format = SMEAR_L1_PAGES;
+    if (rig_begin(&windowed, &desc, false)) {
+        struct scene s;
+        make_scene(&s, 0.4, SMEAR_NONE);
+        uint8_t *picture = rig_copy(&windowed, &s.frame, s.draw, SCENE_DRAWS);
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+            for (int tile = 8; tile <= 64; tile *= 2) {
+                struct rig r;
+                smear_desc sharp = desc;
+                sharp.sharp = 1;
+                sharp.band_rows = rows[i];
+                sharp.tile = (int16_t)tile;
+                sharp.max_triangles = i & 1 ? 60 : 400;
+                if (rig_begin(&r, &sharp, false)) {
+                    CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    CHECK(r.bands_in_order && r.next_row == 70);
+                    same_picture(&r, picture);
+                }
+                rig_end(&r);
+            }
+        free(picture);
+    }
+    rig_end(&windowed);
+}
+
+/* Tiles finished in strips: every filter, blended draws among what is drawn, odd heights, several workers. */
+static void test_a_filtered_picture_does_not_depend_on_the_height_of_bands(void)
+{
+    static const struct { uint8_t method, weights, reconstruct, light, format; } look[] = {
+        { SMEAR_RECONSTRUCT, 0, 0, SMEAR_LIGHT_ENCODED, SMEAR_RGB565 },
+        { SMEAR_RECONSTRUCT, 0, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, SMEAR_LIGHT_LINEAR, SMEAR_L4 },
+        { SMEAR_RECONSTRUCT, SMEAR_WEIGHTS_GUERTIN, 0, SMEAR_LIGHT_LINEAR, SMEAR_XRGB8888 },
+        { SMEAR_PINGPONG, 0, 0, SMEAR_LIGHT_ENCODED, SMEAR_RGB565 },
+        { SMEAR_NONE, 0, 0, SMEAR_LIGHT_ENCODED, SMEAR_L1 },
+        { SMEAR_RECONSTRUCT, 0, SMEAR_UNIFORM, SMEAR_LIGHT_ENCODED, SMEAR_L1_PAGES },
+    };
+    for (size_t i = 0; i < sizeof look / sizeof look[0]; i++) {
+        struct rig whole;
+        smear_desc desc = small_desc(100, 70);
+        desc.tile = 16;
+        desc.format = look[i].format;
+        if (rig_begin(&whole, &desc, false)) {
+            struct scene before, s;
+            make_scene(&before, 0.3, look[i].method);
+            make_scene(&s, 0.4, look[i].method);
+            before.frame.pingpong.passes = 1;
+            s.frame.weights = look[i].weights;
+            s.frame.pingpong.passes = 1;
+            s.frame.reconstruct = look[i].reconstruct;
+            s.frame.light = look[i].light;
+            CHECK_EQ(rig_frame(&whole, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
+            uint8_t *picture = rig_copy(&whole, &s.frame, s.draw, SCENE_DRAWS);
+            for (int rows = 8; rows >= (look[i].format == SMEAR_L1_PAGES ? 8 : 2); rows /= 2) {
+                struct rig r;
+                smear_desc strips = desc;
+                strips.band_rows = (int16_t)rows;
+                if (rig_begin(&r, &strips, false)) {
+                    CHECK(r.bytes < whole.bytes);
+                    CHECK_EQ(rig_frame(&r, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
+                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                    CHECK(r.bands_in_order && r.next_row == 70);
+                    CHECK(guards_intact(&r));
+                    same_picture(&r, picture);
+                }
+                rig_end(&r);
+            }
+            free(picture);
+        }
+        rig_end(&whole);
+    }
+}
+
+static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
+{
+    struct rig a, b;
+    smear_desc desc = small_desc(80, 60);
+    desc.crc = 1;
+    if (rig_begin(&a, &desc, false) && rig_begin(&b, &desc, true)) {
+        memset(b.picture, 0, b.picture_room);
+        for (int k = 0; k < 6; k++) {
+            smear_stats sa, sb;
+            CHECK_EQ(render_scene(&a, 0.15 * k, 0), SMEAR_OK);
+            CHECK_EQ(render_scene(&b, 0.15 * k, 0), SMEAR_OK);     /* inspection is only looking */
+            same_picture(&a, b.picture);
+            smear_get_stats(a.ctx, &sa);
+            smear_get_stats(b.ctx, &sb);
+            CHECK_EQ(sa.crc32, sb.crc32);
+            CHECK_EQ(sa.samples, sb.samples);
+        }
+        rig_end(&b);
+    }
+    rig_end(&a);
+}
+
+/* CRC-32 bit by bit. */
+static uint32_t plain_crc(const uint8_t *bytes, size_t n)
+{
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < n; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
+    }
+    return ~crc;
+}
+
+static void test_statistics_add_up(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_ACCUMULATE };
+    for (int format = 0; format <= SMEAR_L1_PAGES; format++) {
+        struct rig r;
+        smear_desc desc = small_desc(70, 50);
+        desc.format = (uint8_t)format;
+        desc.crc = 1;
+        desc.accumulate = 1;
+        if (rig_begin(&r, &desc, false))
+            for (int k = 0; k < 6; k++) {
+                smear_stats s;
+                CHECK_EQ(render_scene(&r, 0.3 * k, method[k % 3]), SMEAR_OK);
+                smear_get_stats(r.ctx, &s);
+                size_t bytes = r.picture_size;
+                if (format == SMEAR_XRGB8888) {         /* of 32-bit pixels, the bytes R G B */
+                    uint8_t *rgb = malloc(bytes);
+                    const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                    for (size_t i = 0; i < bytes / 4; i++) {
+                        rgb[3 * i] = (uint8_t)(pixel[i] >> 16);
+                        rgb[3 * i + 1] = (uint8_t)(pixel[i] >> 8);
+                        rgb[3 * i + 2] = (uint8_t)pixel[i];
+                    }
+                    CHECK_EQ(s.crc32, plain_crc(rgb, bytes / 4 * 3));
+                    free(rgb);
+                } else {
+                    CHECK_EQ(s.crc32, plain_crc(r.picture, bytes));
+                }
+                CHECK_EQ(s.pixels, 70 * 50);
+                uint32_t tiles = 9 * 7;
+                CHECK_EQ(s.tiles_still + s.tiles_uniform + s.tiles_complex, tiles);
+                CHECK_EQ(s.tiles_none + s.tiles_accumulate + s.tiles_reconstruct, tiles);
+                CHECK_EQ(s.triangles_in, 2 + 12 + 12 + 2 + 2);
+                CHECK(s.triangles_drawn > 8);
+                CHECK_EQ(s.triangles_dropped, 0);
+                CHECK_EQ(s.arena_bytes, (int64_t)r.bytes);
+                CHECK_EQ(s.time_total, 0);              /* no clock */
+                if (method[k % 3] == SMEAR_ACCUMULATE)
+                    CHECK_EQ(s.samples, 8 * 70 * 50);
+            }
+        rig_end(&r);
+    }
+}
+
+static uint32_t ticking(void *user)
+{
+    static uint32_t ticks;
+    (void)user;
+    return ticks++;
+}
+
+static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
+{
+    struct rig timed, plain;
+    smear_desc desc = small_desc(64, 48), clocked = desc;
+    clocked.clock = ticking;
+    if (rig_begin(&timed, &clocked, false) && rig_begin(&plain, &desc, false)) {
+        for (int k = 0; k < 3; k++) {
+            CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
+            CHECK_EQ(render_scene(&plain, 0.2 * k, 0), SMEAR_OK);
+            same_picture(&timed, plain.picture);
+            smear_stats s;
+            smear_get_stats(timed.ctx, &s);
+            CHECK(s.time_submit > 0 && s.time_raster > 0 && s.time_reduce > 0 && s.time_blur > 0);
+            CHECK(s.time_total >= s.time_submit + s.time_raster + s.time_reduce + s.time_blur + s.time_convert);
+            CHECK_EQ(s.crc32, 0);                       /* not asked for */
+        }
+        rig_end(&plain);
+    }
+    rig_end(&timed);
+}
+
+/* ------------------------------------------------------------------ meshes that are cut */
+
+/* A grid of cells x cells squares over the square mesh, of one colour, drawn as glass: a pixel that is drawn twice or
+ * not at all shows. */
+enum { CELLS = 12 };
+static int16_t grid_position[3 * (CELLS + 1) * (CELLS + 1)];
+static uint16_t grid_index[6 * CELLS * CELLS];
+
+static smear_mesh make_grid(void)
+{
+    uint16_t *index = grid_index;
+    for (int j = 0; j <= CELLS; j++)
+        for (int i = 0; i <= CELLS; i++) {
+            int16_t *p = grid_position + 3 * (j * (CELLS + 1) + i);
+            int wobble = i != 0 && i != CELLS && j != 0 && j != CELLS;
+            p[0] = (int16_t)(-24000 + i * 4000 + wobble * ((i * 7 + j * 13) % 11 - 5) * 200);
+            p[1] = (int16_t)(-24000 + j * 4000 + wobble * ((i * 5 + j * 17) % 13 - 6) * 200);
+            p[2] = 0;
+        }
+    for (int j = 0; j < CELLS; j++)
+        for (int i = 0; i < CELLS; i++) {
+            int a = j * (CELLS + 1) + i, b = a + 1, c = b + CELLS + 1, d = c - 1;
+            const int corner[2][6] = { { a, b, c, a, c, d }, { a, b, d, b, c, d } };
+            for (int k = 0; k < 6; k++)
+                *index++ = (uint16_t)corner[(i + j) & 1][k];
+        }
+    return (smear_mesh){ .position = grid_position, .index = grid_index, .triangle_count = 2 * CELLS * CELLS,
+                         .vertex_count = (CELLS + 1) * (CELLS + 1), .shift = 12 };
+}
+
+static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(160, 120);
+    desc.max_triangles = 4000;
+    smear_mesh grid = make_grid();
+    smear_material glass = { .color = { 255, 255, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1, .double_sided = 1 };
+    if (rig_begin(&r, &desc, false)) {
+        int cut = 0, drawn = 0;
+        for (int n = 0; n < 120; n++) {
+            smear_transform pose = pose_at(0.03 * n - 1.5, -0.02 * n - 0.05, -0.04 * n, 0.37 * n, -1.2 - 0.01 * n);
+            smear_camera camera = camera_at(0, 0, 0, 0.05 * n);
+            camera.near_plane = 656 << n % 9;
+            camera.far_plane = n % 3 == 0 ? 0 : camera.near_plane * 6 + 65536;
+            camera.focal = 65536 << n % 3;
+            if (n % 7 == 6) {
+                camera.half_height = 65536;
+                camera.far_plane = 4 * 65536;
+            }
+            if (n % 5 == 4)         /* huge: most corners far outside the guard band */
+                for (int i = 0; i < 9; i++)
+                    pose.basis[i] = pose.basis[i] * 6;
+            smear_draw d = { .mesh = &grid, .material = &glass, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            int once = 0, never = 0;
+            for (int i = 0; i < 160 * 120; i++) {
+                once += pixel[i] == 0x818181u || pixel[i] == 0x808080u;
+                never += pixel[i] == 0;
+            }
+            if (!CHECK_EQ(once + never, 160 * 120))
+                CHECK_EQ(n, -1);
+            /* A flat mesh is convex after a cut too: what is covered has no holes along a row. */
+            for (int y = 0; y < 120; y++) {
+                int changes = 0;
+                for (int x = 1; x < 160; x++)
+                    changes += (pixel[y * 160 + x] != 0) != (pixel[y * 160 + x - 1] != 0);
+                if (!CHECK(changes <= 2)) {
+                    CHECK_EQ(n, -1);
+                    break;
+                }
+            }
+            cut += never > 0 && once > 0;
+            drawn += once > 0;
+        }
+        CHECK(drawn > 80 && cut > 40);
+    }
+    rig_end(&r);
+}
+
+/* ------------------------------------------------------------------ instants */
+
+static double decode(uint32_t code)
+{
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double encode(double l)
+{
+    return 255 * (l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055);
+}
+
+/* Where a moving square is at u = -1 (shutter open) to 1 (close), in pixels. */
+typedef double place_fn(double u);
+
+static double one_frame_centred(double u) { return 10 * (u / 2); }              /* 360 degrees, 10 px a frame */
+static double one_frame_trailing(double u) { return 10 * (-0.5 + u / 2); }
+static double one_frame_leading(double u) { return 10 * (0.5 + u / 2); }
+static double quarter_centred(double u) { return 10 * (u / 8); }                /* 90 degrees */
+static double parabola(double u) { return (u * u - u) / 2 * -16 + (u * u + u) / 2 * 8; }   /* open, close of shutter poses */
+
+static void accumulate_against_mean(const smear_frame *like, place_fn *place, bool deformed)
+{
+    enum { W = 64, H = 24, N = 8 };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    desc.accumulate = 1;
+    /* focal 1 at distance 4: 3 px per unit; the square is 6 px wide. */
+    const double px = 1.0 / 3;
+    smear_camera camera = camera_at(0, 0, 0, 0);
+    smear_material material = { .unlit = 1, .color = { 255, 200, 40, 255 } };
+    if (rig_begin(&r, &desc, false)) {
+        smear_frame sharp = { .camera = &camera, .method = SMEAR_NONE, .light = like->light, .clear = 0x102030 };
+        double mean[W * H][3];
+        memset(mean, 0, sizeof mean);
+        for (int k = 0; k < N; k++) {
+            smear_transform at = pose_at(place((2 * k + 1.0) / N - 1) * px, 0, -4, 0, 0);
+            smear_draw d = { .mesh = &square, .material = &material, .now = &at };
+            CHECK_EQ(rig_frame(&r, &sharp, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int i = 0; i < W * H; i++)
+                for (int c = 0; c < 3; c++) {
+                    uint32_t code = pixel[i] >> (16 - 8 * c) & 255u;
+                    mean[i][c] += (like->light == SMEAR_LIGHT_LINEAR ? decode(code) : code) / N;
+                }
+        }
+        smear_transform now = pose_at(0, 0, -4, 0, 0), before = pose_at(-10 * px, 0, -4, 0, 0);
+        smear_transform open = pose_at(-16 * px, 0, -4, 0, 0), close = pose_at(8 * px, 0, -4, 0, 0);
+        smear_draw d = { .mesh = &square, .material = &material, .now = &now, .open = &before };
+        int16_t moved[2][12];
+        if (like->shutter_poses) {
+            d.open = &open;
+            d.close = &close;
+        }
+        if (deformed) {             /* the same by the vertices: 256 steps are a unit */
+            for (int i = 0; i < 12; i++) {
+                double shift = i % 3 == 0 ? 256 * px : 0;
+                moved[0][i] = (int16_t)lrint(square_position[i] + shift * (like->shutter_poses ? -16 : -10));
+                moved[1][i] = (int16_t)lrint(square_position[i] + shift * 8);
+            }
+            d.open = d.close = NULL;
+            d.open_position = moved[0];
+            d.close_position = like->shutter_poses ? moved[1] : NULL;
+        }
+        smear_frame f = *like;
+        f.camera = f.open = f.close = &camera;
+        f.method = SMEAR_ACCUMULATE;
+        f.samples = N;
+        f.clear = 0x102030;
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+        for (int i = 0; i < W * H; i++)
+            for (int c = 0; c < 3; c++) {
+                double want = like->light == SMEAR_LIGHT_LINEAR ? encode(mean[i][c]) : mean[i][c];
+                if (!CHECK_CLOSE(pixel[i] >> (16 - 8 * c) & 255u, want, 1.0)) {
+                    CHECK_EQ(i % W, -1);
+                    goto done;
+                }
+            }
+    }
+done:
+    rig_end(&r);
+}
+
+static void test_accumulation_is_the_mean_of_the_instants_of_the_exposure(void)
+{
+    for (int deformed = 0; deformed < 2; deformed++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            smear_frame f = { .light = (uint8_t)light, .shutter_degrees = 360 };
+            f.exposure = SMEAR_CENTRED;
+            accumulate_against_mean(&f, one_frame_centred, deformed);
+            f.exposure = SMEAR_TRAILING;
+            accumulate_against_mean(&f, one_frame_trailing, deformed);
+            f.exposure = SMEAR_LEADING;
+            accumulate_against_mean(&f, one_frame_leading, deformed);
+            f.exposure = SMEAR_CENTRED;
+            f.shutter_degrees = 90;
+            accumulate_against_mean(&f, quarter_centred, deformed);
+            f.shutter_poses = 1;
+            accumulate_against_mean(&f, parabola, deformed);
+        }
+}
+
+static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure(void)
+{
+    struct rig r;
+    if (motion_open(&r)) {
+        static const struct { uint8_t exposure; int shift; } middle[] = {       /* 4 px a frame, all of it open */
+            { SMEAR_CENTRED, 0 }, { SMEAR_TRAILING, -2 }, { SMEAR_LEADING, 2 }
+        };
+        for (int i = 0; i < 3; i++) {
+            smear_transform now = motion_pose(0, 0), before = motion_pose(-0.5, 0);
+            smear_draw d = { .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
+            smear_frame f = { .camera = &motion_camera, .shutter_degrees = 360, .exposure = middle[i].exposure };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            for (int x = 0; x < MOTION_W; x++)          /* 16 px wide around the centre */
+                CHECK_EQ(r.depth[32 * MOTION_W + x] != 0, x >= 24 + middle[i].shift && x < 40 + middle[i].shift);
+            CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 32)], 1024, STEPS);
+        }
+    }
+    rig_end(&r);
+}
+
+static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(96, 72);
+    if (rig_begin(&r, &desc, true)) {
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_transform pose[2] = { pose_at(-2, 0, -4, 0, 0), pose_at(2, 0, -4, 0, 0) };
+        smear_draw d = { .id = 3, .mesh = &square, .now = &pose[1] };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+        uint8_t *sharp = rig_copy(&r, &f, &d, 1);
+        f.method = SMEAR_RECONSTRUCT;
+        d.now = &pose[0];
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        d.now = &pose[1];
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        CHECK_NEAR(r.velocity[2 * (36 * 96 + 66)], 36 * 256, 4 * STEPS);     /* 4 units of 9 px */
+        CHECK(memcmp(sharp, r.picture, r.picture_size) != 0);
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        same_picture(&r, sharp);
+        free(sharp);
+    }
+    rig_end(&r);
+}
+
+static void test_uniform_tiles_take_plain_means_only_when_asked(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(96, 72);
+    uint8_t *picture[2] = { NULL, NULL };
+    uint32_t taps[2];
+    for (int flag = 0; flag < 2; flag++) {
+        if (rig_begin(&r, &desc, false))
+            for (int k = 0; k < 2; k++) {
+                /* A pan over a textured wall that fills the view. */
+                smear_transform pose = pose_at(0, 0, -2, 0, 0);
+                for (int i = 0; i < 9; i++)
+                    pose.basis[i] *= 6;
+                smear_camera camera = camera_at(0.3 * k, 0, 0, 0);
+                smear_material material = { .texture = &checker_texture, .unlit = 1 };
+                make_checker();
+                smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .reconstruct = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                smear_stats stats;
+                smear_get_stats(r.ctx, &stats);
+                if (k == 1) {
+                    CHECK_EQ(stats.tiles_uniform, 12 * 9);
+                    taps[flag] = stats.samples;
+                    picture[flag] = malloc(r.picture_room);
+                    memcpy(picture[flag], r.picture, r.picture_room);
+                }
+            }
+        rig_end(&r);
+    }
+    CHECK(taps[0] != taps[1]);
+    CHECK(memcmp(picture[0], picture[1], 96 * 72 * 4) != 0);
+    free(picture[0]);
+    free(picture[1]);
+}
+
+/* ------------------------------------------------------------------ what is drawn */
+
+/* A square that fills the frame, a texel per pixel: all sizes that have loops of their own, and some that have not. */
+static void test_textures_of_every_size_show_their_texels(void)
+{
+    static const uint16_t size[] = { 1, 2, 16, 32, 64, 128, 256, 512, 37, 100, 200 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int variant = 0; variant < 3; variant++) {
+            int width = size[i], height = variant == 0 ? width : variant == 1 ? 64 : size[(i + 3) % 11];
+            uint32_t *texels = malloc((size_t)width * (size_t)height * 4);
+            for (int k = 0; k < width * height; k++)
+                texels[k] = 0xff000000u | (uint32_t)(k / width) << 12 | (uint32_t)(k % width);
+            struct rig r;
+            smear_desc desc = small_desc(width, height);
+            desc.sharp = 1;
+            if (rig_begin(&r, &desc, false)) {
+                smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
+                smear_material material = { .texture = &texture, .unlit = 1 };
+                /* Orthographic: one unit is half the height. */
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                camera.half_height = 65536;
+                smear_transform pose = pose_at(0, 0, -4, 0, 0);
+                pose.basis[0] = (int32_t)((int64_t)SMEAR_BASIS_ONE * width / height);
+                int16_t uv[8];
+                for (int k = 0; k < 8; k++)             /* a whole turn: 2^14 mesh units */
+                    uv[k] = square_uv[k] != 0 ? 16384 : 0;
+                smear_mesh mesh = square;
+                mesh.uv = uv;
+                mesh.uv_shift = 14;
+                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (int k = 0; k < width * height; k++)
+                    if (!CHECK_EQ(pixel[k], texels[k] & 0xffffffu)) {
+                        CHECK_EQ(width * 1000 + height, -1);
+                        break;
+                    }
+            }
+            rig_end(&r);
+            free(texels);
+        }
+}
+
+static void test_the_largest_textures_are_taken(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    if (rig_begin(&r, &desc, false)) {
+        uint8_t *texels = calloc(4096, 1);
+        static const uint32_t palette[256] = { 0xff305070u };
+        smear_texture texture = { .texels = texels, .palette = palette, .width = 1, .height = 4096,
+                                  .format = SMEAR_TEXEL_PALETTE8 };
+        smear_material material = { .texture = &texture, .unlit = 1 };
+        smear_transform pose = pose_at(0, 0, -1.5, 0, 0);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_draw d = { .mesh = &square, .material = &material, .now = &pose };
+        smear_frame f = { .camera = &camera };
+        for (int turn = 0; turn < 2; turn++) {
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[8 * 16 + 8], 0x305070);
+            texture.width = 4096;
+            texture.height = 1;
+        }
+        free(texels);
+    }
+    rig_end(&r);
+}
+
+/* The ground y = -1 under a camera that looks along -z and down by nothing: pixel (x, y) shows the point that lies in its
+ * direction. Vertices are 127 units away: most is cut away by the near plane and the guard band. */
+static const int16_t ground_position[] = { -32512, 0, 32512, 32512, 0, 32512, 32512, 0, -32512, -32512, 0, -32512 };
+static const int16_t ground_uv[] = { -32512, 32512, 32512, 32512, 32512, -32512, -32512, -32512 };
+static const uint8_t ground_color[] = { 0, 255, 60, 255, 255, 255, 60, 255, 255, 0, 60, 255, 0, 0, 60, 255 };
+
+static void test_what_is_cut_keeps_its_colours_and_texels(void)
+{
+    enum { W = 96, H = 64 };
+    make_checker();
+    for (int textured = 0; textured < 2; textured++)
+        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
+            struct rig r;
+            smear_desc desc = small_desc(W, H);
+            smear_mesh mesh = { .position = ground_position, .uv = ground_uv, .index = square_index,
+                                .color = textured ? NULL : ground_color, .triangle_count = 2, .vertex_count = 4,
+                                .shift = 8, .uv_shift = 11 };
+            smear_material material = { .texture = textured ? &checker_texture : NULL, .unlit = 1 };
+            if (rig_begin(&r, &desc, false)) {
+                smear_transform pose = pose_at(0, -1, 0, 0, 0);
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)light };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (int y = H / 2 + 2; y < H; y++)
+                    for (int x = 0; x < W; x++) {
+                        double z = H / 2 / (y + 0.5 - H / 2), side = (x + 0.5 - W / 2) / (H / 2.0) * z;
+                        uint32_t got = pixel[y * W + x];
+                        bool ok = true;
+                        if (textured) {
+                            /* 8 texels per 2048 steps, 256 steps per unit; v runs against z. One texel or pixel off. */
+                            double reach = 0.1 + z / 32, deep = 0.1 + z * z / 32;
+                            bool found = false;
+                            for (int k = 0; k < 9; k++) {
+                                int u = (int)floor(side + reach * (k % 3 - 1)), v = (int)floor(-z + deep * (k / 3 - 1));
+                                found = found || got == (checker[(v & 7) * 8 + (u & 7)] & 0xffffffu);
+                            }
+                            ok = CHECK(found);
+                        } else {
+                            double red = (side + 127) / 254, green = (127 - z) / 254;
+                            red = light == SMEAR_LIGHT_LINEAR ? encode(red) : red * 255;
+                            green = light == SMEAR_LIGHT_LINEAR ? encode(green) : green * 255;
+                            ok = CHECK_CLOSE(got >> 16, red, 2.0) && CHECK_CLOSE(got >> 8 & 255u, green, 2.0)
+                              && CHECK_CLOSE(got & 255u, 60, 1.0);
+                        }
+                        if (!ok) {
+                            CHECK_EQ(x * 1000 + y, -1);
+                            goto done;
+                        }
+                    }
+            }
+done:
+            rig_end(&r);
+        }
+}
+
+static void test_flat_faces_are_lit_by_their_own_plane(void)
+{
+    enum { W = 64, H = 64 };
+    static const double normal[6][3] = { { 0, 0, 1 }, { 0, 0, -1 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    smear_mesh mesh = { .position = cube_position, .index = cube_index, .triangle_count = 12, .vertex_count = 8,
+                        .shift = STEP };
+    if (rig_begin(&r, &desc, false)) {
+        for (int n = 0; n < 40; n++) {
+            bool inside = n % 4 == 3;           /* from within, double-sided: normals turn to the eye */
+            double yaw = 0.37 * n, pitch = 0.23 * n;
+            smear_transform pose = pose_at(0, 0, inside ? 0 : -4, yaw, pitch);
+            if (n % 4 == 1)                     /* mirrored */
+                for (int i = 0; i < 3; i++)
+                    pose.basis[3 * i] = -pose.basis[3 * i];
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            camera.near_plane = 655;
+            smear_material material = { .double_sided = inside };
+            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int at = 0; at < W * H; at += 37) {
+                uint32_t got = pixel[at];
+                if (got == 0)
+                    continue;
+                bool found = false;             /* the light of one of the faces that may be seen */
+                for (int k = 0; k < 6; k++) {
+                    double world[3], dot = 0;
+                    for (int i = 0; i < 3; i++) {
+                        world[i] = 0;
+                        for (int j = 0; j < 3; j++)
+                            world[i] += pose.basis[3 * i + j] / 16777216.0 * normal[k][j];
+                    }
+                    if (inside)
+                        for (int i = 0; i < 3; i++)
+                            world[i] = -world[i];
+                    if (!inside && world[2] < 0.0)
+                        continue;
+                    dot = 0.36 * world[0] + 0.80 * world[1] + 0.48 * world[2];
+                    found = found || fabs(encode(0.30 + 0.70 * fmax(0, dot)) - (got & 255u)) <= 1.5;
+                }
+                if (!CHECK(found)) {
+                    CHECK_EQ(n * 10000 + at, -1);
+                    break;
+                }
+            }
+        }
+    }
+    rig_end(&r);
+}
+
+static void test_vertex_and_face_colours_pass_unlit(void)
+{
+    enum { W = 48, H = 48 };
+    static const uint8_t color[] = { 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255 };
+    static const uint8_t face[] = { 10, 220, 130, 255, 70, 5, 250, 255 };
+    for (int kind = 0; kind < 8; kind++) {
+        struct rig r;
+        smear_desc desc = small_desc(W, H);
+        smear_mesh mesh = square;
+        mesh.color = kind & 1 ? color : NULL;
+        mesh.face_color = kind & 2 ? face : NULL;
+        smear_material material = { .unlit = 1 };
+        if (rig_begin(&r, &desc, false)) {
+            smear_transform pose = pose_at(0, 0, -1, 0, 0);
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(kind >> 2) };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int lower = 0; lower < 2; lower++) {
+                /* Triangle 0 is below the diagonal from bottom left to top right. */
+                uint32_t got = lower ? pixel[40 * W + 40] : pixel[8 * W + 8];
+                for (int c = 0; c < 3; c++) {
+                    double want = 1;
+                    if (kind & 1)
+                        want *= decode(color[c]);
+                    if (kind & 2)
+                        want *= decode(face[4 * !lower + c]);
+                    CHECK_CLOSE(got >> (16 - 8 * c) & 255u, encode(want), 1.0);
+                }
+            }
+        }
+        rig_end(&r);
+    }
+}
+
+/* A wavy field of cells of about a pixel and a half, a colour for each triangle or vertex. */
+enum { FIELD = 40 };
+static int16_t field_position[3 * (FIELD + 1) * (FIELD + 1)];
+static uint16_t field_index[6 * FIELD * FIELD];
+static uint8_t field_color[4 * 2 * FIELD * FIELD];
+
+static smear_mesh make_field(bool per_vertex)
+{
+    uint16_t *index = field_index;
+    for (int j = 0; j <= FIELD; j++)
+        for (int i = 0; i <= FIELD; i++) {
+            int16_t *p = field_position + 3 * (j * (FIELD + 1) + i);
+            p[0] = (int16_t)((i - FIELD / 2) * 24 + (i * 7 + j * 3) % 11 - 5);
+            p[1] = (int16_t)((j - FIELD / 2) * 24 + (i * 5 + j * 13) % 9 - 4);
+            p[2] = (int16_t)((i * i + j * 3) % 17);
+        }
+    for (int j = 0; j < FIELD; j++)
+        for (int i = 0; i < FIELD; i++) {
+            int a = j * (FIELD + 1) + i, b = a + 1, c = b + FIELD + 1, d = c - 1;
+            const int corner[6] = { a, b, c, a, c, d };
+            for (int k = 0; k < 6; k++)
+                *index++ = (uint16_t)corner[k];
+        }
+    for (int i = 0; i < 4 * 2 * FIELD * FIELD; i++)
+        field_color[i] = (uint8_t)(i % 4 == 3 ? 255 : i * 29 % 251 + 4);
+    return (smear_mesh){ .position = field_position, .index = field_index, .triangle_count = 2 * FIELD * FIELD,
+                         .vertex_count = (FIELD + 1) * (FIELD + 1), .shift = 8,
+                         .color = per_vertex ? field_color : NULL, .face_color = per_vertex ? NULL : field_color };
+}
+
+static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
+{
+    /* Without motion they may be kept as points; with it (one step of q16) they are triangles like any other. */
+    enum { W = 96, H = 72 };
+    struct rig r;
+    smear_desc desc = small_desc(W, H);
+    desc.max_triangles = 8000;
+    if (rig_begin(&r, &desc, true)) {
+        static uint32_t color[W * H];
+        static uint16_t depth[W * H];
+        for (int n = 0; n < 24; n++) {
+            smear_mesh field = make_field(n & 1);
+            smear_material material = { .unlit = (uint8_t)(n >> 1 & 1), .double_sided = n % 3 == 0 };
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            smear_transform pose = pose_at(0.02 * n, 0.01 * n, -2 - 0.11 * n, 0.04 * n - 0.4, 0.1);
+            smear_transform before = pose;
+            before.origin[0]++;
+            smear_draw d = { .mesh = &field, .material = &material, .now = &pose, .open = &before };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(n >> 2 & 1) };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            memcpy(color, r.color, sizeof color);
+            memcpy(depth, r.depth, sizeof depth);
+            f.method = SMEAR_RECONSTRUCT;
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            int drawn = 0;
+            for (int i = 0; i < W * H; i++) {
+                bool ok = CHECK_EQ(depth[i] != 0, r.depth[i] != 0) && CHECK_NEAR(depth[i], r.depth[i], 1);
+                for (int c = 0; c < 24; c += 8)
+                    ok = ok && CHECK_NEAR(color[i] >> c & 255u, r.color[i] >> c & 255u, n & 1 ? 3 : 0);
+                drawn += depth[i] != 0;
+                if (!ok) {
+                    CHECK_EQ(n * 10000 + i, -1);
+                    break;
+                }
+            }
+            CHECK(drawn > 500);
+        }
+    }
+    rig_end(&r);
+}
+
+static void test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted(void)
+{
+    struct rig ample, tight;
+    smear_desc desc = small_desc(64, 96);
+    smear_mesh grid = make_grid();
+    desc.max_triangles = 4000;
+    smear_desc small = desc;
+    if (rig_begin(&ample, &desc, false)) {
+        for (uint32_t room = 400; room >= 4; room /= 2) {
+            small.max_triangles = room;
+            if (rig_begin(&tight, &small, false)) {
+                smear_transform pose = pose_at(0, -0.3, 0, 0.4, -1.5707963);
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_material material = { .double_sided = 1 };
+                smear_draw d = { .mesh = &grid, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+                smear_stats stats;
+                CHECK_EQ(rig_frame(&ample, &f, &d, 1), SMEAR_OK);
+                CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
+                smear_get_stats(tight.ctx, &stats);
+                bool same = memcmp(ample.picture, tight.picture, ample.picture_size) == 0;
+                CHECK(same || stats.triangles_dropped > 0);
+                CHECK(room > 4 || stats.triangles_dropped > 0);
+            }
+            rig_end(&tight);
+        }
+    }
+    rig_end(&ample);
+}
+
+static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
+{
+    for (int format = 0; format <= SMEAR_L1_PAGES; format++)
+        for (int white = 0; white < 2; white++) {
+            struct rig r;
+            smear_desc desc = small_desc(24, 21);
+            desc.format = (uint8_t)format;
+            if (rig_begin(&r, &desc, false)) {
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                smear_frame f = { .camera = &camera, .clear = white ? 0xffffff : 0 };
+                CHECK_EQ(rig_frame(&r, &f, NULL, 0), SMEAR_OK);
+                for (size_t i = 0; i < r.picture_size; i++) {
+                    uint32_t want = !white ? 0 : 0xff;
+                    if (white && format == SMEAR_XRGB8888) {
+                        uint32_t word;
+                        memcpy(&word, r.picture + i / 4 * 4, 4);
+                        CHECK_EQ(word, 0xffffff);
+                        continue;
+                    }
+                    if (white && format == SMEAR_RGB555)
+                        want = i & 1 ? 0x7f : 0xff;
+                    if (white && format == SMEAR_L1_PAGES && i >= 2 * 24)
+                        want = 0x1f;                    /* 21 rows: five in the last page */
+                    if (!CHECK_EQ(r.picture[i], want))
+                        break;
+                }
+            }
+            rig_end(&r);
+        }
+}
+
+/* ------------------------------------------------------------------ the filter alone */
+
+/* A distance whose depth code is `code`, for near plane one: the middle of the code's step. */
+static uint32_t distance_for(uint16_t code)
+{
+    if (code == 0)
+        return 0;
+    double units = code < 32768 ? code + 0.5 : 32768 + (code - 32768) * 16.0;
+    return (uint32_t)(65536.0 * SMEAR_DEPTH_NEAR / units);
+}
+
+static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
+{
+    static const uint8_t flags[] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, SMEAR_UNIFORM, 31 };
+    for (int variant = 0; variant < 14; variant++) {
+        struct rig r, alone;
+        smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
+        desc.reach = (int16_t)(variant & 2 ? 20 : 12);
+        if (rig_begin(&r, &desc, true) && rig_begin(&alone, &desc, false)) {
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            camera.near_plane = 65536;
+            uint8_t *picture = NULL;
+            smear_frame f = { .camera = &camera, .reconstruct = flags[variant % 7], .clear = 0x556677,
+                              .shutter_degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
+                              .light = (uint8_t)(variant / 7) };
+            for (int k = 0; k < 2; k++) {
+                /* Upright squares at powers of two, moving by whole sixteenths of a pixel: depth and velocity pass
+                 * the filter's formats unchanged. */
+                smear_transform pose[4];
+                smear_draw d[4];
+                smear_material m[4];
+                for (int i = 0; i < 4; i++) {
+                    double px = (double)desc.height / 2 / (2 << i);     /* per unit */
+                    static const int step[4][2] = { { -6, 0 }, { 0, 3 }, { 5, -4 }, { 0, 0 } };      /* px per frame */
+                    pose[i] = pose_at((i * 6 - 8 + k * step[i][0]) / px, (8 - 5 * i + k * step[i][1]) / px, -(2 << i),
+                                      0, 0);
+                    m[i] = (smear_material){ .texture = &checker_texture, .unlit = 1 };
+                    d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &m[i], .now = &pose[i] };
+                    for (int e = 0; e < 9; e++)
+                        pose[i].basis[e] *= i + 1;
+                }
+                make_checker();
+                free(picture);
+                picture = rig_copy(&r, &f, d, 4);
+            }
+            rig_forget_output(&alone);
+            CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
+            int moving = 0, left_out = 0;
+            for (int y = 0; y < desc.height; y++) {
+                uint32_t depth[128];
+                int16_t velocity[256];
+                for (int x = 0; x < desc.width; x++) {
+                    int at = y * desc.width + x;
+                    depth[x] = distance_for(r.depth[at]);
+                    for (int axis = 0; axis < 2; axis++) {
+                        int32_t v = r.velocity[2 * at + axis];
+                        velocity[2 * x + axis] = (int16_t)(v >= 0 ? (v + 8) / 16 : -((8 - v) / 16));
+                        moving += v != 0;
+                        left_out += abs(velocity[2 * x + axis] * 16 - v) > 7;
+                    }
+                }
+                CHECK_EQ(smear_filter_row(alone.ctx, r.color + y * desc.width, depth, velocity), SMEAR_OK);
+            }
+            CHECK(moving > 1000);
+            CHECK_EQ(left_out, 0);
+            CHECK(alone.bands_in_order && alone.next_row == desc.height);
+            if (!same_picture(&alone, picture))
+                CHECK_EQ(variant, -1);
+            smear_stats rendered, filtered;
+            smear_get_stats(r.ctx, &rendered);
+            smear_get_stats(alone.ctx, &filtered);
+            CHECK_EQ(rendered.samples, filtered.samples);
+            CHECK_EQ(rendered.tiles_complex, filtered.tiles_complex);
+            free(picture);
+            rig_end(&alone);
+        }
+        rig_end(&r);
+    }
+}
+
+static void test_the_filter_refuses_what_it_cannot_do(void)
+{
+    struct rig r;
+    smear_desc desc = small_desc(16, 16);
+    desc.accumulate = 1;
+    if (rig_begin(&r, &desc, false)) {
+        smear_camera camera = { .near_plane = 65536 };      /* all that is looked at */
+        smear_frame f = { .camera = &camera };
+        static const uint32_t words[16];
+        static const int16_t halves[32];
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+        CHECK_EQ(smear_filter_row(r.ctx, NULL, words, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(r.ctx, words, NULL, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(r.ctx, words, words, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_row(NULL, words, words, halves), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_begin(r.ctx, NULL), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_filter_begin(NULL, &f), SMEAR_ERR_ARG);
+        f.method = SMEAR_NONE;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.method = SMEAR_ACCUMULATE;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.method = 0;
+        camera.near_plane = 0;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+        f.camera = NULL;
+        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_ERR_ARG);
+    }
+    rig_end(&r);
+}
+
+static void test_the_filter_takes_any_velocity_and_depth(void)
+{
+    static const int16_t wild[] = { INT16_MIN, INT16_MAX, 0, 1, -1, 1000, -1000, 255 };
+    struct rig r;
+    for (int reach = 1; reach <= 64; reach += 21) {
+        smear_desc desc = small_desc(90, 75);
+        desc.reach = (int16_t)reach;
+        if (rig_begin(&r, &desc, false)) {
+            uint32_t random = 7;
+            smear_camera camera = { .near_plane = reach == 1 ? INT32_MAX : 1 << reach / 3 };
+            for (int n = 0; n < 6; n++) {
+                smear_frame f = { .camera = &camera, .reconstruct = (uint8_t)(n * 11 & 31), .samples = 1024,
+                                  .shutter_degrees = 3600 };
+                CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+                rig_forget_output(&r);
+                for (int y = 0; y < 75; y++) {
+                    uint32_t color[90], depth[90];
+                    int16_t velocity[180];
+                    for (int x = 0; x < 90; x++) {
+                        random = random * 1664525u + 1013904223u;
+                        color[x] = random;
+                        depth[x] = random >> 7 >> (random >> 2 & 31u);
+                        velocity[2 * x] = wild[random >> 20 & 7u];
+                        velocity[2 * x + 1] = wild[random >> 24 & 7u];
+                    }
+                    CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_OK);
+                }
+                CHECK(r.bands_in_order && r.next_row == 75);
+            }
+        }
+        rig_end(&r);
+    }
+}
+
+void suite_api(void)
+{
+    RUN(test_the_memory_macro_is_never_below_the_memory_function);
+    RUN(test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_function);
+    RUN(test_the_memory_macro_wastes_less_than_an_eighth);
+    RUN(test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_it_alone);
+    RUN(test_memory_must_exist_and_be_aligned);
+    RUN(test_every_bad_field_of_a_desc_is_refused);
+    RUN(test_zero_fields_of_a_desc_mean_the_documented_defaults);
+    RUN(test_every_bad_frame_is_refused_and_the_context_stays_usable);
+    RUN(test_every_bad_draw_is_refused_and_the_rest_is_drawn);
+    RUN(test_calls_out_of_turn_are_refused);
+    RUN(test_a_frame_begun_again_is_forgotten);
+    RUN(test_draws_beyond_the_limit_are_refused_and_not_drawn);
+    RUN(test_a_full_triangle_list_changes_no_pixel);
+    RUN(test_a_frame_in_many_parts_is_the_frame_in_one);
+    RUN(test_a_row_that_does_not_fit_drops_triangles_and_counts_them);
+    RUN(test_the_size_of_the_vertex_cache_changes_no_pixel);
+    RUN(test_wild_transforms_and_cameras_are_drawn_without_harm);
+    RUN(test_frames_of_every_shape_are_covered_by_bands_in_order);
+    RUN(test_an_index_out_of_range_drops_its_triangle_only);
+    RUN(test_meshes_without_triangles_or_vertices_draw_nothing);
+    RUN(test_a_scene_far_from_the_origin_gives_the_same_bits);
+    RUN(test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else);
+    RUN(test_two_bands_are_sent_by_another_thread_while_drawing_goes_on);
+    RUN(test_any_number_of_workers_draws_the_same_picture);
+    RUN(test_work_of_an_index_that_is_no_helper_returns_at_once);
+    RUN(test_a_known_draw_moves_and_unknown_ones_stand_still);
+    RUN(test_a_cut_of_the_camera_stops_everything_for_one_frame);
+    RUN(test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own);
+    RUN(test_the_camera_moves_what_has_no_motion_of_its_own);
+    RUN(test_motion_none_writes_zero_over_what_moves_behind_it);
+    RUN(test_given_poses_win_over_kept_ones);
+    RUN(test_shutter_poses_are_scaled_to_a_frame);
+    RUN(test_deformed_meshes_move_vertex_by_vertex);
+    RUN(test_what_was_behind_the_camera_moves_in_the_right_direction);
+    RUN(test_a_still_scene_is_the_same_picture_by_every_method);
+    RUN(test_the_sharp_picture_does_not_depend_on_window_or_bands);
+    RUN(test_a_filtered_picture_does_not_depend_on_the_height_of_bands);
+    RUN(test_two_contexts_given_the_same_frames_give_the_same_bits);
+    RUN(test_statistics_add_up);
+    RUN(test_a_clock_times_the_stages_and_changes_no_pixel);
+    RUN(test_meshes_cut_by_planes_cover_every_pixel_once);
+    RUN(test_accumulation_is_the_mean_of_the_instants_of_the_exposure);
+    RUN(test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure);
+    RUN(test_a_teleport_without_a_cut_streaks_for_one_frame_only);
+    RUN(test_uniform_tiles_take_plain_means_only_when_asked);
+    RUN(test_textures_of_every_size_show_their_texels);
+    RUN(test_the_largest_textures_are_taken);
+    RUN(test_what_is_cut_keeps_its_colours_and_texels);
+    RUN(test_flat_faces_are_lit_by_their_own_plane);
+    RUN(test_vertex_and_face_colours_pass_unlit);
+    RUN(test_tiny_triangles_are_drawn_alike_with_and_without_motion);
+    RUN(test_cut_triangles_beyond_the_capacity_come_in_parts_or_are_counted);
+    RUN(test_black_is_zero_and_white_is_all_ones_in_every_format);
+    RUN(test_the_filter_gives_the_bits_of_rendering_the_same_content);
+    RUN(test_the_filter_refuses_what_it_cannot_do);
+    RUN(test_the_filter_takes_any_velocity_and_depth);
+}

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* test_direct.c - sharp frames drawn as the display's pixels are those that were drawn as working
+ * pixels and converted. A context with a window never draws directly. */
+#include "context.h"
+#include "base/pixel.h"
+#include "raster/texture.h"
+#include "tools/scenes/present.h"
+
+#include "tests/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void suite_direct(void);
+
+enum { WIDTH = 150, HEIGHT = 110, PIXELS = WIDTH * HEIGHT };
+
+static int keep(void *user, const smear_band *band)
+{
+    for (int y = 0; y < band->height; y++)
+        memcpy((uint16_t *)user + (band->y + y) * WIDTH, (const uint8_t *)band->pixels + (size_t)y * band->stride,
+               WIDTH * 2);
+    return 0;
+}
+
+/* Whether the frame was drawn directly; -1 on errors. */
+static int draw(uint16_t *out, const struct presented *frame, const smear_desc *base)
+{
+    smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
+    smear_context *ctx;
+    desc.sharp = base->sharp;
+    desc.band_rows = base->band_rows;
+    desc.format = base->format;
+    desc.dither = base->dither;
+    desc.max_triangles = base->max_triangles != 0 ? base->max_triangles : desc.max_triangles;
+    desc.flush = keep;
+    desc.user = out;
+    void *memory = calloc(1, smear_memory_size(&desc) + 1);
+    int result = -1;
+    if (CHECK_EQ(smear_init(&ctx, &desc, memory, smear_memory_size(&desc)), SMEAR_OK)
+        && CHECK_EQ(presented_submit(frame, ctx), SMEAR_OK) && CHECK_EQ(smear_render(ctx), SMEAR_OK))
+        result = ctx->direct;
+    free(memory);
+    return result;
+}
+
+/* How many of `count` frames were drawn directly; all must equal those through the window. */
+static int compare(const char *name, int count, bool texels_565, smear_desc desc)
+{
+    static uint16_t direct[PIXELS], window[PIXELS];
+    struct failure f = { "" };
+    struct scene scene = { 0 };
+    int drawn = 0;
+    if (!CHECK(scene_builtin(name, &scene, &f)))
+        return 0;
+    struct presenter *presenter = presenter_new(&scene, &f);
+    for (int i = 0; i < count && CHECK(presenter != NULL); i++) {
+        struct present_options options = { .fps = scene.fps, .shutter_degrees = 180, .method = SMEAR_NONE,
+                                           .clear = 0x6f9ac3, .light = (smear_light)(i & 1),
+                                           .texels_565 = texels_565 };
+        const struct presented *frame = presenter_frame(presenter, 5 * i / scene.fps, &options, &f);
+        if (!CHECK(frame != NULL))
+            break;
+        memset(direct, 0x55, sizeof direct);
+        desc.sharp = 1;
+        drawn += draw(direct, frame, &desc) == 1;
+        smear_desc other = desc;
+        other.sharp = 0;
+        other.band_rows = 0;
+        memset(window, 0xaa, sizeof window);
+        CHECK_EQ(draw(window, frame, &other), 0);
+        int differ = 0;
+        for (int k = 0; k < PIXELS; k++)
+            differ += direct[k] != window[k];
+        CHECK_EQ(differ, 0);
+    }
+    presenter_free(presenter);
+    scene_free(&scene);
+    return drawn;
+}
+
+static void test_every_kind_of_span(void)
+{
+    static const char *const name[] = { "peer/A", "peer/B64", "peer/B256", "peer/C", "peer/D", "peer/E", "peer/N",
+                                        "suite/textured", "suite/fence_fg", "suite/near", "suite/arena" };
+    for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
+        smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .band_rows = i & 1 ? 16 : 112 };
+        CHECK_EQ(compare(name[i], 2, true, desc), 2);
+    }
+}
+
+static void test_either_byte_order(void)
+{
+    smear_desc desc = { .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .band_rows = 24 };
+    CHECK_EQ(compare("peer/B64", 2, true, desc), 2);
+    CHECK_EQ(compare("suite/swarm", 2, true, desc), 2);
+}
+
+static void test_a_frame_in_parts(void)
+{
+    smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 500 };
+    CHECK_EQ(compare("peer/E", 2, true, desc), 2);
+}
+
+static void test_only_where_nothing_is_rounded_twice(void)
+{
+    const smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE };
+    smear_desc other = desc;
+    CHECK_EQ(compare("peer/B64", 1, false, desc), 0);       /* texels of 8 bits */
+    CHECK_EQ(compare("peer/E", 1, false, desc), 1);
+    other.dither = SMEAR_DITHER_ORDERED;
+    CHECK_EQ(compare("peer/E", 1, true, other), 0);
+    other = desc;
+    other.format = SMEAR_RGB555;
+    CHECK_EQ(compare("peer/E", 1, true, other), 0);
+}
+
+/* A texel of 16 bits becomes a working pixel and the same 16 bits again. */
+static void test_texels_of_the_display_stay(void)
+{
+    uint16_t texel;
+    const smear_texture texture = { .texels = &texel, .width = 1, .height = 1, .format = SMEAR_TEXEL_565 };
+    struct smear_sampler sampler;
+    const struct smear_texture_run run = { 0, 0, 0 };
+    int differ = 0;
+    smear_sampler_make(&sampler, &texture, 15, false, false);
+    for (uint32_t i = 0; i < 65536; i++) {
+        uint32_t pixel;
+        texel = (uint16_t)i;
+        smear_sample(&pixel, &sampler, &run, 0, 1);
+        differ += rgb565_nearest(pixel) != i;
+    }
+    CHECK_EQ(differ, 0);
+}
+
+void suite_direct(void)
+{
+    RUN(test_every_kind_of_span);
+    RUN(test_either_byte_order);
+    RUN(test_a_frame_in_parts);
+    RUN(test_only_where_nothing_is_rounded_twice);
+    RUN(test_texels_of_the_display_stay);
+}

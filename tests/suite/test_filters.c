@@ -1,0 +1,509 @@
+/* SPDX-License-Identifier: MIT */
+/* test_filters.c - filters beside the reconstruction: camera velocity from depth against that of vertices, passes against
+ * direct taps, half size; on scenes of the suite. */
+#include "tests/ref/accuracy.h"
+
+#include "tests/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void suite_filters(void);
+
+/* ------------------------------------------------------------------ velocity from depth */
+
+/* RMS and largest distance of two pictures' velocities where both see a surface, px in the exposure. */
+static bool compare_velocities(struct subject *s, const struct present_options *vertices, int step, double *rms,
+                               double *largest)
+{
+    struct shot_options options = { .look = true, .reach = 60, .tile = 64 };
+    struct present_options depth = *vertices;
+    struct shot a, b;
+    double sum = 0.0;
+    int count = 0;
+    depth.camera_step = step;
+    *rms = *largest = INFINITY;
+    if (!shot_take(s, vertices, &options, &a))
+        return false;
+    if (!shot_take(s, &depth, &options, &b)) {
+        shot_free(&a);
+        return false;
+    }
+    double open = vertices->shutter_degrees / 360.0;
+    *largest = 0.0;
+    for (int i = 0; i < a.width * a.height; i++) {
+        if (a.depth[i] == 0)
+            continue;
+        double x = (double)(a.velocity[2 * i] - b.velocity[2 * i]) * open;
+        double y = (double)(a.velocity[2 * i + 1] - b.velocity[2 * i + 1]) * open;
+        sum += x * x + y * y;
+        *largest = fmax(*largest, hypot(x, y));
+        count++;
+    }
+    CHECK(count > a.width * a.height / 4);
+    CHECK(a.stats.draws_moved > b.stats.draws_moved);
+    *rms = sqrt(sum / count);
+    shot_free(&a);
+    shot_free(&b);
+    return true;
+}
+
+static void test_camera_velocity_from_depth_is_that_of_vertices(void)
+{
+    static const char *const scene[] = { "suite/pan", "suite/dolly", "suite/roll", "test/terrain", "test/ortho" };
+    for (int k = 0; k < 5; k++) {
+        struct subject s;
+        if (!subject_open(&s, scene[k]))
+            continue;
+        if (k >= 3 && !subject_circle(&s, 1.0))
+            continue;
+        /* Hills seen at a glance: depths too steep for blocks; and much of what is carried on to the future of a frame
+         * has left the eye. */
+        for (int poses = 0; poses < 4; poses++)
+            for (int step = 1; step <= 4; step *= 2) {      /* a tenth, a half and all of a quarter pixel */
+                if (k == 3 && (step > 1 || poses == 1 || poses == 2))
+                    continue;
+                struct present_options p = subject_options(&s);
+                double rms, largest;
+                char name[80];
+                p.method = SMEAR_RECONSTRUCT;
+                p.shutter_poses = poses == 3;
+                p.exposure = poses == 1 ? SMEAR_TRAILING : poses == 2 ? SMEAR_LEADING : SMEAR_CENTRED;
+                snprintf(name, sizeof name, "%s, poses %d, step %d", scene[k], poses, step);
+                if (!compare_velocities(&s, &p, step, &rms, &largest))
+                    continue;
+                say("      %-34s %.3f px RMS, at most %.2f\n", name, rms, largest);
+                CHECK_BAR(rms, step == 1 ? 0.03 : step == 2 ? 0.125 : 0.26, name);
+            }
+        subject_close(&s);
+    }
+}
+
+/* ------------------------------------------------------------------ memory */
+
+static int take_nothing(void *user, const smear_band *band)
+{
+    (void)user;
+    (void)band;
+    return 0;
+}
+
+static void test_memory_of_passes_and_half_size_is_a_constant(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 } };
+    for (int i = 0; i < 7; i++)
+        for (int tile = 8; tile <= 64; tile *= 2)
+            for (int reach = 1; reach <= tile; reach++)
+                for (int passes = 0; passes <= 3; passes++)
+                    for (int half = 0; half < 2; half++) {
+                        size_t w = (size_t)size[i][0], h = (size_t)size[i][1], r = (size_t)reach, t = (size_t)tile;
+                        smear_desc desc = { .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach,
+                                            .tile = (int16_t)tile, .format = SMEAR_RGB565, .max_triangles = 100,
+                                            .max_draws = 4, .passes = (uint8_t)passes, .half = (uint8_t)half,
+                                            .flush = take_nothing };
+                        size_t room = SMEAR_MEMORY_SIZE_TILE(w, h, r, 100, 4, t)
+                                    + SMEAR_PASSES_BYTES(w, r, t, (size_t)passes)
+                                    + (half ? SMEAR_HALF_BYTES(w, r, t) : 0u), need = smear_memory_size(&desc);
+                        if (!CHECK(need > 0 && need <= room && room - need < 2048)) {
+                            say("  %d x %d, tile %d, reach %d, passes %d, half %d: %zu of %zu\n", size[i][0], size[i][1],
+                                tile, reach, passes, half, need, room);
+                            return;
+                        }
+                    }
+    smear_desc bad = { .width = 64, .height = 64, .flush = take_nothing, .passes = 4 };
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.passes = 2;
+    bad.sharp = 1;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.passes = 0;
+    bad.half = 1;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.sharp = 0;
+    bad.half = 2;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+}
+
+/* ------------------------------------------------------------------ passes, on the suite */
+
+static double rmse_of(const uint8_t *a, const uint8_t *b, int values)
+{
+    double sum = 0.0;
+    for (int i = 0; i < values; i++)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / values);
+}
+
+static void test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64(void)
+{
+    struct subject s;
+    if (!subject_open(&s, "suite/pan"))
+        return;
+    for (int degrees = 90; degrees <= 360; degrees += 90) {
+        struct shot_options options = { .reach = 48, .tile = 64 };
+        struct present_options p = subject_options(&s);
+        struct shot passes, direct;
+        char name[60];
+        p.method = SMEAR_CAMERA;
+        p.filter = SMEAR_FILTER_PINGPONG;
+        p.shutter_degrees = degrees;
+        p.shutter_poses = true;
+        p.pingpong = (smear_pingpong){ .bias = 255 };
+        if (!shot_take(&s, &p, &options, &passes))
+            continue;
+        p.pingpong = (smear_pingpong){ .bias = 255, .passes = 1, .taps = 64 };
+        if (shot_take(&s, &p, &options, &direct)) {
+            double rmse = rmse_of(passes.rgb, direct.rgb, 3 * s.width * s.height);
+            snprintf(name, sizeof name, "%d degrees", degrees);
+            say("      %-12s %.2f codes, %u taps for %u\n", name, rmse, (unsigned)passes.stats.samples,
+                (unsigned)direct.stats.samples);
+            CHECK_BAR(rmse, 1.5, name);
+            CHECK(rmse > 0.1);
+            CHECK(passes.stats.samples <= direct.stats.samples / 4);
+            CHECK(direct.stats.samples > 64u * 10000u);
+            shot_free(&direct);
+        }
+        shot_free(&passes);
+    }
+    subject_close(&s);
+}
+
+/* What each method and option draws, whatever cores, parts and tiles there are. */
+static const struct drawn {
+    const char *scene;
+    struct present_options p;
+    double rmse;                /* at most, against the truth */
+} drawn[] = {
+    { "suite/pan", { .method = SMEAR_CAMERA }, 6.5 },
+    { "suite/dolly", { .method = SMEAR_CAMERA, .camera_step = 2 }, 9 },
+    { "suite/roll", { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_RECONSTRUCT, .camera_step = 4 }, 12 },
+    { "suite/pan", { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG, .pingpong = { .jitter = 90 } }, 10.5 },
+    { "suite/translate", { .method = SMEAR_PINGPONG }, 8 },
+    { "suite/translate", { .method = SMEAR_PINGPONG, .pingpong = { .passes = 3, .taps = 4, .spread = 1 } }, 5.5 },
+    { "suite/cross", { .method = SMEAR_PINGPONG, .light = SMEAR_LIGHT_ENCODED, .camera_step = 1 }, 9 },
+    { "suite/translate", { .method = SMEAR_HALF }, 6.5 },
+    { "suite/fence_obj", { .method = SMEAR_HALF, .reconstruct = SMEAR_FENCE }, 8 },
+    { "suite/cross", { .method = SMEAR_HALF, .filter = SMEAR_FILTER_PINGPONG, .light = SMEAR_LIGHT_ENCODED }, 10 },
+    { "suite/arena", { .method = SMEAR_HALF, .filter = SMEAR_FILTER_MEAN, .camera_step = 2 }, 9 },
+    { "suite/translate", { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_MCGUIRE }, 5.5 },
+    { "suite/translate", { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_GUERTIN, .samples = 32 }, 5.5 },
+    { "suite/translate", { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_JIMENEZ }, 3.5 },
+    { "suite/arena", { .method = SMEAR_RECONSTRUCT, .camera_step = 1, .reconstruct = SMEAR_UNIFORM }, 9 },
+};
+
+static void test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts(void)
+{
+    for (size_t i = 0; i < sizeof drawn / sizeof *drawn; i++) {
+        struct subject s;
+        struct shot one, other;
+        char name[100];
+        if (!subject_open(&s, drawn[i].scene))
+            continue;
+        struct present_options p = drawn[i].p, from = subject_options(&s);
+        p.fps = from.fps;
+        p.clear = from.clear;
+        p.shutter_degrees = from.shutter_degrees;
+        snprintf(name, sizeof name, "%d %s, method %d", (int)i, drawn[i].scene, (int)p.method);
+        const struct ref_truth *truth = truth_of(&s, &p, 64);
+        if (truth != NULL && shot_take(&s, &p, &(struct shot_options){ .reach = 24, .tile = 32 }, &one)) {
+            double rmse = rmse_to_truth(one.rgb, truth);
+            say("      %-40s %.2f codes\n", name, rmse);
+            CHECK_BAR(rmse, drawn[i].rmse, name);
+            shot_free(&one);
+        }
+        struct shot_options plain = { .reach = 13, .tile = 16, .width = 117, .height = 91 };
+        static const struct { int workers, triangles; } how[] = { { 3, 0 }, { 8, 0 }, { 1, 300 }, { 2, 150 } };
+        if (shot_take(&s, &p, &plain, &one)) {
+            for (int k = 0; k < 4; k++) {
+                struct shot_options o = plain;
+                o.workers = how[k].workers;
+                o.triangles = how[k].triangles;
+                if (!shot_take(&s, &p, &o, &other))
+                    continue;
+                if (other.stats.triangles_dropped == 0 && !CHECK_EQ((int64_t)one.stats.crc32, (int64_t)other.stats.crc32))
+                    say("      %s: workers %d, triangles %d\n", name, o.workers, o.triangles);
+                CHECK(o.triangles != 0 || other.stats.triangles_split == 0);
+                shot_free(&other);
+            }
+            shot_free(&one);
+        }
+        subject_close(&s);
+    }
+    truth_forget();
+}
+
+static void test_frames_of_any_size_are_drawn_by_every_filter(void)
+{
+    static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 7, 5 }, { 33, 17 } };
+    struct subject s;
+    if (!subject_open(&s, "suite/arena"))
+        return;
+    for (size_t i = 0; i < sizeof drawn / sizeof *drawn; i++)
+        for (int k = 0; k < 5; k++)
+            for (int tile = 8; tile <= 64; tile *= 2) {
+                struct present_options p = drawn[i].p, from = subject_options(&s);
+                struct shot shot;
+                p.fps = from.fps;
+                p.shutter_degrees = 720;
+                struct shot_options o = { .width = size[k][0], .height = size[k][1], .reach = tile, .tile = tile };
+                if (CHECK(shot_take(&s, &p, &o, &shot)))
+                    shot_free(&shot);
+            }
+    subject_close(&s);
+}
+
+/* ------------------------------------------------------------------ filters alone, on made pictures */
+
+/* What comes out of the filter for a picture of rows that are all alike. */
+struct strip {
+    int width;
+    uint32_t color[128], depth[128];
+    int16_t velocity[256];      /* 1/16 px */
+    uint32_t out[128];          /* the middle row */
+};
+
+enum { STRIP_HEIGHT = 80 };
+
+static int take_middle(void *user, const smear_band *band)
+{
+    struct strip *strip = user;
+    int row = STRIP_HEIGHT / 2 - band->y;
+    if (row >= 0 && row < band->height)
+        memcpy(strip->out, (const char *)band->pixels + (size_t)row * band->stride, (size_t)strip->width * 4);
+    return 0;
+}
+
+static bool strip_filter(struct strip *strip, const smear_frame *frame)
+{
+    smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536 };
+    smear_frame f = *frame;
+    smear_desc desc = { .width = (int16_t)strip->width, .height = STRIP_HEIGHT, .reach = 32, .tile = 32, .passes = 3,
+                        .half = 1, .max_triangles = 1, .max_draws = 1, .flush = take_middle, .user = strip };
+    smear_context *ctx;
+    size_t bytes = smear_memory_size(&desc);
+    void *memory = bytes > 0 ? malloc(bytes) : NULL;
+    f.camera = &camera;
+    f.shutter_degrees = 360;
+    f.light = SMEAR_LIGHT_ENCODED;
+    bool ok = CHECK(memory != NULL) && CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK)
+           && CHECK_EQ(smear_filter_begin(ctx, &f), SMEAR_OK);
+    for (int y = 0; y < STRIP_HEIGHT && ok; y++)
+        ok = CHECK_EQ(smear_filter_row(ctx, strip->color, strip->depth, strip->velocity), SMEAR_OK);
+    free(memory);
+    return ok;
+}
+
+static void strip_fill(struct strip *strip, int x0, int x1, uint32_t color, double distance, double velocity)
+{
+    for (int x = x0; x < x1; x++) {
+        strip->color[x] = color;
+        strip->depth[x] = (uint32_t)(distance * 65536);
+        strip->velocity[2 * x] = (int16_t)lround(velocity * 16);
+        strip->velocity[2 * x + 1] = 0;
+    }
+}
+
+/* A bright line of a pixel under a pan: what each column gets of it is the kernel. */
+static void kernel_of(const smear_pingpong *passes, double pan, int kernel[128])
+{
+    struct strip strip = { .width = 128 };
+    strip_fill(&strip, 0, 128, 0x000000, 10, pan);
+    strip_fill(&strip, 64, 65, 0xffffff, 10, pan);
+    memset(kernel, 0, 128 * sizeof *kernel);
+    if (strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong = *passes }))
+        for (int x = 0; x < 128; x++)
+            kernel[x] = (int)(strip.out[x] & 255);
+}
+
+static void test_even_passes_are_a_box_and_the_original_is_a_comb(void)
+{
+    static const smear_pingpong even[] = { { .passes = 1, .taps = 64 }, { .passes = 2 }, { .passes = 3, .taps = 4 } };
+    int kernel[128];
+    for (int i = 0; i < 3; i++) {
+        kernel_of(&even[i], 64, kernel);
+        for (int x = 0; x < 128; x++)
+            CHECK_EQ(kernel[x], x >= 32 && x <= 95 ? 4 : 0);        /* 255 / 64 */
+    }
+    /* 31 places with weights 1 1 1 1 2 2 2 1 2 2 2 1 2 2 2 1 ... of 49. */
+    static const int tooth[31] = { 1, 1, 1, 1, 2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1,
+                                   2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1 };
+    kernel_of(&(smear_pingpong){ .taps = 7, .base = 4 }, 31, kernel);
+    for (int x = 0; x < 128; x++)
+        CHECK_NEAR(kernel[x], x >= 49 && x <= 79 ? tooth[x - 49] * 255 / 49 : 0, 1);
+}
+
+static void test_the_depth_mask_keeps_what_is_in_front_from_bleeding(void)
+{
+    for (int bias = 4; bias <= 255; bias += 251) {
+        struct strip strip = { .width = 128 };
+        int bled = 0;
+        strip_fill(&strip, 0, 128, 0x0000ff, 100, 24);
+        strip_fill(&strip, 48, 80, 0xff0000, 5, 0);
+        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong.bias = (uint8_t)bias }))
+            continue;
+        for (int x = 0; x < 128; x++) {
+            if (x >= 48 && x < 80)
+                CHECK_EQ((int64_t)strip.out[x], 0xff0000);      /* still: as it was */
+            else
+                bled += strip.out[x] != 0x0000ff;
+        }
+        CHECK_EQ(bled > 0, bias == 255);
+    }
+}
+
+static void test_silhouettes_spread_where_that_is_asked_for(void)
+{
+    for (int spread = 0; spread < 2; spread++) {
+        struct strip strip = { .width = 128 };
+        int outside = 0, behind = 0;
+        double sum = 0;
+        strip_fill(&strip, 0, 128, 0x0000ff, 100, 0);
+        strip_fill(&strip, 48, 80, 0xff0000, 5, 24);
+        strip_fill(&strip, 84, 128, 0x00ff00, 1, 0);        /* still, and in front of it */
+        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong.spread = (uint8_t)spread }))
+            continue;
+        for (int x = 0; x < 48; x++)
+            outside += strip.out[x] >> 16 != 0;
+        for (int x = 0; x < 84; x++)
+            sum += strip.out[x] >> 16;
+        for (int x = 84; x < 128; x++)
+            behind += strip.out[x] != 0x00ff00;
+        CHECK(spread ? outside >= 9 && outside <= 13 : outside == 0);
+        CHECK_EQ(behind, 0);
+        /* What spreads is about what it was; without, the inside only gets thinner. */
+        CHECK(spread ? fabs(sum - 32 * 255) < 0.08 * 32 * 255 : sum < 0.9 * 32 * 255);
+    }
+}
+
+static void test_still_pictures_pass_every_filter_unchanged(void)
+{
+    static const smear_frame frames[] = {
+        { .method = SMEAR_PINGPONG, .pingpong.spread = 1 }, { .method = SMEAR_HALF },
+        { .method = SMEAR_HALF, .filter = SMEAR_FILTER_PINGPONG },
+        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_MCGUIRE },
+        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_GUERTIN },
+        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_JIMENEZ }
+    };
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++)
+        for (int moving = 0; moving < 2; moving++) {
+            struct strip strip = { .width = 128 };
+            for (int x = 0; x < 128; x++) {
+                uint32_t color = ((uint32_t)x * 2654435761u >> 8) & 0xffffffu;
+                strip_fill(&strip, x, x + 1, moving ? 0x804020 : color, x % 7 + 2, moving ? x / 3 : 0);
+            }
+            if (!strip_filter(&strip, &frames[i]))
+                continue;
+            /* Nothing moves; or all is one colour. */
+            for (int x = 0; x < 128; x++)
+                if (!CHECK_EQ((int64_t)strip.out[x], (int64_t)strip.color[x])) {
+                    say("      filter %d, moving %d, column %d\n", (int)i, moving, x);
+                    break;
+                }
+        }
+}
+
+/* Half size: what moves gets the blur; what it does not touch is as it was, detail and all. */
+static void test_half_size_keeps_the_detail_of_what_it_does_not_touch(void)
+{
+    struct strip strip = { .width = 128 };
+    for (int x = 0; x < 128; x++)
+        strip_fill(&strip, x, x + 1, x & 1 ? 0xffffff : 0x000000, 50, x < 32 ? 24 : 0);
+    if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_HALF, .reconstruct = SMEAR_FENCE }))
+        return;
+    for (int x = 0; x < 128; x++) {
+        if (x < 24)
+            CHECK_NEAR(strip.out[x] & 255, 128, 3);
+        if (x >= 64)
+            CHECK_EQ((int64_t)strip.out[x], x & 1 ? 0xffffff : 0x000000);
+    }
+}
+
+/* ------------------------------------------------------------------ streaks longer than a tile */
+
+static void test_scattered_maxima_carry_streaks_over_several_tiles(void)
+{
+    static const uint8_t weights[] = { SMEAR_WEIGHTS_STACK, SMEAR_WEIGHTS_JIMENEZ };
+    struct subject s;
+    if (!subject_open(&s, "suite/long"))
+        return;
+    for (int w = 0; w < 2; w++) {
+        struct present_options p = subject_options(&s);
+        p.method = SMEAR_RECONSTRUCT;
+        p.weights = weights[w];
+        p.samples = 32;
+        const struct ref_truth *truth = truth_of(&s, &p, 128);
+        double rmse[4];
+        static const struct shot_options how[4] = { { .reach = 16, .tile = 16 }, { .reach = 48, .tile = 64 },
+                                                    { .reach = 48, .tile = 16, .scatter = true },
+                                                    { .reach = 48, .tile = 8, .scatter = true } };
+        uint32_t bytes[4], crc = 0;
+        for (int i = 0; i < 4; i++) {
+            struct shot shot;
+            rmse[i] = INFINITY;
+            bytes[i] = 0;
+            for (int workers = 1; workers <= 4; workers += 3) {
+                struct shot_options o = how[i];
+                o.workers = workers;
+                if (truth == NULL || !shot_take(&s, &p, &o, &shot))
+                    continue;
+                rmse[i] = rmse_to_truth(shot.rgb, truth);
+                if (workers == 1)
+                    bytes[i] = shot.stats.arena_bytes;
+                else
+                    CHECK_EQ((int64_t)shot.stats.crc32, (int64_t)crc);
+                crc = shot.stats.crc32;
+                shot_free(&shot);
+            }
+        }
+        say("      weights %d: %.2f codes with a reach of a tile, %.2f in tiles of 64, scattered %.2f in 16, %.2f in 8;"
+            " %u, %u, %u kB\n", weights[w], rmse[0], rmse[1], rmse[2], rmse[3], (unsigned)bytes[1] / 1024,
+            (unsigned)bytes[2] / 1024, (unsigned)bytes[3] / 1024);
+        CHECK(rmse[2] < 0.7 * rmse[0] && rmse[2] < 1.05 * rmse[1] && rmse[3] < 1.05 * rmse[1]);
+        CHECK(bytes[3] < bytes[2] && bytes[2] < bytes[1] * 3 / 4);
+    }
+    truth_forget();
+    subject_close(&s);
+}
+
+static void test_memory_of_scattered_windows_is_a_constant(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 33, 17 }, { 128, 64 }, { 321, 479 } };
+    for (int i = 0; i < 4; i++)
+        for (int tile = 8; tile <= 64; tile *= 2)
+            for (int reach = 1; reach <= 64; reach++) {
+                size_t w = (size_t)size[i][0], h = (size_t)size[i][1], r = (size_t)reach, t = (size_t)tile;
+                smear_desc desc = { .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach,
+                                    .tile = (int16_t)tile, .format = SMEAR_RGB565, .max_triangles = 100, .max_draws = 4,
+                                    .scatter = 1, .flush = take_nothing };
+                size_t room = SMEAR_MEMORY_SIZE_SCATTER(w, h, r, 100, 4, t), need = smear_memory_size(&desc);
+                if (!CHECK(need > 0 && need <= room && room - need < 2048)) {
+                    say("  %d x %d, tile %d, reach %d: %zu of %zu\n", size[i][0], size[i][1], tile, reach, need, room);
+                    return;
+                }
+            }
+    smear_desc bad = { .width = 64, .height = 64, .flush = take_nothing, .scatter = 1, .passes = 2 };
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.passes = 0;
+    bad.timed = 1;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    bad.timed = 0;
+    bad.reach = 65;
+    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+}
+
+void suite_filters(void)
+{
+    RUN(test_memory_of_scattered_windows_is_a_constant);
+    RUN(test_even_passes_are_a_box_and_the_original_is_a_comb);
+    RUN(test_the_depth_mask_keeps_what_is_in_front_from_bleeding);
+    RUN(test_silhouettes_spread_where_that_is_asked_for);
+    RUN(test_still_pictures_pass_every_filter_unchanged);
+    RUN(test_half_size_keeps_the_detail_of_what_it_does_not_touch);
+    RUN(test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64);
+    RUN(test_scattered_maxima_carry_streaks_over_several_tiles);
+    RUN(test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts);
+    RUN(test_frames_of_any_size_are_drawn_by_every_filter);
+    RUN(test_memory_of_passes_and_half_size_is_a_constant);
+    RUN(test_camera_velocity_from_depth_is_that_of_vertices);
+}

@@ -1,0 +1,889 @@
+/* SPDX-License-Identifier: MIT */
+/* test_layers.c - SMEAR_OBJECT and SMEAR_LAYERED: how far they are from the truth on the scenes of the quality suite, what
+ * must stay as it is bit for bit, layers with settings of their own, memory, workers. */
+#include "layers/streak.h"
+#include "tools/bench/kinds.h"
+#include "tools/bench/take.h"
+#include "tests/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void suite_layers(void);
+
+/* ------------------------------------------------------------------ takes of the suite */
+
+static struct take take_of(const char *scene, smear_method method, int samples)
+{
+    return (struct take){
+        .scene = scene, .frame = -1, .format = SMEAR_XRGB8888, .method = method, .samples = samples, .shutter_poses = true,
+        .windowed = method == SMEAR_RECONSTRUCT, .layers = method == SMEAR_OBJECT || method == SMEAR_LAYERED
+    };
+}
+
+/* A picture and its statistics; a failed check without. Free the picture. */
+static bool draw_take(const struct take *take, struct image *out, smear_stats *stats)
+{
+    struct rig rig;
+    struct failure f = { "" };
+    bool ok = rig_open(&rig, take, &f);
+    if (ok) {
+        ok = rig_picture(&rig, CLEAR_OF_SCENE, out, &f);
+        if (stats != NULL)
+            *stats = rig.stats;
+        rig_close(&rig);
+    }
+    if (!ok)
+        test_print(f.text);
+    return CHECK(ok);
+}
+
+static double rmse(const struct image *a, const struct image *b)
+{
+    double sum = 0.0;
+    size_t n = (size_t)a->width * (size_t)a->height;
+    for (size_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++) {
+            double d = (double)a->rgba[4 * i + (size_t)c] - b->rgba[4 * i + (size_t)c];
+            sum += d * d;
+        }
+    return sqrt(sum / (3.0 * (double)n));
+}
+
+/* Enough: on these scenes it is 0.2 codes from 1024. */
+enum { INSTANTS = 96 };
+
+static bool draw_truth(const char *scene, struct image *out)
+{
+    struct take take = take_of(scene, SMEAR_NONE, 1);
+    struct present_options options = { .shutter_degrees = 180, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+    struct rig rig;
+    struct failure f = { "" };
+    bool ok = rig_open(&rig, &take, &f);
+    if (ok) {
+        options.fps = rig.scene.fps;
+        options.clear = rig.scene.clear;
+        ok = presenter_exact(rig.presenter, rig.scene.time, &options, rig.take.width, rig.take.height, INSTANTS, out, &f);
+        rig_close(&rig);
+    }
+    if (!ok)
+        test_print(f.text);
+    return CHECK(ok);
+}
+
+/* Error of a method on a scene; NAN after a failed check. */
+static double error_of(const char *scene, smear_method method, int samples, const struct image *truth)
+{
+    struct take take = take_of(scene, method, samples);
+    struct image picture;
+    if (!draw_take(&take, &picture, NULL))
+        return NAN;
+    double error = rmse(&picture, truth);
+    image_free(&picture);
+    return error;
+}
+
+/* The bar is 1.8 codes at 1.6 times the sharp frame (make chart counts the cost). */
+static void test_object_is_within_1_8_codes_of_the_truth(void)
+{
+    static const char *const scene[] = { "suite/translate", "suite/cross", "suite/fence_obj", "suite/enter", "suite/long" };
+    double sum = 0.0;
+    for (int i = 0; i < 5; i++) {
+        struct image truth;
+        if (!draw_truth(scene[i], &truth))
+            return;
+        sum += log(error_of(scene[i], SMEAR_OBJECT, 0, &truth));
+        image_free(&truth);
+    }
+    CHECK(exp(sum / 5) <= 1.8);
+}
+
+static void test_layered_errs_two_thirds_of_reconstruct(void)
+{
+    double sum = 0.0;
+    int n = 0;
+    for (int i = 0; i < KINDS; i++) {
+        struct image truth;
+        if (kinds[i].group != GROUP_OBJECT)
+            continue;
+        if (!draw_truth(kinds[i].scene, &truth))
+            return;
+        sum += log(error_of(kinds[i].scene, SMEAR_LAYERED, 8, &truth) / error_of(kinds[i].scene, SMEAR_RECONSTRUCT, 8, &truth));
+        image_free(&truth);
+        n++;
+    }
+    CHECK_EQ(n, 12);
+    CHECK(exp(sum / n) <= 2.0 / 3.0);
+}
+
+static void test_pictures_do_not_depend_on_the_number_of_workers(void)
+{
+    static const char *const scene[] = { "suite/cross", "suite/swarm", "suite/enter", "suite/near", "suite/textured" };
+    for (int i = 0; i < 5 * 4; i++) {
+        struct take take = take_of(scene[i >> 2], i & 1 ? SMEAR_OBJECT : SMEAR_LAYERED, 0);
+        struct image one, other;
+        take.linear = i & 2;
+        if (!draw_take(&take, &one, NULL))
+            return;
+        for (take.workers = 2; take.workers <= 7; take.workers += 5) {
+            if (draw_take(&take, &other, NULL)) {
+                CHECK(memcmp(one.rgba, other.rgba, (size_t)one.width * (size_t)one.height * 4) == 0);
+                image_free(&other);
+            }
+        }
+        image_free(&one);
+    }
+}
+
+/* ------------------------------------------------------------------ a scene of plates */
+
+enum { W = 96, H = 64, REACH = 10, TILE = 16 };
+
+static const int16_t corners[] = { -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0 };
+static const uint16_t sides[] = { 0, 1, 2, 0, 2, 3 };
+static const smear_mesh square = { .position = corners, .vertex_count = 4, .index = sides, .triangle_count = 2 };
+static const smear_material red = { .color = { 255, 0, 0, 255 }, .unlit = 1 };
+static const smear_material green = { .color = { 0, 255, 0, 255 }, .unlit = 1 };
+static const smear_material blue = { .color = { 0, 0, 255, 255 }, .unlit = 1 };
+static const smear_material white = { .color = { 255, 255, 255, 255 }, .unlit = 1 };
+
+/* A pixel is a unit of the world: the camera is orthographic, y up, its middle the frame's. */
+static const smear_camera camera = { .pose = SMEAR_IDENTITY, .half_height = H / 2 << 16, .near_plane = 1 << 16,
+                                     .far_plane = 101 << 16 };
+
+/* A plate of the given half size around (x, y), `depth` units away. */
+static smear_transform plate(double x, double y, double depth, double half_x, double half_y)
+{
+    smear_transform t = SMEAR_IDENTITY;
+    t.basis[0] = (int32_t)(half_x * SMEAR_BASIS_ONE);
+    t.basis[4] = (int32_t)(half_y * SMEAR_BASIS_ONE);
+    t.origin[0] = (int32_t)(x * 65536);
+    t.origin[1] = (int32_t)(y * 65536);
+    t.origin[2] = (int32_t)(-depth * 65536);
+    return t;
+}
+
+/* The plate moves so many pixels during the exposure, poses at shutter open and close. */
+struct mover {
+    smear_transform now, open, close;
+};
+
+static void mover_make(struct mover *m, double x, double y, double depth, double half_x, double half_y, double dx, double dy)
+{
+    m->now = plate(x, y, depth, half_x, half_y);
+    m->open = plate(x - dx / 2, y - dy / 2, depth, half_x, half_y);
+    m->close = plate(x + dx / 2, y + dy / 2, depth, half_x, half_y);
+}
+
+static smear_draw draw_of(const struct mover *m, const smear_material *material)
+{
+    return (smear_draw){ .mesh = &square, .material = material, .now = &m->now, .open = &m->open, .close = &m->close };
+}
+
+static uint32_t picture[W * H];
+
+static int keep_band(void *user, const smear_band *band)
+{
+    uint32_t *out = user;
+    for (int y = 0; y < band->height; y++)
+        memcpy(out + (band->y + y) * band->width, (const uint8_t *)band->pixels + (size_t)y * band->stride,
+               (size_t)band->width * 4);
+    return 0;
+}
+
+static smear_desc desc_of(uint32_t *out)
+{
+    return (smear_desc){ .width = W, .height = H, .reach = REACH, .tile = TILE, .format = SMEAR_XRGB8888, .layers = 1, .sharp = 1,
+                         .flush = keep_band, .user = out };
+}
+
+static smear_stats stats;
+
+/* False after a failed check. */
+static bool render_with(const smear_desc *desc, const smear_frame *frame, const smear_draw *draw, int count)
+{
+    size_t bytes = smear_memory_size(desc);
+    void *memory = malloc(bytes + 1);
+    smear_context *ctx;
+    int result = memory != NULL ? smear_init(&ctx, desc, memory, bytes) : SMEAR_ERR_MEMORY;
+    if (result == SMEAR_OK)
+        result = smear_begin(ctx, frame);
+    for (int i = 0; i < count && result == SMEAR_OK; i++)
+        result = smear_submit(ctx, &draw[i]);
+    if (result == SMEAR_OK)
+        result = smear_render(ctx);
+    if (result == SMEAR_OK)
+        smear_get_stats(ctx, &stats);
+    free(memory);
+    return CHECK_EQ(result, SMEAR_OK);
+}
+
+static smear_frame frame_of(smear_method method)
+{
+    return (smear_frame){ .camera = &camera, .method = (uint8_t)method, .shutter_poses = 1, .light = SMEAR_LIGHT_ENCODED,
+                          .clear = 0x102030 };
+}
+
+static bool render(uint32_t *out, const smear_frame *frame, const smear_draw *draw, int count)
+{
+    smear_desc desc = desc_of(out);
+    return render_with(&desc, frame, draw, count);
+}
+
+static int channel(uint32_t p, int shift)
+{
+    return (int)(p >> shift & 255u);
+}
+
+/* Largest difference within [x0, x1) x [y0, y1). */
+static int difference(const uint32_t *a, const uint32_t *b, int x0, int y0, int x1, int y1)
+{
+    int most = 0;
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++)
+            for (int shift = 0; shift < 24; shift += 8) {
+                int d = abs(channel(a[y * W + x], shift) - channel(b[y * W + x], shift));
+                most = d > most ? d : most;
+            }
+    return most;
+}
+
+static const smear_method both[] = { SMEAR_OBJECT, SMEAR_LAYERED };
+
+/* ------------------------------------------------------------------ streaks */
+
+/* A column of light: how much red is there, 0 .. 255, over black. */
+static void test_a_streak_is_a_ramp_over_the_way(void)
+{
+    static const double way[][2] = { { 16, 0 }, { 12, 9 }, { 0, 15 }, { -17.5, 0 }, { 7, -7 }, { 5.25, 0 }, { 0, -6.5 }, { 2, 0 } };
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
+            struct mover m;
+            mover_make(&m, 0, 0, 10, 11, 9, way[i][0], way[i][1]);
+            smear_draw draw = draw_of(&m, &red);
+            smear_frame frame = frame_of(both[k]);
+            frame.clear = 0;
+            frame.samples = 32;
+            if (!render(picture, &frame, &draw, 1))
+                return;
+            double worst = 0.0, sum = 0.0, energy = 0.0;
+            for (int y = 0; y < H; y++)
+                for (int x = 0; x < W; x++) {
+                    int covered = 0;
+                    for (int t = 0; t < 256; t++) {
+                        double s = (t + 0.5) / 256 - 0.5, px = x + 0.5 - W / 2.0 - way[i][0] * s,
+                               py = H / 2.0 - y - 0.5 - way[i][1] * s;
+                        covered += px >= -11 && px < 11 && py > -9 && py <= 9;
+                    }
+                    double want = covered * 255.0 / 256, d = channel(picture[y * W + x], 16) - want;
+                    worst = fmax(worst, fabs(d));
+                    sum += d * d;
+                    energy += d;
+                }
+            CHECK(sqrt(sum / (W * H)) <= 3.5);
+            CHECK(worst <= 64.0);
+            CHECK(fabs(energy) / 255 <= 0.02 * 22 * 18);
+        }
+}
+
+/* What comes into the frame is there before it does. */
+static void test_what_enters_the_frame_is_blurred_as_within_it(void)
+{
+    static uint32_t inside[W * H];
+    for (int k = 0; k < 2; k++) {
+        struct mover m;
+        smear_frame frame = frame_of(both[k]);
+        mover_make(&m, 0, 0, 10, 8, 12, 16, 0);
+        smear_draw draw = draw_of(&m, &red);
+        if (!render(inside, &frame, &draw, 1))
+            return;
+        mover_make(&m, -W / 2.0, 0, 10, 8, 12, 16, 0);
+        if (!render(picture, &frame, &draw, 1))
+            return;
+        for (int y = 0; y < H; y++)
+            for (int x = 0; x < 20; x++)
+                /* Nodes of a line lie elsewhere on it. */
+                CHECK_NEAR(channel(picture[y * W + x], 16), channel(inside[y * W + x + W / 2], 16), k == 0 ? 26 : 1);
+    }
+}
+
+/* ------------------------------------------------------------------ what stays */
+
+/* A still plate, a mover, one that opts out, one that is attached to nothing. */
+static void test_pixels_that_no_streak_passes_are_those_of_none(void)
+{
+    static uint32_t sharp[W * H], scene[W * H];
+    struct mover still, mover, calm;
+    mover_make(&still, -30, 10, 20, 12, 15, 0, 0);
+    mover_make(&mover, 20, 0, 10, 8, 8, 14, 4);
+    mover_make(&calm, -20, -20, 15, 9, 7, 12, 0);
+    smear_draw draw[3] = { draw_of(&still, &green), draw_of(&calm, &white), draw_of(&mover, &red) };
+    draw[1].motion = SMEAR_MOTION_NONE;
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(sharp, &none, draw, 3) || !render(scene, &none, draw, 2))
+        return;
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        if (!render(picture, &frame, draw, 3))
+            return;
+        /* Its way and its size, and a pixel. */
+        int x0 = W / 2 + 20 - 8 - 7 - 1, x1 = W / 2 + 20 + 8 + 7 + 1, y0 = H / 2 - 8 - 2 - 2, y1 = H / 2 + 8 + 2 + 2;
+        CHECK_EQ(difference(picture, scene, 0, 0, x0, H), 0);
+        CHECK_EQ(difference(picture, scene, x1, 0, W, H), 0);
+        CHECK_EQ(difference(picture, scene, 0, 0, W, y0), 0);
+        CHECK_EQ(difference(picture, scene, 0, y1, W, H), 0);
+        CHECK(difference(picture, sharp, x0, y0, x1, y1) > 100);
+        /* Tiles without the layer are told. */
+        CHECK_EQ(stats.tiles_still + stats.tiles_object + stats.tiles_layered, W / TILE * (H / TILE));
+        CHECK(stats.tiles_still >= 8);
+        CHECK((k == 0 ? stats.tiles_object : stats.tiles_layered) > 0);
+        CHECK_EQ(k == 0 ? stats.tiles_layered : stats.tiles_object, 0);
+    }
+}
+
+static void test_a_frame_in_which_nothing_moves_is_that_of_none(void)
+{
+    static uint32_t sharp[W * H];
+    struct mover a, b;
+    mover_make(&a, -10, 3, 20, 20, 11, 0, 0);
+    mover_make(&b, 12, -5, 10, 9, 17, 0, 0);
+    smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(sharp, &none, draw, 2))
+        return;
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        if (render(picture, &frame, draw, 2))
+            CHECK_EQ(difference(picture, sharp, 0, 0, W, H), 0);
+        CHECK_EQ(stats.tiles_still, W / TILE * (H / TILE));
+        CHECK_EQ(stats.samples, 0);
+    }
+}
+
+/* A still fence before a mover: its pixels stay, the mover is seen between them. */
+static void test_a_fence_before_a_mover_keeps_its_pixels(void)
+{
+    static uint32_t sharp[W * H];
+    struct mover bar[12], ball;
+    smear_draw draw[13];
+    mover_make(&ball, 3, 0, 20, 14, 14, 18, 3);
+    draw[0] = draw_of(&ball, &red);
+    for (int i = 0; i < 12; i++) {
+        mover_make(&bar[i], -44 + 8 * i, 0, 10, 1.5, 28, 0, 0);
+        draw[1 + i] = draw_of(&bar[i], &green);
+    }
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(sharp, &none, draw, 13))
+        return;
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        int fence = 0, between = 0;
+        if (!render(picture, &frame, draw, 13))
+            return;
+        for (int i = 0; i < W * H; i++) {
+            if (sharp[i] == 0x00ff00) {
+                fence++;
+                CHECK_EQ(picture[i], sharp[i]);
+            } else {
+                between += channel(picture[i], 16) > 60;
+            }
+        }
+        CHECK(fence > 12 * 3 * 50);
+        CHECK(between > 300);
+    }
+}
+
+/* ------------------------------------------------------------------ groups */
+
+/* Each is blurred along its own way and the nearer one lies over the other, whichever is submitted first. */
+static void test_two_movers_each_have_their_way_and_their_depth(void)
+{
+    struct mover far_one, near_one;
+    mover_make(&far_one, 0, 0, 30, 30, 6, 16, 0);
+    mover_make(&near_one, 0, 0, 10, 6, 24, 0, 12);
+    for (int k = 0; k < 4; k++) {
+        smear_draw draw[2] = { draw_of(&far_one, &green), draw_of(&near_one, &red) };
+        smear_frame frame = frame_of(both[k & 1]);
+        if (k & 2) {
+            smear_draw swap = draw[0];
+            draw[0] = draw[1];
+            draw[1] = swap;
+        }
+        frame.clear = 0;
+        if (!render(picture, &frame, draw, 2))
+            return;
+        CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);
+        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 8), 255, 8);
+        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 16), 0, 8);
+        int left = channel(picture[H / 2 * W + W / 2 - 30], 8), up = channel(picture[(H / 2 - 24) * W + W / 2], 16);
+        CHECK_NEAR(left, 128, 24);
+        CHECK_NEAR(up, 128, 24);
+    }
+}
+
+/* Two that lean through each other: each is seen where it is nearer. */
+static void test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel(void)
+{
+    struct mover a, b;
+    mover_make(&a, 0, 0, 50, 30, 14, 8, 0);
+    mover_make(&b, 0, 0, 50, 30, 14, -8, 0);
+    for (int i = 0; i < 3; i++) {       /* turned about y: nearer on the right, and on the left */
+        smear_transform *ta = i == 0 ? &a.now : i == 1 ? &a.open : &a.close, *tb = i == 0 ? &b.now : i == 1 ? &b.open : &b.close;
+        ta->basis[6] = 20 * SMEAR_BASIS_ONE;
+        tb->basis[6] = -20 * SMEAR_BASIS_ONE;
+    }
+    smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
+    smear_frame frame = frame_of(SMEAR_OBJECT);
+    if (!render(picture, &frame, draw, 2))
+        return;
+    CHECK_EQ(picture[H / 2 * W + W / 2 + 18], 0x00ff00);
+    CHECK_EQ(picture[H / 2 * W + W / 2 - 18], 0xff0000);
+}
+
+static void test_parts_of_one_thing_are_blurred_as_one(void)
+{
+    static uint32_t whole[W * H];
+    struct mover all, left, right;
+    mover_make(&all, 0, 0, 10, 16, 10, 14, 0);
+    mover_make(&left, -8, 0, 10, 8, 10, 14, 0);
+    mover_make(&right, 8, 0, 10, 8, 10, 14, 0);
+    smear_draw one = draw_of(&all, &red), two[2] = { draw_of(&left, &red), draw_of(&right, &red) };
+    smear_frame frame = frame_of(SMEAR_OBJECT);
+    if (render(whole, &frame, &one, 1) && render(picture, &frame, two, 2))
+        CHECK(difference(picture, whole, 0, 0, W, H) <= 1);
+}
+
+/* A wheel has no one velocity. */
+static void test_what_turns_is_blurred_by_its_pixels(void)
+{
+    struct mover m;
+    mover_make(&m, 0, 0, 10, 24, 3, 0, 0);
+    for (int i = 0; i < 2; i++) {
+        smear_transform *t = i == 0 ? &m.open : &m.close;
+        double angle = i == 0 ? -0.25 : 0.25;
+        t->basis[0] = (int32_t)(24 * cos(angle) * SMEAR_BASIS_ONE);
+        t->basis[1] = (int32_t)(-3 * sin(angle) * SMEAR_BASIS_ONE);
+        t->basis[3] = (int32_t)(24 * sin(angle) * SMEAR_BASIS_ONE);
+        t->basis[4] = (int32_t)(3 * cos(angle) * SMEAR_BASIS_ONE);
+    }
+    smear_draw draw = draw_of(&m, &red);
+    smear_frame frame = frame_of(SMEAR_OBJECT);
+    frame.clear = 0;
+    if (!render(picture, &frame, &draw, 1))
+        return;
+    CHECK(stats.tiles_layered > 0);
+    CHECK_EQ(stats.tiles_object, 0);
+    CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);             /* the hub */
+    CHECK(channel(picture[(H / 2 - 5) * W + W / 2 + 20], 16) > 20);     /* the rim, above and below */
+    CHECK(channel(picture[(H / 2 + 5) * W + W / 2 + 20], 16) > 20);
+}
+
+/* Turned by so much to both sides, about its middle. */
+static void mover_turn(struct mover *m, double half_x, double half_y, double angle)
+{
+    for (int i = 0; i < 2; i++) {
+        smear_transform *t = i == 0 ? &m->open : &m->close;
+        double c = cos(angle), s = i == 0 ? -sin(angle) : sin(angle);
+        t->basis[0] = (int32_t)(half_x * c * SMEAR_BASIS_ONE);
+        t->basis[1] = (int32_t)(-half_y * s * SMEAR_BASIS_ONE);
+        t->basis[3] = (int32_t)(half_x * s * SMEAR_BASIS_ONE);
+        t->basis[4] = (int32_t)(half_y * c * SMEAR_BASIS_ONE);
+    }
+}
+
+/* What turns is one group, merged after a mover that lies between its parts. */
+static void test_what_turns_behind_a_mover_does_not_hide_it(void)
+{
+    struct mover small, wall, plate_between;
+    mover_make(&small, -36, 20, 5, 5, 3, 0, 0);
+    mover_turn(&small, 5, 3, 0.3);
+    mover_make(&wall, 0, 0, 60, 40, 28, 0, 0);
+    mover_turn(&wall, 40, 28, 0.08);
+    mover_make(&plate_between, 0, 0, 20, 12, 10, 12, 0);
+    smear_draw draw[3] = { draw_of(&small, &blue), draw_of(&wall, &green), draw_of(&plate_between, &red) };
+    for (int linear = 0; linear < 2; linear++) {
+        smear_frame frame = frame_of(SMEAR_OBJECT);
+        frame.light = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+        if (!render(picture, &frame, draw, 3))
+            return;
+        CHECK(stats.tiles_layered > 0);
+        for (int y = H / 2 - 8; y < H / 2 + 8; y++)
+            for (int x = W / 2 - 4; x < W / 2 + 4; x++)
+                CHECK_NEAR(channel(picture[y * W + x], 16), 255, 2);
+        const uint32_t half = picture[H / 2 * W + W / 2 - 12];      /* the middle of its ramp, over the wall alone */
+        CHECK_NEAR(channel(half, 16), linear ? 188 : 128, 16);
+        CHECK_NEAR(channel(half, 8), linear ? 188 : 128, 16);
+        CHECK(channel(half, 0) < 16);
+        CHECK_NEAR(channel(picture[(H / 2 - 20) * W + W / 2], 8), 255, 2);
+    }
+}
+
+/* A wall rushes by behind a plate that hardly moves: nothing shines through beside it. */
+static void test_no_halo_lies_around_what_is_before_a_fast_wall(void)
+{
+    struct mover wall, slow;
+    mover_make(&wall, 0, 0, 60, 60, 40, 14, 0);
+    mover_make(&slow, 0, 0, 20, 8, 10, 0, 1.5);
+    smear_draw draw[2] = { draw_of(&wall, &green), draw_of(&slow, &red) };
+    smear_frame frame = frame_of(SMEAR_LAYERED);
+    frame.clear = 0x0000ff;
+    if (!render(picture, &frame, draw, 2))
+        return;
+    int most = 0;
+    for (int y = 8; y < H - 8; y++)
+        for (int x = 16; x < W - 16; x++)
+            most = channel(picture[y * W + x], 0) > most ? channel(picture[y * W + x], 0) : most;
+    CHECK(most <= 4);
+}
+
+/* ------------------------------------------------------------------ layers */
+
+static void test_only_masked_draws_are_blurred(void)
+{
+    static uint32_t sharp[W * H];
+    struct mover a, b;
+    mover_make(&a, -24, 0, 10, 8, 8, 12, 0);
+    mover_make(&b, 24, 0, 10, 8, 8, 12, 0);
+    smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
+    draw[1].layers = 4;
+    const smear_layer masked = { .mask = 4 };
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(sharp, &none, draw, 2))
+        return;
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        frame.layer = &masked;
+        frame.layer_count = 1;
+        if (!render(picture, &frame, draw, 2))
+            return;
+        CHECK_EQ(difference(picture, sharp, 0, 0, W / 2, H), 0);
+        CHECK(difference(picture, sharp, W / 2, 0, W, H) > 100);
+    }
+}
+
+/* Columns of red over black, in pixels of full red. */
+static double red_width(void)
+{
+    double sum = 0.0;
+    int first = W, last = 0;
+    for (int x = 0; x < W; x++) {
+        int r = channel(picture[H / 2 * W + x], 16);
+        sum += r / 255.0;
+        if (r > 4) {
+            first = x < first ? x : first;
+            last = x;
+        }
+    }
+    CHECK_CLOSE(sum, 16.0, 0.5);
+    return last - first + 1;
+}
+
+static void test_a_layer_has_its_own_shutter(void)
+{
+    struct mover m;
+    mover_make(&m, 0, 0, 10, 8, 8, 8, 0);
+    smear_draw draw = draw_of(&m, &red);
+    const smear_layer longer = { .mask = 255, .shutter_degrees = 360 };
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        frame.clear = 0;
+        frame.samples = 32;
+        if (!render(picture, &frame, &draw, 1))
+            return;
+        double once = red_width();
+        frame.layer = &longer;
+        frame.layer_count = 1;
+        if (!render(picture, &frame, &draw, 1))
+            return;
+        CHECK_CLOSE(once, 16 + 8, 1.5);
+        double twice = red_width();
+        CHECK_CLOSE(twice, 16 + 16, 3.5);      /* nodes of long streaks lie 4 px apart */
+    }
+}
+
+static void test_a_layer_has_its_own_method(void)
+{
+    static uint32_t object[W * H], layered[W * H], sharp[W * H];
+    struct mover a, b, c;
+    mover_make(&a, -30, 0, 10, 6, 6, 10, 0);
+    mover_make(&b, 0, 0, 10, 6, 6, 10, 0);
+    mover_make(&c, 30, 0, 10, 6, 6, 10, 0);
+    smear_draw draw[3] = { draw_of(&a, &red), draw_of(&b, &green), draw_of(&c, &white) };
+    for (int i = 0; i < 3; i++)
+        draw[i].layers = (uint8_t)(1 << i);
+    const smear_layer layer[3] = { { .mask = 1, .method = SMEAR_OBJECT }, { .mask = 2, .method = SMEAR_LAYERED },
+                                   { .mask = 4, .method = SMEAR_NONE } };
+    smear_frame frame = frame_of(SMEAR_OBJECT), other = frame_of(SMEAR_LAYERED), none = frame_of(SMEAR_NONE);
+    if (!render(object, &frame, draw, 3) || !render(layered, &other, draw, 3) || !render(sharp, &none, draw, 3))
+        return;
+    frame.layer = layer;
+    frame.layer_count = 3;
+    if (!render(picture, &frame, draw, 3))
+        return;
+    CHECK(difference(picture, object, 0, 0, W / 2 - 15, H) <= 8);        /* there it was one group with others */
+    CHECK_EQ(difference(picture, layered, W / 2 - 15, 0, W / 2 + 15, H), 0);
+    CHECK_EQ(difference(picture, sharp, W / 2 + 15, 0, W, H), 0);
+    CHECK(difference(object, layered, 0, 0, W, H) > 0);
+}
+
+/* A cockpit: over a moving view, sharp, whatever the depths are; and as none draws it alone. */
+static void test_a_layer_with_its_own_camera_stays_sharp_over_the_view(void)
+{
+    static uint32_t alone[W * H];
+    smear_camera view = camera, before = camera, after = camera;
+    before.pose.origin[0] = -6 * 65536;
+    after.pose.origin[0] = 6 * 65536;
+    struct mover wall, dial;
+    mover_make(&wall, 5, 0, 5, 30, 30, 0, 0);
+    mover_make(&dial, -20, -18, 60, 25, 12, 0, 0);      /* farther than the wall, by depth */
+    smear_draw draw[2] = { draw_of(&dial, &blue), draw_of(&wall, &green) };
+    draw[0].layers = 2;
+    const smear_layer layer[2] = { { .mask = 1 }, { .mask = 2, .camera = &camera } };
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(alone, &none, draw, 1))
+        return;
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        frame.camera = &view;
+        frame.open = &before;
+        frame.close = &after;
+        frame.layer = layer;
+        frame.layer_count = 2;
+        if (!render(picture, &frame, draw, 2))
+            return;
+        int cockpit = 0, streak = 0;
+        for (int i = 0; i < W * H; i++) {
+            if (alone[i] == 0x0000ff) {
+                cockpit++;
+                CHECK_EQ(picture[i], alone[i]);
+            } else {
+                int g = channel(picture[i], 8);
+                streak += g > 60 && g < 220;
+            }
+        }
+        CHECK_EQ(cockpit, 50 * 24);
+        CHECK(streak > 300);            /* the wall, as the view moves */
+    }
+}
+
+static void test_a_layer_may_lie_over_all(void)
+{
+    struct mover bar, ball;
+    mover_make(&bar, 0, 0, 10, 3, 28, 0, 0);
+    mover_make(&ball, 0, 0, 20, 14, 14, 12, 0);
+    smear_draw draw[2] = { draw_of(&bar, &green), draw_of(&ball, &red) };
+    draw[1].layers = 2;
+    smear_layer layer = { .mask = 2, .over = 1 };
+    for (int k = 0; k < 3; k++) {
+        smear_frame frame = frame_of(both[k % 2]);
+        if (k == 2)
+            layer = (smear_layer){ .mask = 2, .plain = 1 };
+        frame.layer = &layer;
+        frame.layer_count = 1;
+        if (!render(picture, &frame, draw, 2))
+            return;
+        CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);
+        CHECK_EQ(picture[4 * W + W / 2], 0x00ff00);
+    }
+}
+
+/* As two cameras do it, without their faults: no dark fringe, and half of the way covers half. */
+static void test_a_plain_layer_has_no_dark_fringe(void)
+{
+    struct mover m;
+    mover_make(&m, 0, 0, 10, 10, 10, 16, 0);
+    smear_draw draw = draw_of(&m, &white);
+    const smear_layer plain = { .mask = 255, .plain = 1 };
+    smear_frame frame = frame_of(SMEAR_OBJECT);
+    frame.clear = 0xffffff;
+    frame.samples = 5;
+    frame.layer = &plain;
+    frame.layer_count = 1;
+    if (!render(picture, &frame, &draw, 1))
+        return;
+    for (int i = 0; i < W * H; i++)
+        CHECK_EQ(picture[i], 0xffffff);
+    frame.clear = 0;
+    frame.samples = 16;
+    if (render(picture, &frame, &draw, 1))
+        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 10], 16), 128, 24);
+}
+
+static void test_the_first_frame_and_cuts_have_no_motion(void)
+{
+    static uint32_t sharp[W * H];
+    struct mover m;
+    mover_make(&m, 0, 0, 10, 10, 10, 16, 0);
+    smear_draw draw = draw_of(&m, &red);
+    smear_frame none = frame_of(SMEAR_NONE);
+    if (!render(sharp, &none, &draw, 1))
+        return;
+    for (int k = 0; k < 6; k++) {
+        smear_frame frame = frame_of(both[k & 1]);
+        smear_draw first = draw;
+        if (k < 2) {            /* the library would have kept its pose */
+            frame.shutter_poses = 0;
+            first.open = first.close = NULL;
+            first.id = 7;
+        }
+        frame.cut = k >= 4;
+        first.cut = k == 2 || k == 3;
+        if (render(picture, &frame, &first, 1))
+            CHECK_EQ(difference(picture, sharp, 0, 0, W, H), 0);
+    }
+}
+
+/* Blended draws come after the blur, before and behind what moves. */
+static void test_blended_draws_are_over_the_blur_and_behind_movers(void)
+{
+    static const smear_material pane = { .color = { 255, 255, 255, 128 }, .unlit = 1, .alpha = SMEAR_BLEND };
+    struct mover ball, before, behind;
+    mover_make(&ball, 0, 0, 20, 12, 12, 8, 0);
+    mover_make(&before, -20, 0, 10, 20, 5, 0, 0);
+    mover_make(&behind, 20, 0, 30, 20, 5, 0, 0);
+    smear_draw draw[3] = { draw_of(&ball, &red), draw_of(&before, &pane), draw_of(&behind, &pane) };
+    for (int k = 0; k < 2; k++) {
+        smear_frame frame = frame_of(both[k]);
+        if (!render(picture, &frame, draw, 3))
+            return;
+        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 - 3], 8), 128, 2);
+        CHECK_EQ(picture[H / 2 * W + W / 2 + 3], 0xff0000);
+        CHECK(channel(picture[H / 2 * W + W / 2 + 30], 8) > 128);
+    }
+}
+
+/* ------------------------------------------------------------------ limits */
+
+static void test_bad_layers_are_refused(void)
+{
+    uint32_t *out = picture;
+    smear_desc desc = desc_of(out);
+    size_t bytes = smear_memory_size(&desc);
+    void *memory = malloc(bytes);
+    smear_context *ctx;
+    smear_camera bad_camera = { .pose = SMEAR_IDENTITY };
+    const smear_layer good = { .mask = 1 };
+    const smear_layer bad[] = {
+        { .mask = 0 }, { .mask = 1, .method = SMEAR_RECONSTRUCT }, { .mask = 1, .method = 200 },
+        { .mask = 1, .shutter_degrees = 3601 }, { .mask = 1, .camera = &bad_camera }, { .mask = 1, .open = &camera },
+        { .mask = 1, .camera = &camera, .close = &bad_camera }
+    };
+    smear_layer many[SMEAR_LAYERS_MAX + 1];
+    for (int i = 0; i <= SMEAR_LAYERS_MAX; i++)
+        many[i] = good;
+    if (!CHECK(memory != NULL) || !CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK))
+        return;
+    smear_frame frame = frame_of(SMEAR_OBJECT);
+    frame.layer_count = 1;
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        frame.layer = &bad[i];
+        CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    }
+    frame.layer = many;
+    frame.layer_count = SMEAR_LAYERS_MAX + 1;
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    frame.layer_count = SMEAR_LAYERS_MAX;
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_OK);
+    frame.layer_count = 0;
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    free(memory);
+    /* No room for layers. */
+    desc.layers = 0;
+    bytes = smear_memory_size(&desc);
+    memory = malloc(bytes);
+    if (!CHECK(memory != NULL) || !CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK))
+        return;
+    frame = frame_of(SMEAR_OBJECT);
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    frame = frame_of(SMEAR_LAYERED);
+    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_ERR_ARG);
+    free(memory);
+}
+
+static void test_the_memory_macro_is_never_below_the_memory_function(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 },
+                                       { 3, 2048 } };
+    static const uint32_t triangles[] = { 1, 2, 200, 5000, 100000 };
+    static const unsigned draws[] = { 1, 4, 8, 255, 65535 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (size_t n = 0; n < sizeof triangles / sizeof triangles[0]; n++)
+            for (size_t k = 0; k < sizeof draws / sizeof draws[0]; k++)
+                for (unsigned tile = 8; tile <= 64; tile *= 2)
+                    for (unsigned reach = 1; reach <= tile; reach += reach < 15 ? 7 : 16) {
+                        smear_desc desc = {
+                            .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach, .tile = (int16_t)tile,
+                            .max_triangles = triangles[n], .max_draws = (uint16_t)draws[k], .format = SMEAR_RGB565,
+                            .layers = 1, .sharp = 1, .flush = keep_band
+                        };
+                        unsigned width = (unsigned)size[i][0], height = (unsigned)size[i][1];
+                        size_t room = SMEAR_MEMORY_SIZE_LAYERS(width, height, reach, triangles[n], draws[k], tile);
+                        size_t need = smear_memory_size(&desc);
+                        if (!CHECK(need > 0 && need <= room)) {
+                            CHECK_EQ(size[i][0] * 10000 + size[i][1], (int)(reach * 100 + tile));
+                            return;
+                        }
+                    }
+    smear_desc desc = { .width = 240, .height = 240, .tile = 16, .reach = 12, .max_triangles = 600, .max_draws = 8,
+                        .format = SMEAR_RGB565, .sharp = 1, .layers = 1, .flush = keep_band };
+    size_t room = SMEAR_MEMORY_SIZE_LAYERS(240, 240, 12, 600, 8, 16), need = smear_memory_size(&desc);
+    CHECK(room - need < need / 16);
+    CHECK(need <= 208u * 1024u);
+}
+
+/* Any size, any velocity. */
+static void test_small_frames_and_wild_velocities_are_drawn(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 1 }, { 1, 40 }, { 96, 17 } };
+    static const double way[] = { 0, 0.1, 3, 40, -300, 5000 };
+    for (int i = 0; i < 5 * 6 * 6 * 2; i++) {
+        struct mover m;
+        const int16_t *s = size[i % 5];
+        mover_make(&m, 0, 0, 10, 12, 9, way[i / 5 % 6], way[i / 30 % 6]);
+        smear_draw draw = draw_of(&m, &red);
+        smear_frame frame = frame_of(both[i / 180]);
+        smear_desc desc = desc_of(picture);
+        desc.width = s[0];
+        desc.height = s[1];
+        desc.tile = (int16_t)(8 << i % 4);
+        desc.reach = (int16_t)(1 + i % 8);
+        frame.light = (uint8_t)(i & 1 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED);
+        desc.flush = keep_band;
+        static uint32_t small[2048];
+        desc.user = small;
+        if (!render_with(&desc, &frame, &draw, 1))
+            return;
+        CHECK_EQ(stats.pixels, (uint32_t)(s[0] * s[1]));
+    }
+}
+
+void suite_layers(void)
+{
+    RUN(test_a_streak_is_a_ramp_over_the_way);
+    RUN(test_what_enters_the_frame_is_blurred_as_within_it);
+    RUN(test_pixels_that_no_streak_passes_are_those_of_none);
+    RUN(test_a_frame_in_which_nothing_moves_is_that_of_none);
+    RUN(test_a_fence_before_a_mover_keeps_its_pixels);
+    RUN(test_two_movers_each_have_their_way_and_their_depth);
+    RUN(test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel);
+    RUN(test_parts_of_one_thing_are_blurred_as_one);
+    RUN(test_what_turns_is_blurred_by_its_pixels);
+    RUN(test_what_turns_behind_a_mover_does_not_hide_it);
+    RUN(test_no_halo_lies_around_what_is_before_a_fast_wall);
+    RUN(test_only_masked_draws_are_blurred);
+    RUN(test_a_layer_has_its_own_shutter);
+    RUN(test_a_layer_has_its_own_method);
+    RUN(test_a_layer_with_its_own_camera_stays_sharp_over_the_view);
+    RUN(test_a_layer_may_lie_over_all);
+    RUN(test_a_plain_layer_has_no_dark_fringe);
+    RUN(test_the_first_frame_and_cuts_have_no_motion);
+    RUN(test_blended_draws_are_over_the_blur_and_behind_movers);
+    RUN(test_bad_layers_are_refused);
+    RUN(test_the_memory_macro_is_never_below_the_memory_function);
+    RUN(test_small_frames_and_wild_velocities_are_drawn);
+    RUN(test_pictures_do_not_depend_on_the_number_of_workers);
+    RUN(test_object_is_within_1_8_codes_of_the_truth);
+    RUN(test_layered_errs_two_thirds_of_reconstruct);
+}

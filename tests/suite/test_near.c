@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+/* test_near.c - surfaces that lie closely above each other while both pass the near plane: the upper one is seen by every
+ * method as the mean of many instants has it. */
+#include "tests/rig.h"
+#include "tests/test.h"
+
+#include <stdlib.h>
+
+void suite_near(void);
+
+enum { WIDTH = 120, HEIGHT = 80, BYTES = WIDTH * HEIGHT * 4 };
+
+/* A floor from behind the eye to the horizon, and a stripe on it: 1/64 unit per step. */
+static const int16_t floor_position[] = { -2000, 0, 1200, 2000, 0, 1200, 2000, 0, -4000, -2000, 0, -4000 };
+static const int16_t stripe_position[] = { -40, 1, 1200, 40, 1, 1200, 40, 1, -4000, -40, 1, -4000 };
+static const smear_mesh ground = { .position = floor_position, .vertex_count = 4, .index = square_index,
+                                   .triangle_count = 2, .shift = 6 };
+static const smear_mesh stripe = { .position = stripe_position, .vertex_count = 4, .index = square_index,
+                                   .triangle_count = 2, .shift = 6 };
+
+/* The picture of a method as the camera drives aslant over the floor. */
+static bool draw(uint8_t method, int32_t samples, double near_plane, uint8_t out[BYTES])
+{
+    static const smear_material grey = { .color = { 60, 60, 60, 255 }, .unlit = 1 };
+    static const smear_material white = { .color = { 240, 240, 240, 255 }, .unlit = 1 };
+    static const smear_transform still = SMEAR_IDENTITY;
+    const smear_draw draws[2] = {
+        { .id = 1, .mesh = &ground, .material = &grey, .now = &still },
+        { .id = 2, .mesh = &stripe, .material = &white, .now = &still }
+    };
+    struct rig r;
+    smear_desc desc = small_desc(WIDTH, HEIGHT);
+    desc.format = SMEAR_XRGB8888;
+    desc.timed = 1;
+    desc.accumulate = 1;
+    if (!rig_begin(&r, &desc, false))
+        return false;
+    bool ok = true;
+    for (int i = 0; i < 2 && ok; i++) {
+        smear_camera camera = camera_at(0.2 - 0.5 * i, 1.0, 2.0 - 0.9 * i, 0.5);
+        camera.near_plane = q16(near_plane);
+        const smear_frame frame = { .camera = &camera, .method = method, .samples = (uint16_t)samples,
+                                    .light = SMEAR_LIGHT_ENCODED };
+        rig_forget_output(&r);
+        ok = CHECK_EQ(rig_frame(&r, &frame, draws, 2), SMEAR_OK) && CHECK(r.picture_size == (size_t)BYTES);
+    }
+    for (int i = 0; ok && i < BYTES; i++)
+        out[i] = r.picture[i];
+    rig_end(&r);
+    return ok;
+}
+
+/* Pixels that are off by more than a third of what tells the stripe from the floor. */
+static int pixels_off(const uint8_t *a, const uint8_t *b)
+{
+    int count = 0;
+    for (int i = 0; i < BYTES; i += 4)
+        count += abs(a[i] - b[i]) > 60;
+    return count;
+}
+
+static void check_stripe(double near_plane, int least_white)
+{
+    static uint8_t want[BYTES], got[BYTES];
+    static const struct { uint8_t method; int samples; } by[] = {
+        { SMEAR_SUBFRAMES, 16 }, { SMEAR_SUBFRAMES, 32 }, { SMEAR_TIMEMASK, 8 }, { SMEAR_TIMEMASK, 16 }, { SMEAR_TIMEMASK, 32 },
+        { SMEAR_AUTO, 0 }
+    };
+    int white = 0;
+    if (!draw(SMEAR_ACCUMULATE, 64, near_plane, want))
+        return;
+    for (int i = 0; i < BYTES; i += 4)
+        white += want[i] > 200;
+    CHECK(white > least_white);
+    for (int i = 0; i < (int)(sizeof by / sizeof *by); i++)
+        if (draw(by[i].method, by[i].samples, near_plane, got) && !CHECK(pixels_off(got, want) <= 20))
+            CHECK_EQ(by[i].method * 100 + by[i].samples, pixels_off(got, want));
+}
+
+static void test_a_stripe_on_a_floor_that_the_near_plane_cuts_below_the_frame_is_seen(void)
+{
+    check_stripe(0.3, 400);
+}
+
+static void test_a_stripe_on_a_floor_that_the_near_plane_cuts_in_the_frame_is_seen(void)
+{
+    check_stripe(1.8, 40);
+}
+
+void suite_near(void)
+{
+    RUN(test_a_stripe_on_a_floor_that_the_near_plane_cuts_below_the_frame_is_seen);
+    RUN(test_a_stripe_on_a_floor_that_the_near_plane_cuts_in_the_frame_is_seen);
+}

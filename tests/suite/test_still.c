@@ -1,0 +1,449 @@
+/* SPDX-License-Identifier: MIT */
+/* test_still.c - smear_desc.cache_static and smear_desc.buffer_age: the pictures are those of a context that draws and
+ * sends everything in every frame, to the bit, and what stands still is drawn, and sent, only where it must be.
+ * Host only. */
+#include "tests/rig.h"
+#include "tests/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void suite_still(void);
+
+enum { WIDTH = 70, HEIGHT = 52, FLOOR = 0, POST, PANE, MOVER, DRAWS, BYTES = WIDTH * HEIGHT * 4 };
+
+/* A floor and a post, which stand still, as does a pane of glass before them; a cube that goes by between them. */
+struct set {
+    smear_transform pose[DRAWS];
+    smear_material material[DRAWS];
+    smear_mesh mesh[DRAWS];
+    smear_texture texture;
+    smear_draw draw[DRAWS];
+    smear_camera camera;
+    smear_frame frame;
+    int count;
+};
+
+static void set_up(struct set *s, uint8_t method)
+{
+    make_checker();
+    *s = (struct set){
+        .pose = { pose_at(0, -1.2, -6, 0, -1.5), pose_at(-0.8, 0, -6, 0.5, 0), pose_at(0.6, 0.3, -3, 0, 0), { { 0 } } },
+        .material = { { .texture = &s->texture }, { .color = { 90, 200, 60, 255 } },
+                      { .color = { 255, 40, 40, 120 }, .alpha = SMEAR_BLEND, .unlit = 1 },
+                      { .color = { 240, 220, 40, 255 } } },
+        .mesh = { square, cube, square, cube }, .texture = checker_texture,
+        .camera = camera_at(0, 0.2, 0, 0), .count = DRAWS
+    };
+    for (int i = 0; i < DRAWS; i++)
+        s->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &s->mesh[i], .material = &s->material[i],
+                                   .now = &s->pose[i] };
+    s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x305080 };
+}
+
+static void move_on(struct set *s, int frame)
+{
+    s->pose[MOVER] = pose_at(-2 + 0.4 * frame, 0.1, -4.5, 0.3 * frame, 0);
+}
+
+/* `sharp`: without a window. */
+static smear_desc desc_of(uint32_t triangles, bool sharp)
+{
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .timed = 1, .sharp = sharp, .tile = 16,
+                         .reach = 10, .layers = 1, .accumulate = 1, .max_triangles = triangles };
+}
+
+/* The same frames in a context that keeps and in one that does not. */
+struct pair {
+    struct rig keeps, draws;
+};
+
+static bool pair_begin(struct pair *p, smear_desc desc)
+{
+    bool ok = rig_begin(&p->draws, &desc, false);
+    desc.cache_static = 1;
+    return rig_begin(&p->keeps, &desc, false) && ok;
+}
+
+static void pair_end(struct pair *p)
+{
+    CHECK(guards_intact(&p->keeps));
+    rig_end(&p->keeps);
+    rig_end(&p->draws);
+}
+
+/* True when what stands still was kept. Pictures must be the same. */
+static bool kept(struct pair *p, const struct set *s)
+{
+    smear_stats stats, full;
+    uint8_t *want = rig_copy(&p->draws, &s->frame, s->draw, s->count);
+    rig_forget_output(&p->keeps);
+    CHECK_EQ(rig_frame(&p->keeps, &s->frame, s->draw, s->count), SMEAR_OK);
+    CHECK(want != NULL && same_picture(&p->keeps, want));
+    free(want);
+    smear_get_stats(p->keeps.ctx, &stats);
+    smear_get_stats(p->draws.ctx, &full);
+    CHECK_EQ(full.static_cached, 0);
+    CHECK_EQ(stats.triangles_in, full.triangles_in);
+    CHECK(stats.triangles_split != 0
+          || (stats.static_cached ? stats.triangles_drawn <= full.triangles_drawn
+                               : stats.triangles_drawn == full.triangles_drawn));
+    return stats.static_cached != 0;
+}
+
+static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
+{
+    static const uint8_t methods[] = { SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
+    for (unsigned m = 0; m < sizeof methods; m++)
+        for (uint32_t triangles = 16; triangles <= 400; triangles += 384) {       /* in parts; at once */
+            struct pair p;
+            struct set s;
+            set_up(&s, methods[m]);
+            if (pair_begin(&p, desc_of(triangles, m != 1)))
+                for (int i = 0; i < 8; i++) {
+                    move_on(&s, i);
+                    CHECK_EQ(kept(&p, &s), i >= 2);     /* the cube stands still where it is first seen */
+                }
+            pair_end(&p);
+        }
+}
+
+/* Everything that the still layer depends on: after each change it is drawn once, and then kept. */
+static void test_a_change_of_anything_that_stands_still_draws_it_again(void)
+{
+    static uint32_t other_texels[8 * 8];
+    static uint8_t color[4 * 8];
+    struct pair p;
+    struct set s;
+    memset(color, 130, sizeof color);
+    set_up(&s, SMEAR_AUTO);
+    enum { CHANGES = 17 };
+    if (pair_begin(&p, desc_of(400, true)))
+        for (int change = 0, frame = 0; change <= CHANGES; change++) {
+            switch (change) {
+            case 1: s.camera.focal += 2000; s.frame.cut = 1; break;
+            case 2: s.camera.near_plane += 3000; break;
+            case 3: s.camera.pose.origin[0] += 9000; s.frame.cut = 1; break;
+            case 4: s.frame.clear = 0x305081; break;
+            case 5: s.frame.light = SMEAR_LIGHT_ENCODED; break;
+            case 6: s.material[POST].color[1]++; break;
+            case 7: s.material[POST].unlit = 1; break;
+            case 8: s.pose[POST].origin[1] += 5000; s.draw[POST].cut = 1; break;
+            case 9: s.draw[POST].material = NULL; break;
+            case 10: s.texture.texels = other_texels; break;
+            case 11: s.texture.wrap_u = SMEAR_MIRROR; break;
+            case 12: s.material[FLOOR].bilinear = 1; break;
+            case 13: s.mesh[POST].color = color; break;
+            case 14: s.mesh[POST].scale = 2; break;
+            case 15: color[5] = 7; s.frame.refresh = 1; break;
+            case 16: s.draw[POST] = s.draw[PANE]; s.count = 3; s.draw[PANE] = s.draw[MOVER]; break;    /* one draw less */
+            case 17: s.draw[FLOOR].now = NULL; s.draw[FLOOR].cut = 1; break;
+            }
+            for (int i = 0; i < 3; i++) {
+                move_on(&s, frame++);
+                const bool is_kept = kept(&p, &s);
+                if (i == 0)
+                    CHECK(!is_kept);
+                /* a cut makes the cube stand still, too: a frame later it does no more */
+                CHECK(i != 2 || is_kept || CHECK_EQ(change, -1));
+                s.frame.cut = s.frame.refresh = s.draw[POST].cut = s.draw[FLOOR].cut = 0;
+            }
+        }
+    pair_end(&p);
+}
+
+static void test_what_stops_and_starts_joins_and_leaves(void)
+{
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    move_on(&s, 3);
+    if (pair_begin(&p, desc_of(400, true))) {
+        CHECK(!kept(&p, &s));
+        CHECK(kept(&p, &s));            /* nothing moves */
+        CHECK(kept(&p, &s));
+        move_on(&s, 4);
+        CHECK(!kept(&p, &s));           /* it leaves */
+        move_on(&s, 5);
+        CHECK(kept(&p, &s));
+        CHECK(!kept(&p, &s));           /* it has stopped */
+        CHECK(kept(&p, &s));
+    }
+    pair_end(&p);
+}
+
+/* What does not move by a step of a 256th of a pixel is drawn among what stands still. */
+static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
+{
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    if (pair_begin(&p, desc_of(400, true)))
+        for (int i = 0; i < 12; i++) {
+            s.pose[MOVER] = i > 6 ? pose_at(0.3 * i, 0.1, -4.5, 0.2, 0) : pose_at(2, 0.1, -12, 0.2, 0);
+            s.pose[MOVER].origin[0] += i;
+            const bool is_kept = kept(&p, &s);
+            if (i < 7)
+                CHECK(!is_kept);
+            else if (i > 9)
+                CHECK(is_kept);
+        }
+    pair_end(&p);
+}
+
+static void test_other_methods_and_failures_between_do_no_harm(void)
+{
+    static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
+    struct pair p;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    if (pair_begin(&p, desc_of(400, false)))
+        for (int i = 0; i < 20; i++) {
+            move_on(&s, i);
+            s.frame.method = i % 4 == 3 ? between[i / 4] : (uint8_t)SMEAR_AUTO;
+            CHECK_EQ(kept(&p, &s), i % 4 == 2 || (i % 4 == 1 && i > 4));
+        }
+    s.frame.method = SMEAR_AUTO;
+    for (int row = 0; row < 4; row++) {
+        p.keeps.fail_at = row;
+        p.keeps.fail_with = -9;
+        s.frame.clear++;
+        rig_forget_output(&p.keeps);
+        CHECK_EQ(rig_frame(&p.keeps, &s.frame, s.draw, s.count), -9);
+        p.keeps.fail_at = -1;
+        CHECK(!kept(&p, &s));
+        CHECK(kept(&p, &s));
+    }
+    pair_end(&p);
+}
+
+static void test_memory_is_as_the_macro_says_and_only_timed_contexts_keep(void)
+{
+    static const int sizes[][3] = { { 70, 52, 16 }, { 240, 240, 32 }, { 24, 8, 8 }, { 16, 8, 32 } };
+    for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const int *size = sizes[i];
+        smear_desc desc = { .width = (int16_t)size[0], .height = (int16_t)size[1], .tile = (int16_t)size[2],
+                            .strip = 128, .timed = 1, .sharp = 1, .max_draws = 20, .max_triangles = 300,
+                            .flush = take_band };
+        const size_t without = smear_memory_size(&desc);
+        desc.cache_static = 1;
+        const size_t with = smear_memory_size(&desc), room = SMEAR_CACHE_STATIC_BYTES(size[0], size[1], size[2]);
+        CHECK(with > without && with - without <= room && with - without + 40 >= room);
+        desc.cache_static = 0;
+        desc.buffer_age = 2;
+        const size_t tiles = smear_memory_size(&desc), most = SMEAR_BUFFER_AGE_BYTES(size[0], size[1], 20, size[2]);
+        CHECK(tiles > without && tiles - without <= most && tiles - without + 40 >= most);
+    }
+    smear_desc desc = desc_of(400, true);
+    desc.flush = take_band;
+    for (int i = 0; i < 4; i++) {
+        smear_desc wrong = desc;
+        wrong.cache_static = i == 0 ? 2 : i == 1;
+        wrong.buffer_age = i == 2 ? 8 : i == 3;
+        wrong.timed = i != 1 && i != 3;
+        CHECK(smear_memory_size(&wrong) == 0);
+    }
+}
+
+/* ------------------------------------------------------------------ displays that keep their picture */
+
+/* A context that sends only what its display does not show, into buffers that are shown in turn; and one that
+ * sends all. */
+struct display {
+    struct rig sends;               /* must be first: what flush is given */
+    struct rig all;
+    uint8_t *buffer[3];
+    int buffers, written;           /* the one that is written to */
+    int x, y;                       /* where the next band may begin */
+    uint32_t bytes;                 /* sent in the frame */
+    bool in_order;
+};
+
+static int bits_of(uint8_t format)
+{
+    return format == SMEAR_XRGB8888                                ? 32
+         : format >= SMEAR_RGB565 && format <= SMEAR_RGB555        ? 16
+         : format == SMEAR_L4                                      ? 4
+         : format == SMEAR_L1                                      ? 1
+                                                                   : 8;
+}
+
+static int put_band(void *user, const smear_band *band)
+{
+    struct display *d = user;
+    const smear_desc *desc = &d->sends.desc;
+    const int page = desc->format == SMEAR_L1_PAGES ? 8 : 1, bits = bits_of(desc->format);
+    const size_t pitch = (size_t)(desc->width * bits + 7) / 8, at = (size_t)band->x * (size_t)bits / 8;
+    const int rows = (band->height + page - 1) / page;
+    d->in_order = d->in_order && (band->y > d->y || (band->y == d->y && band->x >= d->x)) && band->width > 0
+               && band->x + band->width <= desc->width && band->y + band->height <= desc->height
+               && band->size == band->stride * (uint32_t)rows;
+    d->x = band->x + band->width;
+    d->y = band->y;
+    d->bytes += band->size;
+    for (int i = 0; d->in_order && i < rows; i++)
+        memcpy(d->buffer[d->written] + (size_t)(band->y / page + i) * pitch + at,
+               (const uint8_t *)band->pixels + (size_t)i * band->stride, band->stride);
+    return d->sends.bands++ == d->sends.fail_at ? d->sends.fail_with : 0;
+}
+
+static bool display_begin(struct display *d, smear_desc desc, int buffers)
+{
+    *d = (struct display){ .buffers = buffers };
+    bool ok = rig_begin(&d->all, &desc, false);
+    desc.flush = put_band;
+    desc.buffer_age = (uint8_t)buffers;
+    ok = rig_begin(&d->sends, &desc, false) && ok;
+    for (int i = 0; i < buffers; i++)
+        ok = CHECK((d->buffer[i] = calloc(1, BYTES)) != NULL) && ok;
+    return ok;
+}
+
+static void display_end(struct display *d)
+{
+    rig_end(&d->sends);
+    rig_end(&d->all);
+    for (int i = 0; i < d->buffers; i++)
+        free(d->buffer[i]);
+}
+
+static int write_frame(struct display *d, const struct set *s)
+{
+    d->x = d->y = 0;
+    d->bytes = 0;
+    d->in_order = true;
+    d->sends.bands = 0;
+    d->written = (d->written + 1) % d->buffers;
+    int result = rig_frame(&d->sends, &s->frame, s->draw, s->count);
+    CHECK(d->in_order);
+    return result;
+}
+
+/* Draws a frame; what is shown must be what a context shows that sends all. The tiles that were not sent. */
+static uint32_t shown(struct display *d, const struct set *s)
+{
+    smear_stats stats;
+    uint8_t *want = rig_copy(&d->all, &s->frame, s->draw, s->count);
+    CHECK_EQ(write_frame(d, s), SMEAR_OK);
+    CHECK(want != NULL && memcmp(want, d->buffer[d->written], d->all.picture_size) == 0);
+    free(want);
+    smear_get_stats(d->sends.ctx, &stats);
+    CHECK_EQ(d->bytes == d->all.picture_size, stats.tiles_kept == 0);
+    return stats.tiles_kept;
+}
+
+/* Of 5 x 4 tiles. */
+static void test_a_display_is_sent_what_it_does_not_show(void)
+{
+    static const uint8_t methods[] = { SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
+    for (uint8_t format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
+        for (int buffers = 1; buffers <= 3; buffers++)
+            for (uint8_t keeps = 0; keeps < 2; keeps++) {
+                struct display d;
+                struct set s;
+                set_up(&s, methods[(format + buffers) % 3]);
+                for (int k = 0; k < 9 && keeps == 0; k++)
+                    s.pose[FLOOR].basis[k] *= 8;        /* on beneath the camera: its triangles are cut */
+                smear_desc desc = desc_of(buffers == 2 ? 16 : 400, keeps == 0);
+                desc.format = format;
+                desc.cache_static = keeps;
+                desc.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
+                if (display_begin(&d, desc, buffers))
+                    for (int i = 0; i < 14; i++) {
+                        move_on(&s, i < 10 ? i : 9);
+                        const uint32_t kept = shown(&d, &s);
+                        if (i < 1 + buffers || i == 10)
+                            CHECK_EQ(kept, 0);      /* unknown yet, or the cube has stopped */
+                        else if (i > 1 + buffers && i < 10)
+                            CHECK(kept >= 8);
+                        if (i >= 10 + buffers)
+                            CHECK_EQ(kept, 20);
+                    }
+                display_end(&d);
+            }
+}
+
+static void test_a_still_frame_sends_nothing_until_it_is_refreshed(void)
+{
+    struct display d;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    s.count = 2;
+    if (display_begin(&d, desc_of(400, true), 1)) {
+        CHECK_EQ(shown(&d, &s), 0);
+        for (int i = 0; i < 3; i++) {
+            CHECK_EQ(shown(&d, &s), 20);
+            CHECK_EQ(d.sends.bands, 0);
+        }
+        memset(d.buffer[0], 0, BYTES);
+        s.frame.refresh = 1;
+        CHECK_EQ(shown(&d, &s), 0);
+        CHECK_EQ(d.sends.bands, 4);
+        s.frame.refresh = 0;
+        CHECK_EQ(shown(&d, &s), 20);
+        s.material[FLOOR].texture = NULL;
+        CHECK_EQ(shown(&d, &s), 0);
+        CHECK_EQ(shown(&d, &s), 20);
+    }
+    display_end(&d);
+}
+
+/* So slow that it never moves by a step of its vertices within an exposure, but from frame to frame. */
+static void test_what_creeps_is_sent_all_the_same(void)
+{
+    struct display d;
+    struct set s;
+    set_up(&s, SMEAR_AUTO);
+    s.frame.shutter_degrees = 1;
+    if (display_begin(&d, desc_of(400, true), 2))
+        for (int i = 0; i < 40; i++) {
+            s.pose[MOVER] = pose_at(0.9 + 0.002 * i, 0.9, -9, 0.2, 0);
+            const uint32_t kept = shown(&d, &s);
+            if (i > 4)
+                CHECK(kept >= 16 && kept < 20);
+        }
+    display_end(&d);
+}
+
+static void test_the_display_is_right_after_other_methods_and_failures(void)
+{
+    static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
+    for (int buffers = 1; buffers <= 3; buffers++) {
+        struct display d;
+        struct set s;
+        set_up(&s, SMEAR_AUTO);
+        if (display_begin(&d, desc_of(400, false), buffers)) {
+            for (int i = 0; i < 25; i++) {
+                move_on(&s, i % 12);
+                s.frame.method = i % 5 == 4 ? between[i / 5] : (uint8_t)SMEAR_AUTO;
+                shown(&d, &s);
+            }
+            s.frame.method = SMEAR_AUTO;
+            for (int band = 0; band < 4; band++) {
+                s.frame.clear++;
+                d.sends.fail_at = band;
+                d.sends.fail_with = -9;
+                CHECK_EQ(write_frame(&d, &s), -9);
+                d.sends.fail_at = -1;
+                rig_frame(&d.all, &s.frame, s.draw, s.count);
+                for (int i = 0; i < 4; i++)
+                    CHECK_EQ(shown(&d, &s) == 0, i < buffers);
+            }
+        }
+        display_end(&d);
+    }
+}
+
+void suite_still(void)
+{
+    RUN(test_pictures_are_the_same_and_the_still_layer_is_drawn_once);
+    RUN(test_a_change_of_anything_that_stands_still_draws_it_again);
+    RUN(test_what_stops_and_starts_joins_and_leaves);
+    RUN(test_motion_too_small_to_be_seen_is_drawn_in_order);
+    RUN(test_other_methods_and_failures_between_do_no_harm);
+    RUN(test_a_display_is_sent_what_it_does_not_show);
+    RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
+    RUN(test_what_creeps_is_sent_all_the_same);
+    RUN(test_the_display_is_right_after_other_methods_and_failures);
+    RUN(test_memory_is_as_the_macro_says_and_only_timed_contexts_keep);
+}

@@ -1,0 +1,742 @@
+/* SPDX-License-Identifier: MIT */
+/* test_view.c - the parts of `smear view` that need no screen: layouts of pixels, the panel's
+ * place, what a bus makes of a frame, bytes of terminals, recorded input, the turned camera,
+ * wires. */
+#include "tests/test.h"
+
+#include "tools/cli/picture.h"
+#include "tools/scenes/present.h"
+#include "tools/scenes/xform.h"
+#include "tools/view/board.h"
+#include "tools/view/bus.h"
+#include "tools/view/font.h"
+#include "tools/view/orbit.h"
+#include "tools/view/panel.h"
+#include "tools/view/script.h"
+#include "tools/view/surface.h"
+#include "tools/view/tiles.h"
+#include "tools/view/tty.h"
+#include "tools/view/wire.h"
+#include "tools/view/x11_auth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void suite_view(void);
+
+/* ------------------------------------------------------------------ layouts */
+
+static const uint32_t mask_888[3] = { 0xff0000, 0xff00, 0xff };
+static const uint32_t mask_565[3] = { 0xf800, 0x7e0, 0x1f };
+static const uint32_t mask_bgr[3] = { 0xff, 0xff00, 0xff0000 };
+static const uint32_t mask_30[3] = { 0x3ff00000, 0xffc00, 0x3ff };
+
+static bool packs_to(int bits, const uint32_t mask[3], bool big, uint32_t pixel,
+                     const char *expected)
+{
+    struct layout l;
+    uint8_t out[5] = { 0, 0, 0, 0, 0x5a };
+    char text[16];
+    if (!layout_from_masks(&l, bits, mask, big))
+        return false;
+    out[l.bytes] = 0x5a;
+    layout_pack(&l, out, &pixel, 1);
+    int length = 0;
+    for (int i = 0; i < l.bytes; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length, "%02x", out[i]);
+    return strcmp(text, expected) == 0 && out[l.bytes] == 0x5a;
+}
+
+static void test_pixels_are_packed_by_masks_and_byte_order(void)
+{
+    CHECK(packs_to(32, mask_888, false, 0x123456, "56341200"));
+    CHECK(packs_to(32, mask_888, true, 0x123456, "00123456"));
+    CHECK(packs_to(32, mask_bgr, false, 0x123456, "12345600"));
+    CHECK(packs_to(24, mask_888, false, 0x123456, "563412"));
+    CHECK(packs_to(24, mask_888, true, 0x123456, "123456"));
+    CHECK(packs_to(16, mask_565, false, 0xf8fc08, "e1ff"));
+    CHECK(packs_to(16, mask_565, true, 0xf8fc08, "ffe1"));
+    CHECK(packs_to(32, mask_30, false, 0xff00ff, "ff03f03f"));
+}
+
+static void test_layouts_that_are_none_are_refused(void)
+{
+    struct layout l;
+    const uint32_t gap[3] = { 0xf0f000, 0xff00, 0xff }, none[3] = { 0xff0000, 0, 0xff };
+    CHECK(!layout_from_masks(&l, 32, gap, false));
+    CHECK(!layout_from_masks(&l, 32, none, false));
+    CHECK(!layout_from_masks(&l, 8, mask_888, false));
+    CHECK(!layout_from_masks(&l, 16, mask_888, false));
+    CHECK(layout_from_masks(&l, 24, mask_888, false) && !layout_is_native(&l));
+}
+
+/* ------------------------------------------------------------------ the panel */
+
+enum { W = 6, H = 4 };
+
+static uint32_t codes[W * H], shown[64 * 64];
+
+/* Pixel (x, y) holds its own place. */
+static void fill_codes(void)
+{
+    for (uint32_t i = 0; i < W * H; i++)
+        codes[i] = (i % W) << 16 | (i / W) << 8 | 1;
+}
+
+static struct surface surface_of(int width, int height)
+{
+    memset(shown, 0x77, sizeof shown);
+    return (struct surface){ width, height, 64, shown };
+}
+
+static uint32_t at(int x, int y)
+{
+    return shown[y * 64 + x];
+}
+
+static void test_every_pixel_of_the_panel_is_where_it_is_located(void)
+{
+    fill_codes();
+    for (int turns = 0; turns < 4; turns++)
+        for (int zoom = 1; zoom <= 3; zoom++) {
+            struct panel_look look = { .zoom = zoom, .turns = turns };
+            struct surface s = surface_of(40, 37);
+            struct panel_place place = panel_place_on(&look, W, H, &s);
+            panel_show(&look, &place, codes, W, H, &s);
+            int hits = 0;
+            for (int v = 0; v < s.height; v++)
+                for (int u = 0; u < s.width; u++) {
+                    int x, y;
+                    bool inside = u >= place.x && u < place.x + place.width && v >= place.y &&
+                                  v < place.y + place.height;
+                    panel_locate(&look, &place, W, H, u, v, &x, &y);
+                    if (inside && (x < 0 || y < 0 || x >= W || y >= H || at(u, v) != codes[y * W + x]))
+                        CHECK(!"a pixel is elsewhere");
+                    hits += inside;
+                    if (!inside && (at(u, v) & 0xff) == 1)
+                        CHECK(!"a pixel beside the panel");
+                }
+            CHECK_EQ(hits, W * H * zoom * zoom);
+            CHECK_EQ(at(40, 0), 0x77777777);
+        }
+}
+
+static void test_a_turned_panel_is_turned_clockwise(void)
+{
+    fill_codes();
+    struct panel_look look = { .zoom = 1, .turns = 1 };
+    struct surface s = surface_of(H, W);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
+    panel_show(&look, &place, codes, W, H, &s);
+    CHECK_EQ(at(H - 1, 0), codes[0]);               /* top left goes to top right */
+    CHECK_EQ(at(0, 0), codes[(H - 1) * W]);
+    CHECK_EQ(at(H - 1, W - 1), codes[W - 1]);
+}
+
+static void test_zoom_is_the_largest_that_fits(void)
+{
+    const struct panel_look look = { .zoom = 0 }, fixed = { .zoom = 2 };
+    struct surface s = surface_of(6 * 5 + 3, 4 * 5);
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 5);
+    s.height--;
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 4);
+    s = surface_of(64, 64);
+    CHECK_EQ(panel_place_on(&look, W, H, &s).zoom, 8);
+    s = surface_of(5, 30);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
+    CHECK_EQ(place.zoom, 0);
+    CHECK_EQ(place.width, 5);
+    CHECK_EQ(place.height, 3);
+    CHECK_EQ(panel_place_on(&fixed, W, H, &s).zoom, 2);
+}
+
+static void test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it(void)
+{
+    fill_codes();
+    for (int zoom = 0; zoom <= 8; zoom += 4)
+        for (int width = 1; width <= 9; width++)
+            for (int height = 1; height <= 9; height++) {
+                struct panel_look look = { .zoom = zoom, .round = true, .turns = width & 3 };
+                struct surface s = surface_of(width, height);
+                struct panel_place place = panel_place_on(&look, W, H, &s);
+                panel_show(&look, &place, codes, W, H, &s);
+                for (int v = 0; v < 12; v++)
+                    for (int u = 0; u < 12; u++)
+                        if ((u < width && v < height) == (at(u, v) == 0x77777777))
+                            CHECK(!"outside the surface, or not filled");
+            }
+}
+
+static void test_shrinking_keeps_the_mean(void)
+{
+    for (int i = 0; i < W * H; i++)
+        codes[i] = i & 1 ? 0xff0080 : 0x010000;
+    const struct panel_look look = { .zoom = 0 };
+    struct surface s = surface_of(3, 2);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
+    panel_show(&look, &place, codes, W, H, &s);
+    for (int i = 0; i < 6; i++)
+        CHECK_EQ(at(i % 3, i / 3), 0x800040);
+}
+
+static void test_a_round_glass_hides_the_corners_only(void)
+{
+    fill_codes();
+    const struct panel_look look = { .zoom = 1, .round = true };
+    struct surface s = surface_of(W, H);
+    struct panel_place place = panel_place_on(&look, W, H, &s);
+    panel_show(&look, &place, codes, W, H, &s);
+    CHECK((at(0, 0) & 0xff) != 1 && (at(W - 1, H - 1) & 0xff) != 1);
+    CHECK_EQ(at(2, 0), codes[2]);
+    CHECK_EQ(at(0, 2), codes[2 * W]);
+}
+
+static void test_greys_run_between_the_panels_colours(void)
+{
+    const uint32_t greys[2] = { 0, 0xffffff };
+    const struct panel_look look = { .zoom = 1, .has_tint = true, .dark = 0x102030,
+                                     .lit = 0xa0b0c0 };
+    struct surface s = surface_of(2, 1);
+    struct panel_place place = panel_place_on(&look, 2, 1, &s);
+    panel_show(&look, &place, greys, 2, 1, &s);
+    CHECK_EQ(at(0, 0), 0x102030);
+    CHECK_EQ(at(1, 0), 0xa0b0c0);
+}
+
+/* What a format's bytes look like is one rule: that of the pictures which `render` writes. */
+static void test_codes_are_those_of_picture_files(void)
+{
+    enum { EDGE = 16 };
+    uint32_t seed = 7, out[EDGE * EDGE];
+    _Alignas(4) uint8_t bytes[EDGE * EDGE * 4];
+    for (size_t i = 0; i < sizeof bytes; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        bytes[i] = (uint8_t)(seed >> 24);
+    }
+    for (int format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++) {
+        struct failure f = { "" };
+        struct panel_codes c;
+        struct image image;
+        size_t stride = EDGE * 4;
+        if (!CHECK(panel_codes_open(&c, (smear_format)format, &f)) ||
+            !CHECK(image_alloc(&image, EDGE, EDGE, &f)))
+            return;
+        if (format == SMEAR_XRGB8888)
+            for (int i = 0; i < EDGE * EDGE; i++)
+                memset(bytes + 4 * i + 3, 0, 1);
+        CHECK(panel_decode(&c, bytes, stride, EDGE, EDGE, out, &f));
+        picture_expand(&image, bytes, stride, (smear_format)format);
+        int wrong = 0;
+        for (int i = 0; i < EDGE * EDGE; i++)
+            wrong += out[i] != ((uint32_t)image.rgba[4 * i] << 16 |
+                                (uint32_t)image.rgba[4 * i + 1] << 8 | image.rgba[4 * i + 2]);
+        CHECK_EQ(wrong, 0);
+        panel_codes_close(&c);
+        image_free(&image);
+    }
+}
+
+static void test_letters_stay_within_the_surface(void)
+{
+    for (int x = -30; x < 40; x += 7)
+        for (int y = -20; y < 40; y += 5) {
+            struct surface s = surface_of(33, 29);
+            font_draw(&s, x, y, 2, "gW~\x80");
+            for (int v = 0; v < 40; v++)
+                for (int u = 0; u < 60; u++)
+                    if ((u >= 33 || v >= 29) && at(u, v) != 0x77777777)
+                        CHECK(!"a letter outside");
+        }
+}
+
+/* All printable characters look different, and none is empty but the blank. */
+static void test_letters_differ(void)
+{
+    static uint32_t seen[95][FONT_WIDTH * FONT_HEIGHT];
+    for (int c = 0; c < 95; c++) {
+        char text[2] = { (char)(32 + c), '\0' };
+        struct surface s = surface_of(FONT_WIDTH, FONT_HEIGHT);
+        font_draw(&s, 0, 0, 1, text);
+        for (int i = 0; i < FONT_WIDTH * FONT_HEIGHT; i++)
+            seen[c][i] = at(i % FONT_WIDTH, i / FONT_WIDTH);
+        for (int other = 0; other < c; other++)
+            if (memcmp(seen[c], seen[other], sizeof seen[c]) == 0)
+                CHECK(!"two letters look alike");
+    }
+}
+
+/* ------------------------------------------------------------------ the bus */
+
+static void test_a_frame_takes_its_time_on_the_wire(void)
+{
+    const struct bus spi = { .hz = 8e6 }, none = { .hz = 0 };
+    CHECK_CLOSE(bus_wire_us(&spi, 1024), 1024.0, 1e-9);
+    CHECK_CLOSE(bus_wire_us(&none, 1024), 0.0, 0.0);
+}
+
+/* By simulation: when each row was written, and when the refresh under way reads it. */
+static void test_the_tear_is_where_reading_and_writing_meet(void)
+{
+    enum { ROWS = 200 };
+    const double panel_hz = 57.0, refresh = 1e6 / panel_hz;
+    const double writes[] = { 3000.0, 9000.0, 16000.0, 20000.0, 40000.0, 95000.0 };
+    int torn = 0;
+    for (int w = 0; w < 6; w++) {
+        const struct bus bus = { .hz = 1e6, .panel_hz = panel_hz };
+        double write = writes[w], frame = fmax(write, 33333.0);
+        for (long index = 0; index < 50; index++) {
+            bool old_above;
+            int tear = bus_tear(&bus, index, frame, write, ROWS, &old_above);
+            double start = (double)index * frame;
+            double scan = write > refresh ? ceil((start + write / 2) / refresh) * refresh
+                                          : floor(start / refresh) * refresh;
+            torn += tear > 0 && tear < ROWS;
+            for (int row = 0; row < ROWS && tear < ROWS; row++) {
+                double written = start + write * row / ROWS, read = scan + refresh * row / ROWS;
+                bool is_old = (row < tear) == old_above;
+                /* a row at the crossing may count either way */
+                if (fabs(written - read) > (write + refresh) / ROWS && is_old != (read < written))
+                    CHECK(!"a row is of the wrong frame");
+            }
+            /* one frame only: reading and writing do not cross within the rows */
+            double ahead = start - scan, behind = ahead + write - refresh;
+            if (tear == ROWS && ahead * behind < -(write + refresh) * (write + refresh) / ROWS)
+                CHECK(!"a tear is missing");
+        }
+    }
+    CHECK(torn > 100);
+}
+
+static void test_panels_in_step_do_not_tear(void)
+{
+    bool old_above;
+    const struct bus synced = { .hz = 1e6, .panel_hz = 60, .synced = true };
+    const struct bus patient = { .hz = 1e6, .panel_hz = 0 };
+    for (long i = 0; i < 20; i++) {
+        CHECK_EQ(bus_tear(&synced, i, 50000, 40000, 100, &old_above), 100);
+        CHECK_EQ(bus_tear(&patient, i, 50000, 40000, 100, &old_above), 100);
+    }
+}
+
+/* ------------------------------------------------------------------ terminals */
+
+static struct event decoded(const char *bytes, bool is_last, int *taken)
+{
+    struct event e;
+    *taken = tty_decode((const unsigned char *)bytes, (int)strlen(bytes), is_last, &e);
+    return e;
+}
+
+static bool is_key(const char *bytes, int key)
+{
+    int taken;
+    struct event e = decoded(bytes, true, &taken);
+    return e.kind == EVENT_KEY && e.key == key && taken == (int)strlen(bytes);
+}
+
+static void test_keys_of_terminals_are_known(void)
+{
+    CHECK(is_key("b", 'b') && is_key("?", '?') && is_key(" ", ' '));
+    CHECK(is_key("\r", SCREEN_ENTER) && is_key("\n", SCREEN_ENTER) && is_key("\t", SCREEN_TAB));
+    CHECK(is_key("\033", SCREEN_ESCAPE));
+    CHECK(is_key("\033[A", SCREEN_UP) && is_key("\033OA", SCREEN_UP));
+    CHECK(is_key("\033[B", SCREEN_DOWN) && is_key("\033[C", SCREEN_RIGHT) && is_key("\033[D", SCREEN_LEFT));
+    CHECK(is_key("\033[H", SCREEN_HOME) && is_key("\033[1~", SCREEN_HOME) && is_key("\033[F", SCREEN_END));
+    CHECK(is_key("\033[5~", SCREEN_PAGE_UP) && is_key("\033[6~", SCREEN_PAGE_DOWN));
+}
+
+static void test_half_a_sequence_waits_for_the_rest(void)
+{
+    int taken;
+    decoded("\033", false, &taken);
+    CHECK_EQ(taken, 0);
+    decoded("\033[", false, &taken);
+    CHECK_EQ(taken, 0);
+    decoded("\033[<0;1", false, &taken);
+    CHECK_EQ(taken, 0);
+    CHECK_EQ(decoded("\033[", true, &taken).kind, EVENT_EXPOSE);
+    CHECK_EQ(taken, 2);
+}
+
+static void test_the_pointer_of_terminals_drags_and_scrolls(void)
+{
+    int taken;
+    CHECK_EQ(decoded("\033[<0;10;5M", true, &taken).kind, EVENT_EXPOSE);    /* pressed */
+    struct event e = decoded("\033[<32;13;4M", true, &taken);
+    CHECK(e.kind == EVENT_DRAG && e.button == 1 && e.x == 3 && e.y == -2);
+    CHECK_EQ(decoded("\033[<0;13;4m", true, &taken).kind, EVENT_EXPOSE);    /* released */
+    CHECK_EQ(decoded("\033[<35;20;4M", true, &taken).kind, EVENT_EXPOSE);   /* moved without */
+    e = decoded("\033[<64;1;1M", true, &taken);
+    CHECK(e.kind == EVENT_WHEEL && e.y == 1);
+    e = decoded("\033[<65;1;1M", true, &taken);
+    CHECK(e.kind == EVENT_WHEEL && e.y == -1);
+    CHECK_EQ(taken, 10);
+}
+
+static void test_ctrl_c_closes(void)
+{
+    int taken;
+    CHECK_EQ(decoded("\003", true, &taken).kind, EVENT_CLOSE);
+    CHECK_EQ(decoded("\034", true, &taken).kind, EVENT_CLOSE);
+}
+
+/* Any bytes are taken in the end, and never more than there are. */
+static void test_wild_bytes_are_taken(void)
+{
+    uint32_t seed = 3;
+    unsigned char bytes[64];
+    static const char sequence[] = "\033[<;0123456789MmABCD~O";
+    for (int round = 0; round < 20000; round++) {
+        int count = 0;
+        while (count < 64 && (count == 0 || seed >> 24 > 8)) {
+            seed = seed * 1664525u + 1013904223u;
+            bytes[count++] = seed >> 20 & 1 ? (unsigned char)(seed >> 12)
+                                            : (unsigned char)sequence[(seed >> 8) % 22];
+        }
+        for (int left = count; left > 0;) {
+            struct event e;
+            int taken = tty_decode(bytes + (count - left), left, true, &e);
+            if (!CHECK(taken > 0 && taken <= left))
+                return;
+            left -= taken;
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ scripts */
+
+static const char script_file[] = "build/test-view-script";
+
+static void test_recorded_input_is_played(void)
+{
+    const struct event events[] = {
+        { .kind = EVENT_KEY, .key = 'b' },          { .kind = EVENT_KEY, .key = SCREEN_LEFT },
+        { .kind = EVENT_KEY, .key = ' ' },          { .kind = EVENT_DRAG, .button = 3, .x = -7, .y = 9 },
+        { .kind = EVENT_WHEEL, .y = -1 },           { .kind = EVENT_KEY, .key = '#' },
+        { .kind = EVENT_KEY, .key = SCREEN_PAGE_UP },
+    };
+    const int count = sizeof events / sizeof *events;
+    struct failure f = { "" };
+    struct script s = { 0 };
+    struct event e;
+    if (!CHECK(script_record(&s, script_file, &f)))
+        return;
+    for (int i = 0; i < count; i++)
+        script_note(&s, i / 2, &events[i]);
+    script_note(&s, 9, &(struct event){ .kind = EVENT_RESIZE });
+    CHECK(script_end(&s, &f));
+    script_close(&s);
+    CHECK(script_play(&s, script_file, &f));
+    for (int i = 0; i < count; i++) {
+        CHECK(i % 2 != 0 || i / 2 == 0 || !script_event(&s, i / 2 - 1, &e));
+        CHECK(script_event(&s, i / 2, &e) && e.kind == events[i].kind && e.key == events[i].key &&
+              e.x == events[i].x && e.y == events[i].y && e.button == events[i].button);
+    }
+    CHECK(!script_event(&s, 1000, &e));
+    script_close(&s);
+    unlink(script_file);
+}
+
+/* ------------------------------------------------------------------ the camera */
+
+static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
+{
+    struct failure f = { "" };
+    struct scene scene;
+    struct orbit orbit;
+    struct scene_instant a = { 0 }, b = { 0 };
+    if (!CHECK(scene_builtin("demo/race", &scene, &f)))
+        return;
+    orbit_open(&orbit, &scene);
+    CHECK(orbit_find_focus(&orbit, 0.4, &f) && orbit.focus > 1.0 && orbit.focus < 60.0);
+    orbit_turn(&orbit, 0.3, 0.2);
+    orbit_turn(&orbit, -0.3, -0.2);
+    CHECK(orbit.focus > 0.0);
+    CHECK(scene_pose(&scene, 0.4, &a, &f) && scene_pose(&orbit.scene, 0.4, &b, &f));
+    CHECK(memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
+    scene_instant_free(&scene, &a);
+    scene_instant_free(&orbit.scene, &b);
+    scene_free(&scene);
+}
+
+/* After half a second of a round in two, the eye is a quarter further, and it is back after all of it. */
+static void test_a_turntable_goes_round(void)
+{
+    struct failure f = { "" };
+    struct scene scene;
+    struct orbit orbit;
+    struct scene_instant own = { 0 }, turned = { 0 };
+    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
+        return;
+    orbit_open(&orbit, &scene);
+    CHECK(orbit_find_focus(&orbit, 0.0, &f));
+    orbit.spin = 3.14159265358979323846;
+    for (int quarter = 0; quarter <= 4; quarter++) {
+        double time = quarter * 0.5;
+        CHECK(scene_pose(&scene, time, &own, &f) && scene_pose(&orbit.scene, time, &turned, &f));
+        const double *a = own.camera.pose, *b = turned.camera.pose;
+        /* of where both look along the ground: the cosine between */
+        double dot = (a[8] * b[8] + a[10] * b[10]) / (hypot(a[8], a[10]) * hypot(b[8], b[10]));
+        CHECK(fabs(dot - (quarter % 2 ? 0.0 : quarter == 2 ? -1.0 : 1.0)) < 1e-9);
+    }
+    orbit_reset(&orbit);
+    CHECK(!orbit_is_turned(&orbit));
+    scene_instant_free(&scene, &own);
+    scene_instant_free(&orbit.scene, &turned);
+    scene_free(&scene);
+}
+
+/* What the camera looks at stays in the middle, at the distance that was asked for. */
+static void test_a_turned_camera_looks_at_the_same_point(void)
+{
+    struct failure f = { "" };
+    struct scene scene;
+    struct orbit orbit;
+    struct scene_instant own = { 0 }, turned = { 0 };
+    if (!CHECK(scene_builtin("demo/race", &scene, &f)))
+        return;
+    orbit_open(&orbit, &scene);
+    CHECK(orbit_find_focus(&orbit, 0.0, &f));
+    for (int i = 0; i < 40; i++) {
+        orbit_turn(&orbit, 0.37, i & 1 ? 0.3 : -0.17);
+        orbit_move(&orbit, i & 2 ? 1.1 : 0.9);
+        CHECK(scene_pose(&scene, 0.1, &own, &f) && scene_pose(&orbit.scene, 0.1, &turned, &f));
+        struct vec3 point[2], eye[2];
+        for (int k = 0; k < 2; k++) {
+            const double *p = k == 0 ? own.camera.pose : turned.camera.pose;
+            double distance = orbit.focus * (k == 0 ? 1.0 : orbit.distance);
+            eye[k] = vec3(p[12], p[13], p[14]);
+            point[k] = vec3_sub(eye[k], vec3_scale(vec3(p[8], p[9], p[10]), distance));
+            struct vec3 x = vec3(p[0], p[1], p[2]), y = vec3(p[4], p[5], p[6]);
+            CHECK_CLOSE(vec3_length(x), 1.0, 1e-9);
+            CHECK_CLOSE(vec3_dot(x, y), 0.0, 1e-9);
+        }
+        CHECK_CLOSE(vec3_length(vec3_sub(point[0], point[1])), 0.0, 1e-6);
+    }
+    scene_instant_free(&scene, &own);
+    scene_instant_free(&orbit.scene, &turned);
+    scene_free(&scene);
+}
+
+/* ------------------------------------------------------------------ wires */
+
+/* Wires lie over what the library draws: nearly every edge pixel is inside or beside the drawn. */
+static void test_wires_lie_on_what_is_drawn(void)
+{
+    enum { WIDTH = 160, HEIGHT = 120 };
+    static uint32_t picture[WIDTH * HEIGHT];
+    struct failure f = { "" };
+    struct scene scene;
+    struct image sharp;
+    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
+        return;
+    struct presenter *p = presenter_new(&scene, &f);
+    struct present_options o = { .fps = 30, .instant_only = true, .method = SMEAR_NONE,
+                                 .clear = 0xff00ff };
+    const struct presented *frame = presenter_frame(p, 0.3, &o, &f);
+    memset(picture, 0, sizeof picture);
+    if (CHECK(frame != NULL))
+        wire_draw(frame, picture, WIDTH, HEIGHT);
+    int wires = 0, off = 0;
+    if (CHECK(presenter_exact(p, 0.3, &o, WIDTH, HEIGHT, 1, &sharp, &f))) {
+        for (int y = 1; y < HEIGHT - 1; y++)
+            for (int x = 1; x < WIDTH - 1; x++) {
+                bool near_drawn = false;
+                for (int k = 0; k < 9; k++) {
+                    const uint8_t *c =
+                        sharp.rgba + 4 * ((size_t)(y + k / 3 - 1) * WIDTH + (size_t)(x + k % 3 - 1));
+                    near_drawn = near_drawn || !(c[0] == 255 && c[1] == 0 && c[2] == 255);
+                }
+                wires += picture[y * WIDTH + x] != 0;
+                off += picture[y * WIDTH + x] != 0 && !near_drawn;
+            }
+        image_free(&sharp);
+    }
+    CHECK(wires > 1000);
+    CHECK_EQ(off, 0);
+    presenter_free(p);
+    scene_free(&scene);
+}
+
+/* ------------------------------------------------------------------ tiles */
+
+struct noted {
+    smear_context *ctx;
+    struct tiles tiles;
+};
+
+static int note_band(void *user, const smear_band *band)
+{
+    struct noted *n = user;
+    tiles_note(&n->tiles, n->ctx, band);
+    return 0;
+}
+
+/* What is noted of the tiles one by one adds up to what the library counts. */
+static void check_tiles(struct presenter *p, const struct present_options *o, bool sharp)
+{
+    enum { WIDTH = 250, HEIGHT = 130 };
+    struct failure f = { "" };
+    struct noted n = { .ctx = NULL };
+    const struct presented *frame = presenter_frame(p, 0.4, o, &f);
+    if (!CHECK(frame != NULL && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
+        return;
+    smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
+    desc.max_triangles *= 4;
+    desc.sharp = sharp;
+    desc.timed = smear_method_is_temporal(o->method);
+    desc.passes = o->method == SMEAR_PINGPONG ? 2 : 0;
+    desc.half = o->method == SMEAR_HALF;
+    desc.accumulate = o->method == SMEAR_ACCUMULATE;
+    desc.layers = o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED;
+    desc.flush = note_band;
+    desc.user = &n;
+    size_t bytes = smear_memory_size(&desc);
+    void *memory = malloc(bytes);
+    uint32_t count[TILES_METHODS] = { 0 }, kinds[TILES_KINDS] = { 0 };
+    smear_stats s;
+    CHECK_EQ(smear_init(&n.ctx, &desc, memory, bytes), SMEAR_OK);
+    CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
+    CHECK_EQ(smear_render(n.ctx), SMEAR_OK);
+    smear_get_stats(n.ctx, &s);
+    for (int i = 0; i < n.tiles.columns * n.tiles.rows; i++) {
+        const struct tile_note *tile = &n.tiles.note[i];
+        count[tile->method]++;
+        kinds[tile->kind]++;
+        CHECK(tile->method == TILES_NONE ? tile->samples == 1 : tile->samples > 1);
+    }
+    CHECK_EQ(count[TILES_NONE], s.tiles_none);
+    CHECK_EQ(count[TILES_ACCUMULATE], s.tiles_accumulate);
+    CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles_reconstruct);
+    CHECK_EQ(count[TILES_CAMERA], s.tiles_camera);
+    CHECK_EQ(count[TILES_PINGPONG], s.tiles_pingpong);
+    CHECK_EQ(count[TILES_HALF], s.tiles_half);
+    CHECK_EQ(count[TILES_SMOOTH], s.tiles_smooth);
+    CHECK_EQ(count[TILES_SUBFRAMES], s.tiles_subframes);
+    CHECK_EQ(count[TILES_TIMEMASK], s.tiles_timemask);
+    CHECK_EQ(count[TILES_OBJECT], s.tiles_object);
+    CHECK_EQ(count[TILES_LAYERED], s.tiles_layered);
+    CHECK_EQ(kinds[TILES_STILL], s.tiles_still);
+    CHECK_EQ(kinds[TILES_UNIFORM], s.tiles_uniform);
+    CHECK_EQ(kinds[TILES_COMPLEX], s.tiles_complex);
+    /* one of the scenes has a still camera */
+    CHECK(o->method == SMEAR_NONE || o->method == SMEAR_CAMERA || kinds[TILES_UNIFORM] + kinds[TILES_COMPLEX] > 0);
+    free(memory);
+    tiles_close(&n.tiles);
+}
+
+static void test_tiles_are_noted_as_they_are_counted(void)
+{
+    static const smear_method methods[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES,
+                                            SMEAR_TIMEMASK, SMEAR_AUTO, SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF,
+                                            SMEAR_OBJECT, SMEAR_LAYERED };
+    static const char *const scenes[] = { "demo/drone", "suite/textured" };
+    struct failure f = { "" };
+    for (int k = 0; k < 2; k++) {
+        struct scene scene;
+        if (!CHECK(scene_builtin(scenes[k], &scene, &f)))
+            return;
+        struct presenter *p = presenter_new(&scene, &f);
+        for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+            struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = methods[i] };
+            check_tiles(p, &o, !smear_method_is_filter(methods[i]) && methods[i] != SMEAR_AUTO);
+        }
+        presenter_free(p);
+        scene_free(&scene);
+    }
+}
+
+/* ------------------------------------------------------------------ cookies, boards */
+
+static void put_field(FILE *to, const void *bytes, unsigned size)
+{
+    fputc((int)(size >> 8), to);
+    fputc((int)(size & 255), to);
+    fwrite(bytes, 1, size, to);
+}
+
+static void put_cookie(FILE *to, unsigned family, const char *address, const char *number,
+                       const char *method, int fill)
+{
+    uint8_t data[X11_COOKIE];
+    memset(data, fill, sizeof data);
+    fputc((int)(family >> 8), to);
+    fputc((int)(family & 255), to);
+    put_field(to, address, (unsigned)strlen(address));
+    put_field(to, number, (unsigned)strlen(number));
+    put_field(to, method, (unsigned)strlen(method));
+    put_field(to, data, sizeof data);
+}
+
+static void test_the_cookie_of_the_display_is_found(void)
+{
+    static const char path[] = "build/test-view-cookies";
+    const char *kept = getenv("XAUTHORITY");
+    char host[256] = "";
+    uint8_t cookie[X11_COOKIE];
+    gethostname(host, sizeof host - 1);
+    FILE *to = fopen(path, "wb");
+    if (!CHECK(to != NULL))
+        return;
+    put_cookie(to, 256, host, "7", "MIT-MAGIC-COOKIE-1", 1);
+    put_cookie(to, 256, "elsewhere", "8", "MIT-MAGIC-COOKIE-1", 2);
+    put_cookie(to, 256, host, "8", "XDM-AUTHORIZATION-1", 3);
+    put_cookie(to, 65535, "", "8", "MIT-MAGIC-COOKIE-1", 4);
+    put_cookie(to, 256, host, "9", "MIT-MAGIC-COOKIE-1", 5);
+    fputs("\001\000\000\004cut", to);
+    fclose(to);
+    setenv("XAUTHORITY", path, 1);
+    CHECK(x11_find_cookie(7, cookie) && cookie[0] == 1);
+    CHECK(x11_find_cookie(8, cookie) && cookie[0] == 4);
+    CHECK(x11_find_cookie(9, cookie) && cookie[15] == 5);
+    CHECK(!x11_find_cookie(10, cookie));
+    setenv("XAUTHORITY", "build/no-such-file", 1);
+    CHECK(!x11_find_cookie(7, cookie));
+    if (kept != NULL)
+        setenv("XAUTHORITY", kept, 1);
+    else
+        unsetenv("XAUTHORITY");
+    unlink(path);
+}
+
+static void test_boards_have_names_of_their_own(void)
+{
+    for (const struct board *b = board_list; b->name != NULL; b++)
+        CHECK(board_find(b->name) == b);
+    CHECK(board_find("nothing") == NULL);
+}
+
+void suite_view(void)
+{
+    RUN(test_pixels_are_packed_by_masks_and_byte_order);
+    RUN(test_layouts_that_are_none_are_refused);
+    RUN(test_every_pixel_of_the_panel_is_where_it_is_located);
+    RUN(test_a_turned_panel_is_turned_clockwise);
+    RUN(test_zoom_is_the_largest_that_fits);
+    RUN(test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it);
+    RUN(test_shrinking_keeps_the_mean);
+    RUN(test_a_round_glass_hides_the_corners_only);
+    RUN(test_greys_run_between_the_panels_colours);
+    RUN(test_codes_are_those_of_picture_files);
+    RUN(test_letters_stay_within_the_surface);
+    RUN(test_letters_differ);
+    RUN(test_a_frame_takes_its_time_on_the_wire);
+    RUN(test_the_tear_is_where_reading_and_writing_meet);
+    RUN(test_panels_in_step_do_not_tear);
+    RUN(test_keys_of_terminals_are_known);
+    RUN(test_half_a_sequence_waits_for_the_rest);
+    RUN(test_the_pointer_of_terminals_drags_and_scrolls);
+    RUN(test_ctrl_c_closes);
+    RUN(test_wild_bytes_are_taken);
+    RUN(test_recorded_input_is_played);
+    RUN(test_an_unturned_camera_is_the_scenes_own_bit_for_bit);
+    RUN(test_a_turned_camera_looks_at_the_same_point);
+    RUN(test_a_turntable_goes_round);
+    RUN(test_wires_lie_on_what_is_drawn);
+    RUN(test_tiles_are_noted_as_they_are_counted);
+    RUN(test_the_cookie_of_the_display_is_found);
+    RUN(test_boards_have_names_of_their_own);
+}

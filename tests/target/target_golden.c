@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/* target_golden.c - draws every golden frame: the library gives the same bits on every target.
+ *
+ * Prints a line `TAPE FRAME CRC` per frame, what is wrong beside it, and a summary. Fails on a
+ * wrong or unknown CRC, on an error of the library, and when nothing was drawn. A tape too large
+ * for the machine is skipped, and that is said. Where something was left out (smear_config.h) a tape
+ * that needs it must be refused, and one that gets other methods must be drawn. */
+#include "platform/platform.h"
+#include "platform/play.h"
+#include "platform/print.h"
+
+#include <stdbool.h>
+
+struct tally {
+    uint32_t right, wrong, skipped, refused, other;
+};
+
+/* What is to be expected of a tape. */
+enum outcome { SAME_BITS, OTHER_METHODS, REFUSED };
+
+static bool has_format(const smear_desc *d)
+{
+    static const bool has[] = {
+        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332,
+        SMEAR_WITH_L8, SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
+    };
+    bool dithered = d->format != SMEAR_XRGB8888 && d->format != SMEAR_L8 && d->dither != SMEAR_DITHER_NONE;
+    return has[d->format] && (!dithered || (d->dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER));
+}
+
+static enum outcome outcome_of(const struct tape *tape)
+{
+    const smear_desc *d = tape->desc;
+    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || (d->accumulate && !SMEAR_WITH_ACCUMULATE)
+        || (d->timed && !SMEAR_WITH_SUBFRAMES) || (d->layers && !SMEAR_WITH_LAYERS)
+        || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
+        return REFUSED;
+    enum outcome outcome = SAME_BITS;
+    for (int i = 0; i < tape->frame_count; i++) {
+        const struct tape_frame *f = &tape->frame[i];
+        uint8_t method = f->frame->method;
+        if ((smear_method_is_filter(method) && !SMEAR_WITH_RECONSTRUCT) || (method == SMEAR_TIMEMASK && !SMEAR_WITH_TIMEMASK))
+            return REFUSED;
+        if (((smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) || f->frame->camera_step != 0
+             || f->frame->weights != 0) && !SMEAR_WITH_FILTERS)
+            return REFUSED;
+        if (f->frame->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
+            return REFUSED;
+        if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
+            || ((f->frame->turn_scale | f->frame->way_scale | f->frame->object_scale) != 0 && !SMEAR_WITH_SCALES)
+            || ((f->frame->shutter_mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter_us != 0) && !SMEAR_WITH_SHUTTER_MODES))
+            return REFUSED;
+        if (method == SMEAR_DEFAULT_METHOD && !d->timed && !d->sharp && !SMEAR_WITH_RECONSTRUCT)
+            outcome = OTHER_METHODS;
+        if (d->timed && (method == SMEAR_DEFAULT_METHOD || method == SMEAR_AUTO)
+            && !SMEAR_WITH_TIMEMASK)
+            outcome = OTHER_METHODS;
+        for (int k = 0; k < f->draw_count; k++) {
+            const smear_draw *draw = &f->draw[k];
+            const smear_material *m = draw->material;
+            if ((draw->id != 0 && !SMEAR_WITH_IDS) || (draw->billboard != 0 && !SMEAR_WITH_BILLBOARDS))
+                return REFUSED;
+            if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
+                || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))
+                return REFUSED;
+            if (m != NULL && ((m->texture != NULL && !SMEAR_WITH_TEXTURE) || (m->bilinear && !SMEAR_WITH_BILINEAR)
+                              || (m->alpha != SMEAR_OPAQUE && !SMEAR_WITH_ALPHA)))
+                return REFUSED;
+        }
+    }
+    return outcome;
+}
+
+/* Prints what went otherwise than it should. */
+static void say(const struct tape *tape, const char *what, int number)
+{
+    platform_print("# ");
+    platform_print(tape->name);
+    platform_print(what);
+    print_signed(number);
+    platform_print("\n");
+}
+
+static void print_frame(const struct tape *tape, int frame, uint32_t crc)
+{
+    platform_print(tape->name);
+    platform_print(" ");
+    print_signed(frame);
+    platform_print(" ");
+    print_hex(crc);
+}
+
+static void play_tape(const struct tape *tape, struct tally *tally)
+{
+    struct player player;
+    smear_stats stats;
+    size_t room, need = play_memory(tape);
+    void *arena = platform_arena(&room);
+    if (need > room) {
+        platform_print("# ");
+        platform_print(tape->name);
+        platform_print(" skipped: needs ");
+        print_decimal((uint32_t)need);
+        platform_print(" bytes\n");
+        tally->skipped++;
+        return;
+    }
+    /* exactly as much as it asks for, so that an overrun is not into its own slack */
+    int result = need == 0 ? SMEAR_ERR_ARG : play_start(&player, tape, arena, need, NULL);
+    enum outcome outcome = outcome_of(tape);
+    if (outcome != SAME_BITS) {
+        for (int i = 0; i < tape->frame_count && result == SMEAR_OK; i++)
+            result = play_frame(&player, i, &stats);
+        if (result != (outcome == REFUSED ? SMEAR_ERR_ARG : SMEAR_OK)) {
+            say(tape, outcome == REFUSED ? " NOT REFUSED " : " ERROR ", result);
+            tally->wrong++;
+        } else if (outcome == REFUSED) {
+            tally->refused++;
+        } else {
+            tally->other++;
+        }
+        return;
+    }
+    for (int i = 0; i < tape->frame_count && result == SMEAR_OK; i++) {
+        result = play_frame(&player, i, &stats);
+        if (result != SMEAR_OK)
+            break;
+        print_frame(tape, i, stats.crc32);
+        bool is_right = tape->crc != NULL && tape->crc[i] == stats.crc32;
+        if (is_right)
+            tally->right++;
+        else
+            tally->wrong++;
+        if (!is_right) {
+            platform_print(tape->crc != NULL ? " WRONG, want " : " NOT KNOWN");
+            if (tape->crc != NULL)
+                print_hex(tape->crc[i]);
+        }
+        platform_print("\n");
+    }
+    if (result != SMEAR_OK) {
+        say(tape, " ERROR ", result);
+        tally->wrong++;
+    }
+}
+
+int main(void)
+{
+    struct tally tally = { 0, 0, 0, 0, 0 };
+    for (int i = 0; i < tape_count; i++)
+        play_tape(tape_list[i], &tally);
+    platform_print("golden frames: ");
+    print_decimal(tally.right);
+    platform_print(" right, ");
+    print_decimal(tally.wrong);
+    platform_print(" wrong, ");
+    print_decimal(tally.skipped);
+    platform_print(" tapes skipped");
+    if (tally.refused + tally.other > 0) {
+        platform_print(", ");
+        print_decimal(tally.refused);
+        platform_print(" refused, ");
+        print_decimal(tally.other);
+        platform_print(" by other methods");
+    }
+    uint32_t stack = platform_stack_used();
+    bool is_overflow = stack == UINT32_MAX;
+    if (is_overflow) {
+        platform_print("; STACK OVERFLOW");
+    } else if (stack > 0) {
+        platform_print("; stack ");
+        print_decimal(stack);
+        platform_print(" bytes");
+    }
+    platform_print("\n");
+    return tally.wrong != 0 || tally.right == 0 || is_overflow;
+}

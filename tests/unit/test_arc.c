@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/* test_arc.c - poses between two poses, against rotations in double precision. */
+#include "geometry/arc.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "tests/test.h"
+
+void suite_arc(void);
+
+enum { ONE = 1 << 24 };
+
+static uint32_t random_state;
+
+static uint32_t random_u32(void)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    uint32_t x = random_state;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    return x ^ x >> 13;
+}
+
+/* low .. high */
+static double uniform(double low, double high)
+{
+    return low + (high - low) * random_u32() / 4294967295.0;
+}
+
+/* ------------------------------------------------------------------ rotations in double */
+
+struct spin {
+    double axis[3], angle;
+};
+
+static struct spin random_spin(double angle)
+{
+    struct spin s = { { uniform(-1, 1), uniform(-1, 1), uniform(-1, 1) }, angle };
+    double length = sqrt(s.axis[0] * s.axis[0] + s.axis[1] * s.axis[1] + s.axis[2] * s.axis[2]);
+    for (int i = 0; i < 3; i++)
+        s.axis[i] /= length;
+    return s;
+}
+
+static void spin_matrix(double m[9], const struct spin *s, double angle)
+{
+    double c = cos(angle), d = sin(angle);
+    const double *n = s->axis;
+    const double cross[9] = { 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0 };
+    for (int i = 0; i < 9; i++)
+        m[i] = (i % 4 == 0 ? c : 0) + d * cross[i] + (1 - c) * n[i / 3] * n[i % 3];
+}
+
+static void product(double out[9], const double a[9], const double b[9])
+{
+    for (int i = 0; i < 9; i++) {
+        out[i] = 0;
+        for (int k = 0; k < 3; k++)
+            out[i] += a[i / 3 * 3 + k] * b[3 * k + i % 3];
+    }
+}
+
+/* An object at rest in `rest`, whose axes have scales that change, turns about `spin`. */
+struct motion {
+    double rest[9];             /* a rotation, maybe mirrored */
+    double scale[3], growth[3]; /* along the object's axes: now, and per frame */
+    struct spin spin;           /* per frame */
+    double origin[3], velocity[3];
+};
+
+static void motion_at(double basis[9], double origin[3], const struct motion *m, double time)
+{
+    double turn[9], stretched[9];
+    spin_matrix(turn, &m->spin, m->spin.angle * time);
+    for (int i = 0; i < 9; i++)
+        stretched[i] = m->rest[i] * (m->scale[i % 3] + m->growth[i % 3] * time);
+    product(basis, turn, stretched);
+    for (int i = 0; i < 3; i++)
+        origin[i] = m->origin[i] + m->velocity[i] * time;
+}
+
+static int32_t to_fixed(double value, double one)
+{
+    double v = floor(value * one + 0.5);
+    return v > 2147483647.0 ? INT32_MAX : v < -2147483647.0 ? -INT32_MAX : (int32_t)v;
+}
+
+static smear_transform transform_at(const struct motion *m, double time)
+{
+    double basis[9], origin[3];
+    smear_transform t;
+    motion_at(basis, origin, m, time);
+    for (int i = 0; i < 9; i++)
+        t.basis[i] = to_fixed(basis[i], 16777216.0);
+    for (int i = 0; i < 3; i++)
+        t.origin[i] = to_fixed(origin[i], 65536.0);
+    return t;
+}
+
+static struct motion random_motion(double angle)
+{
+    struct motion m;
+    struct spin rest = random_spin(uniform(0, 6.28));
+    spin_matrix(m.rest, &rest, rest.angle);
+    m.spin = random_spin(angle);
+    for (int i = 0; i < 3; i++) {
+        m.scale[i] = 1;
+        m.growth[i] = 0;
+        m.origin[i] = uniform(-1000, 1000);
+        m.velocity[i] = uniform(-10, 10);
+    }
+    return m;
+}
+
+/* Largest error of an entry of the basis, in units of 2^-20, and of the origin in steps of 2^-16. */
+static double worst_basis, worst_origin;
+
+static void measure(const struct motion *m, double time, double scale)
+{
+    smear_transform before = transform_at(m, -1), now = transform_at(m, 0), out;
+    double basis[9], origin[3];
+    smear_arc_between(&out, &before, &now, to_fixed(time, 16777216.0));
+    motion_at(basis, origin, m, time);
+    for (int i = 0; i < 9; i++)
+        worst_basis = fmax(worst_basis, fabs(out.basis[i] / 16777216.0 - basis[i]) * 1048576.0 / scale);
+    for (int i = 0; i < 3; i++)
+        worst_origin = fmax(worst_origin, fabs(out.origin[i] - origin[i] * 65536.0));
+}
+
+/* ------------------------------------------------------------------ tests */
+
+static void test_poses_between_lie_on_the_arc(void)
+{
+    random_state = 1;
+    worst_basis = worst_origin = 0;
+    for (int n = 0; n < 20000; n++) {
+        struct motion m = random_motion(uniform(0.01, 3.1));
+        measure(&m, uniform(-1, 0), 1);
+    }
+    CHECK_CLOSE(worst_basis, 0.0, 0.25);
+    CHECK_CLOSE(worst_origin, 0.0, 1.6);
+}
+
+static void test_small_turns_are_as_exact(void)
+{
+    random_state = 2;
+    worst_basis = 0;
+    for (int n = 0; n < 20000; n++) {
+        struct motion m = random_motion(pow(2, uniform(-16, -5)));
+        measure(&m, uniform(-1.5, 1), 1);
+    }
+    CHECK_CLOSE(worst_basis, 0.0, 0.25);
+}
+
+static void test_turns_go_on_beyond_the_poses(void)
+{
+    random_state = 3;
+    worst_basis = worst_origin = 0;
+    for (int n = 0; n < 20000; n++) {
+        struct motion m = random_motion(uniform(0.001, 3.1));
+        double time = uniform(-10, 10);
+        measure(&m, time, 1 + fabs(time));
+    }
+    CHECK_CLOSE(worst_basis, 0.0, 0.25);
+    CHECK_CLOSE(worst_origin, 0.0, 12.0);
+}
+
+static void test_scales_and_mirrors_are_kept(void)
+{
+    random_state = 4;
+    worst_basis = 0;
+    for (int n = 0; n < 20000; n++) {
+        struct motion m = random_motion(uniform(0.01, 3.1));
+        /* Where an axis points is known to 2^-24 over its scale: 16 of that are 2^-20 at one. */
+        double largest = 0, smallest = 1;
+        for (int i = 0; i < 3; i++) {
+            m.scale[i] = pow(2, uniform(-8, 5)) * (n & 1 && i == 0 ? -1 : 1);
+            largest = fmax(largest, fabs(m.scale[i]));
+            smallest = fmin(smallest, fabs(m.scale[i]));
+        }
+        measure(&m, uniform(-1, 0.5), fmax(largest / smallest, 1));
+    }
+    CHECK_CLOSE(worst_basis, 0.0, 0.25);
+}
+
+static void test_scales_change_linearly_while_it_turns(void)
+{
+    random_state = 5;
+    worst_basis = 0;
+    for (int n = 0; n < 20000; n++) {
+        struct motion m = random_motion(uniform(0.01, 3.1));
+        double largest = 0;
+        for (int i = 0; i < 3; i++) {
+            m.scale[i] = uniform(0.2, 4);
+            m.growth[i] = m.scale[i] * uniform(-3, 0.9);
+            largest = fmax(largest, fmax(m.scale[i], m.scale[i] - m.growth[i]));
+        }
+        measure(&m, uniform(-1, 0), largest);
+    }
+    CHECK_CLOSE(worst_basis, 0.0, 0.25);
+}
+
+static bool same(const smear_transform *a, const smear_transform *b)
+{
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+static smear_transform random_transform(void)
+{
+    smear_transform t;
+    int bits = (int)(random_u32() % 32u);
+    for (int i = 0; i < 9; i++)
+        t.basis[i] = (int32_t)random_u32() >> bits;
+    for (int i = 0; i < 3; i++)
+        t.origin[i] = (int32_t)random_u32();
+    if (random_u32() % 4 == 0)
+        for (int i = 0; i < 9; i++)
+            t.basis[i] = random_u32() & 1 ? INT32_MAX : random_u32() & 1 ? INT32_MIN : 0;
+    return t;
+}
+
+static void test_both_poses_are_met_exactly(void)
+{
+    random_state = 6;
+    for (int n = 0; n < 2000; n++) {
+        struct motion m = random_motion(uniform(0, 3.1));
+        smear_transform before = n & 1 ? random_transform() : transform_at(&m, -1);
+        smear_transform now = n & 1 ? random_transform() : transform_at(&m, 0), out;
+        smear_arc_between(&out, &before, &now, 0);
+        CHECK(same(&out, &now));
+        smear_arc_between(&out, &before, &now, -ONE);
+        CHECK(same(&out, &before));
+    }
+}
+
+static void test_nothing_jumps_at_the_poses(void)
+{
+    random_state = 7;
+    for (int n = 0; n < 2000; n++) {
+        struct motion m = random_motion(uniform(0, 3.1));
+        smear_transform before = transform_at(&m, -1), now = transform_at(&m, 0), out;
+        for (int i = 0; i < 9; i++)         /* poses need not be perfect */
+            before.basis[i] += (int32_t)(random_u32() % 2048u) - 1024;
+        smear_arc_between(&out, &before, &now, 1);
+        for (int i = 0; i < 9; i++)
+            CHECK_NEAR(out.basis[i], now.basis[i], 8);
+        smear_arc_between(&out, &before, &now, -ONE + 1);
+        for (int i = 0; i < 9; i++)
+            CHECK_NEAR(out.basis[i], before.basis[i], 8);
+    }
+}
+
+static void test_cameras_stay_rotations(void)
+{
+    random_state = 8;
+    for (int n = 0; n < 2000; n++) {
+        struct motion m = random_motion(uniform(0.05, 3.1));
+        smear_transform before = transform_at(&m, -1), now = transform_at(&m, 0), out;
+        smear_arc_between(&out, &before, &now, to_fixed(uniform(-2, 1), 16777216.0));
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) {
+                double dot = 0;
+                for (int i = 0; i < 3; i++)
+                    dot += out.basis[3 * i + j] / 16777216.0 * out.basis[3 * i + k] / 16777216.0;
+                CHECK_CLOSE(dot, j == k ? 1.0 : 0.0, 1.0 / (1 << 20));
+            }
+    }
+}
+
+static void linear(smear_transform *out, const smear_transform *before, const smear_transform *now, double time)
+{
+    for (int i = 0; i < 9; i++)
+        out->basis[i] = to_fixed(now->basis[i] + ((double)now->basis[i] - before->basis[i]) * time, 1);
+    for (int i = 0; i < 3; i++)
+        out->origin[i] = to_fixed(now->origin[i] + ((double)now->origin[i] - before->origin[i]) * time, 1);
+}
+
+static bool is_linear(const smear_transform *before, const smear_transform *now, double time)
+{
+    smear_transform out, want;
+    smear_arc_between(&out, before, now, to_fixed(time, 16777216.0));
+    linear(&want, before, now, time);
+    bool ok = true;
+    for (int i = 0; i < 9; i++)
+        ok = ok && CHECK_NEAR(out.basis[i], want.basis[i], 1);
+    for (int i = 0; i < 3; i++)
+        ok = ok && CHECK_NEAR(out.origin[i], want.origin[i], 1);
+    return ok;
+}
+
+static void test_shears_zeros_and_mirrorings_are_linear(void)
+{
+    random_state = 9;
+    for (int n = 0; n < 400; n++) {
+        struct motion m = random_motion(uniform(0.1, 3.1));
+        smear_transform before = transform_at(&m, -1), now = transform_at(&m, 0);
+        double time = uniform(-4, 4);
+        smear_transform *t = n & 1 ? &before : &now;
+        int j = (int)(random_u32() % 3u);
+        for (int i = 0; i < 3; i++) {
+            int32_t *e = &t->basis[3 * i + j];
+            *e = n % 3 == 0 ? *e + t->basis[3 * i + (j + 1) % 3] / 64       /* sheared */
+               : n % 3 == 1 ? 0 : -*e;                                      /* flat, mirrored */
+        }
+        if (!is_linear(&before, &now, time))
+            return;
+    }
+    smear_transform still = SMEAR_IDENTITY;
+    is_linear(&still, &still, 0.5);
+}
+
+static void test_half_turns_go_one_way_or_the_other(void)
+{
+    random_state = 10;
+    for (int n = 0; n < 300; n++) {
+        struct motion m = random_motion(3.14159265358979);
+        if (n < 3)
+            for (int i = 0; i < 3; i++)
+                m.spin.axis[i] = i == n;
+        smear_transform before = transform_at(&m, -1), now = transform_at(&m, 0), out;
+        double error[2] = { 0, 0 }, basis[9], origin[3];
+        smear_arc_between(&out, &before, &now, -ONE / 4);
+        for (int way = 0; way < 2; way++) {
+            motion_at(basis, origin, &m, -0.25);
+            for (int i = 0; i < 9; i++)
+                error[way] = fmax(error[way], fabs(out.basis[i] / 16777216.0 - basis[i]));
+            m.spin.angle = -m.spin.angle;
+        }
+        CHECK_CLOSE(fmin(error[0], error[1]), 0.0, 1.0 / (1 << 20));
+    }
+}
+
+/* Whatever is given: no overflow (sanitizers), and nothing but poses. */
+static void test_wild_poses_do_no_harm(void)
+{
+    random_state = 12;
+    for (int n = 0; n < 20000; n++) {
+        smear_transform before = random_transform(), now = random_transform(), out;
+        if (random_u32() & 1) {         /* rotations as large as they get */
+            struct motion m = random_motion(uniform(0, 3.2));
+            for (int i = 0; i < 3; i++)
+                m.scale[i] = m.growth[i] = uniform(-127, 127);
+            before = transform_at(&m, -1);
+            now = transform_at(&m, 0);
+        }
+        smear_arc_between(&out, &before, &now, (int32_t)random_u32() >> 1);
+        for (int i = 0; i < 9; i++)
+            CHECK(out.basis[i] != INT32_MIN);
+    }
+}
+
+static void test_the_result_may_replace_a_pose(void)
+{
+    random_state = 13;
+    for (int n = 0; n < 200; n++) {
+        struct motion m = random_motion(uniform(0.1, 3.1));
+        smear_transform before = transform_at(&m, -1), now = transform_at(&m, 0), out;
+        smear_arc_between(&out, &before, &now, -ONE / 3);
+        smear_transform a = before, b = now;
+        smear_arc_between(&a, &a, &now, -ONE / 3);
+        smear_arc_between(&b, &before, &b, -ONE / 3);
+        CHECK(same(&a, &out) && same(&b, &out));
+    }
+}
+
+void suite_arc(void)
+{
+    RUN(test_poses_between_lie_on_the_arc);
+    RUN(test_small_turns_are_as_exact);
+    RUN(test_turns_go_on_beyond_the_poses);
+    RUN(test_scales_and_mirrors_are_kept);
+    RUN(test_scales_change_linearly_while_it_turns);
+    RUN(test_both_poses_are_met_exactly);
+    RUN(test_nothing_jumps_at_the_poses);
+    RUN(test_cameras_stay_rotations);
+    RUN(test_shears_zeros_and_mirrorings_are_linear);
+    RUN(test_half_turns_go_one_way_or_the_other);
+    RUN(test_wild_poses_do_no_harm);
+    RUN(test_the_result_may_replace_a_pose);
+}

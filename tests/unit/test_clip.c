@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: MIT */
+/* test_clip.c - cuts at the near and far plane and at the guard band: the same bits from both sides
+ * of an edge, nothing left outside, everything carried along. Needs neither libc nor floating
+ * point. */
+#include "geometry/clip.h"
+
+#include "tests/test.h"
+
+void suite_clip(void);
+
+static uint32_t random_state;
+
+static uint32_t random_u32(void)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    uint32_t x = random_state;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    return x ^ x >> 13;
+}
+
+/* low .. high, both included; high - low < 2^32 */
+static int32_t between(int32_t low, int32_t high)
+{
+    uint32_t span = (uint32_t)high - (uint32_t)low + 1u;
+    return (int32_t)((uint32_t)low + random_u32() % span);
+}
+
+enum { NEAR_AT = 1 << 12, FAR_AT = 1 << 22 };
+
+static struct smear_projection lens(bool orthographic)
+{
+    return (struct smear_projection){
+        .near_distance = NEAR_AT, .far_distance = FAR_AT, .orthographic = orthographic
+    };
+}
+
+/* A vertex at (x, y) in homogeneous units and distance w, everything else random. */
+static struct smear_clip_vertex vertex_at(int32_t x, int32_t y, int32_t w, bool orthographic)
+{
+    struct smear_clip_vertex v;
+    v.now = (struct smear_homogeneous){ x, y, orthographic ? 1 << 10 : w, w };
+    for (int pose = 0; pose < 2; pose++)
+        v.pose[pose] = (struct smear_homogeneous){
+            between(-(1 << 29), 1 << 29), between(-(1 << 29), 1 << 29), between(-(1 << 29), 1 << 29),
+            between(-(1 << 29), 1 << 29)
+        };
+    for (int i = 0; i < 2; i++)
+        v.uv[i] = between(-32768, 32767);
+    for (int i = 0; i < 4; i++)
+        v.color[i] = between(0, 65535);
+    return v;
+}
+
+/* Anywhere: behind the eye, far beyond every plane, in view. */
+static struct smear_clip_vertex random_vertex(bool orthographic)
+{
+    int32_t reach = 1 << between(8, 29), depth = 1 << between(8, 29);
+    int32_t x = between(-reach, reach), y = between(-reach, reach);
+    return vertex_at(x, y, between(-depth, depth), orthographic);
+}
+
+/* At distance w, up to `spread` times as far from the axis. */
+static struct smear_clip_vertex vertex_within(int32_t w, int32_t spread, bool orthographic)
+{
+    int32_t x = between(-w, w) * spread, y = between(-w, w) * spread;
+    return vertex_at(x, y, w, orthographic);
+}
+
+/* Codes as the assembler sets them, of the one vertex, without the sides. */
+static int codes_of(const struct smear_clip_vertex *v, const struct smear_projection *p)
+{
+    if (v->now.distance < p->near_distance)
+        return OUT_NEAR;
+    int code = v->now.distance > p->far_distance ? OUT_FAR : 0;
+    int64_t guard = (int64_t)v->now.w * SMEAR_GUARD_PX;
+    if (v->now.x > guard || v->now.x < -guard || v->now.y > guard || v->now.y < -guard)
+        code |= OUT_GUARD;
+    return code;
+}
+
+/* Clips the triangle of v[0 .. 2]; returns how many corners it has then. */
+static int clip(struct smear_clip_vertex v[SMEAR_CLIP_MAX], const struct smear_projection *p, int codes)
+{
+    struct smear_clip_polygon polygon;
+    for (int i = 0; i < 3; i++)
+        polygon.vertex[i] = v[i];
+    smear_clip_start(&polygon, CLIP_POSES, true, true);
+    smear_clip_polygon(&polygon, p, codes);
+    for (int i = 0; i < polygon.count && i < SMEAR_CLIP_MAX; i++)
+        v[i] = *clip_corner(&polygon, i);
+    return polygon.count;
+}
+
+static bool same_homogeneous(const struct smear_homogeneous *a, const struct smear_homogeneous *b)
+{
+    return a->x == b->x && a->y == b->y && a->w == b->w && a->distance == b->distance;
+}
+
+/* All but the alpha channel, which the tests use as a mark. */
+static bool same_vertex(const struct smear_clip_vertex *a, const struct smear_clip_vertex *b)
+{
+    bool same = same_homogeneous(&a->now, &b->now) && same_homogeneous(&a->pose[0], &b->pose[0])
+             && same_homogeneous(&a->pose[1], &b->pose[1]);
+    for (int i = 0; i < 2; i++)
+        same = same && a->uv[i] == b->uv[i];
+    for (int i = 0; i < 3; i++)
+        same = same && a->color[i] == b->color[i];
+    return same;
+}
+
+/* ------------------------------------------------------------------ */
+
+static void test_what_lies_inside_is_left_alone(void)
+{
+    random_state = 1;
+    struct smear_projection p = lens(false);
+    for (int n = 0; n < 200; n++) {
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX], before[3];
+        for (int i = 0; i < 3; i++) {
+            int32_t w = between(NEAR_AT, FAR_AT);
+            v[i] = before[i] = vertex_within(w, 200, false);
+        }
+        CHECK_EQ(clip(v, &p, OUT_NEAR | OUT_FAR | OUT_GUARD), 3);
+        for (int i = 0; i < 3; i++)
+            if (!CHECK(same_vertex(&v[i], &before[i])))
+                return;
+    }
+}
+
+static void test_only_the_planes_named_by_the_codes_cut(void)
+{
+    struct smear_projection p = lens(false);
+    random_state = 2;
+    struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+    v[0] = vertex_at(0, 0, FAR_AT * 2, false);
+    v[1] = vertex_at(100, 0, NEAR_AT / 2, false);
+    v[2] = vertex_at(0, 100, NEAR_AT * 2, false);
+    CHECK_EQ(clip(v, &p, 0), 3);
+    CHECK_EQ(clip(v, &p, OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM), 3);
+    CHECK_EQ(v[0].now.distance, FAR_AT * 2);
+    CHECK_EQ(clip(v, &p, OUT_FAR), 4);
+}
+
+static void test_what_lies_outside_is_gone(void)
+{
+    struct smear_projection p = lens(false);
+    random_state = 3;
+    struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+    for (int i = 0; i < 3; i++)
+        v[i] = vertex_at(i * 100, i * i * 100, NEAR_AT - 1 - i, false);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 0);
+    for (int i = 0; i < 3; i++)
+        v[i] = vertex_at(i * 100, i * i * 100, FAR_AT + 1 + i, false);
+    CHECK_EQ(clip(v, &p, OUT_FAR), 0);
+    for (int i = 0; i < 3; i++)
+        v[i] = vertex_at(NEAR_AT * (SMEAR_GUARD_PX + 1 + i), i * 100, NEAR_AT, false);
+    CHECK_EQ(clip(v, &p, OUT_GUARD), 0);
+}
+
+static void test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three(void)
+{
+    struct smear_projection p = lens(false);
+    random_state = 4;
+    struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+    v[0] = vertex_at(0, 0, NEAR_AT / 2, false);
+    v[1] = vertex_at(1000, 0, NEAR_AT * 2, false);
+    v[2] = vertex_at(0, 1000, NEAR_AT * 2, false);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 4);
+    v[0] = vertex_at(0, 0, NEAR_AT / 2, false);
+    v[1] = vertex_at(1000, 0, NEAR_AT / 2, false);
+    v[2] = vertex_at(0, 1000, NEAR_AT * 2, false);
+    CHECK_EQ(clip(v, &p, OUT_NEAR), 3);
+    CHECK_EQ(v[0].now.distance == NEAR_AT ? v[1].now.distance : v[0].now.distance, NEAR_AT * 2);
+}
+
+static void test_a_plane_cuts_at_its_place(void)
+{
+    /* From 1/2 to 3/2 near distances: the middle of the edge, in every attribute. */
+    struct smear_projection p = lens(false);
+    random_state = 5;
+    for (int n = 0; n < 100; n++) {
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX], a, b;
+        v[0] = a = vertex_within(NEAR_AT / 2, 50, false);
+        v[1] = b = vertex_within(3 * NEAR_AT / 2, 16, false);
+        v[2] = vertex_at(0, 0, 2 * NEAR_AT, false);
+        if (!CHECK_EQ(clip(v, &p, OUT_NEAR), 4))
+            return;
+        /* Walked from vertex 0, which is out: the first new one lies between 0 and 1. */
+        CHECK_EQ(v[0].now.w, NEAR_AT);
+        CHECK_NEAR(v[0].now.x, ((int64_t)a.now.x + b.now.x) / 2, 1);
+        CHECK_NEAR(v[0].now.y, ((int64_t)a.now.y + b.now.y) / 2, 1);
+        for (int pose = 0; pose < 2; pose++) {      /* the ratio is good to 2^-25 */
+            CHECK_NEAR(v[0].pose[pose].x, ((int64_t)a.pose[pose].x + b.pose[pose].x) / 2, 40);
+            CHECK_NEAR(v[0].pose[pose].w, ((int64_t)a.pose[pose].w + b.pose[pose].w) / 2, 40);
+        }
+        CHECK_NEAR(v[0].uv[0], (a.uv[0] + b.uv[0]) / 2, 1);
+        CHECK_NEAR(v[0].color[3], (a.color[3] + b.color[3]) / 2, 1);
+    }
+}
+
+static void test_other_poses_are_cut_at_the_same_place_of_the_surface(void)
+{
+    /* Poses that are the present one moved by a constant stay so, bit for bit. */
+    random_state = 6;
+    for (int n = 0; n < 300; n++) {
+        struct smear_projection p = lens(n & 1);
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+        int codes = 0;
+        for (int i = 0; i < 3; i++) {
+            v[i] = random_vertex(n & 1);
+            for (int pose = 0; pose < 2; pose++) {
+                v[i].pose[pose] = v[i].now;
+                v[i].pose[pose].x += 1000 + pose;
+                v[i].pose[pose].y -= 12345 * pose;
+            }
+            codes |= codes_of(&v[i], &p);
+        }
+        int count = clip(v, &p, codes);
+        for (int i = 0; i < count; i++)
+            for (int pose = 0; pose < 2; pose++)
+                if (!CHECK_EQ(v[i].pose[pose].x - v[i].now.x, 1000 + pose)
+                    || !CHECK_EQ(v[i].now.y - v[i].pose[pose].y, 12345 * pose))
+                    return;
+    }
+}
+
+static bool comes_after(const struct smear_homogeneous *a, const struct smear_homogeneous *b)
+{
+    return a->x != b->x ? a->x > b->x : a->y != b->y ? a->y > b->y : a->w > b->w;
+}
+
+/* The vertices of the clipped polygon that lie on the edge a b: those without any of c, which alone
+ * has a distance in its closing pose. Sorted, so that two lists can be compared. */
+static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_clip_vertex a,
+                   struct smear_clip_vertex b, struct smear_clip_vertex c, int turn,
+                   const struct smear_projection *p)
+{
+    struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+    a.pose[1].distance = b.pose[1].distance = 0;
+    c.pose[1].distance = 1 << 30;
+    const struct smear_clip_vertex *corner[3] = { &a, &b, &c };
+    for (int i = 0; i < 3; i++)
+        v[i] = *corner[(turn < 3 ? i + turn : 2 * i + turn) % 3];
+    int codes = codes_of(&a, p) | codes_of(&b, p) | codes_of(&c, p);
+    int count = clip(v, p, codes), found = 0;
+    CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX));
+    for (int i = 0; i < count; i++) {
+        if (v[i].pose[1].distance != 0)
+            continue;
+        int at = found++;
+        while (at > 0 && comes_after(&out[at - 1].now, &v[i].now)) {
+            out[at] = out[at - 1];
+            at--;
+        }
+        out[at] = v[i];
+    }
+    return found;
+}
+
+static void test_both_triangles_at_an_edge_get_the_same_new_vertices(void)
+{
+    random_state = 7;
+    int compared = 0, differ = 0;
+    for (int n = 0; n < 400; n++) {
+        struct smear_projection p = lens(n % 5 == 4);
+        struct smear_clip_vertex a = random_vertex(p.orthographic), b = random_vertex(p.orthographic);
+        struct smear_clip_vertex c = random_vertex(p.orthographic), d = random_vertex(p.orthographic);
+        if (n & 1) {        /* mostly in view: one end of the edge */
+            int32_t w = between(NEAR_AT, FAR_AT);
+            a.now = vertex_within(w, 300, p.orthographic).now;
+            c.now = vertex_within(w, 50, p.orthographic).now;
+            d.now = vertex_within(w, 50, p.orthographic).now;
+        }
+        /* From the one side and the other, walked from each corner in both directions. */
+        struct smear_clip_vertex first[SMEAR_CLIP_MAX], other[SMEAR_CLIP_MAX];
+        int count = on_edge(first, a, b, c, 0, &p);
+        for (int turn = 1; turn < 12; turn++) {
+            bool swap = turn & 1;
+            int found = on_edge(other, swap ? b : a, swap ? a : b, turn < 6 ? c : d, turn % 6, &p);
+            if (turn >= 6 && (found == 2) != (count == 2))
+                differ++;       /* one vertex alone is a new one so near the edge that its mark is 0 */
+            if (turn < 6 && !CHECK_EQ(found, count))
+                return;
+            for (int i = 0; i < count && found == count; i++)
+                if (!CHECK(same_vertex(&first[i], &other[i])))
+                    return;
+            compared += found == count && count == 2 && turn >= 6;
+        }
+    }
+    CHECK_EQ(differ, 0);
+    CHECK(compared > 60);
+}
+
+static void test_nothing_is_left_outside(void)
+{
+    random_state = 8;
+    int most = 0;
+    for (int n = 0; n < 3000; n++) {
+        struct smear_projection p = lens(n % 4 == 3);
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+        int codes = 0;
+        for (int i = 0; i < 3; i++) {
+            v[i] = random_vertex(p.orthographic);
+            codes |= codes_of(&v[i], &p);
+        }
+        int count = clip(v, &p, codes);
+        if (!CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX)))
+            return;
+        most = count > most ? count : most;
+        for (int i = 0; i < count; i++) {
+            const struct smear_homogeneous *h = &v[i].now;
+            /* Cutting at a side rounds what was cut at the planes before by a step. */
+            int64_t slack = 2 + (int64_t)SMEAR_GUARD_PX * 2;
+            int64_t guard = (int64_t)h->w * SMEAR_GUARD_PX + slack;
+            if (!CHECK(h->w > 0) || !CHECK(h->distance >= NEAR_AT - 2) || !CHECK(h->distance <= FAR_AT + 64)
+                || !CHECK(h->x <= guard && h->x >= -guard && h->y <= guard && h->y >= -guard))
+                return;
+        }
+    }
+    CHECK(most >= 6);
+}
+
+static void test_attributes_stay_between_their_corners(void)
+{
+    random_state = 9;
+    for (int n = 0; n < 1000; n++) {
+        struct smear_projection p = lens(false);
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+        int codes = 0;
+        int32_t low = INT32_MAX, high = INT32_MIN;
+        for (int i = 0; i < 3; i++) {
+            v[i] = random_vertex(false);
+            codes |= codes_of(&v[i], &p);
+            low = low < v[i].uv[0] ? low : v[i].uv[0];
+            high = high > v[i].uv[0] ? high : v[i].uv[0];
+        }
+        int count = clip(v, &p, codes);
+        for (int i = 0; i < count; i++) {
+            if (!CHECK(v[i].uv[0] >= low && v[i].uv[0] <= high))
+                return;
+            for (int c = 0; c < 4; c++)
+                if (!CHECK(v[i].color[c] >= 0 && v[i].color[c] <= 65535))
+                    return;
+        }
+    }
+}
+
+static void test_a_cut_keeps_the_order_of_the_corners(void)
+{
+    /* Twice the area of the clipped polygon has the sign of the triangle's, in x and y at equal w. */
+    random_state = 10;
+    for (int n = 0; n < 500; n++) {
+        struct smear_projection p = lens(true);
+        struct smear_clip_vertex v[SMEAR_CLIP_MAX];
+        int codes = 0;
+        for (int i = 0; i < 3; i++) {
+            int32_t x = between(-(1 << 23), 1 << 23), y = between(-(1 << 23), 1 << 23);
+            v[i] = vertex_at(x, y, between(-FAR_AT, 2 * FAR_AT), true);
+            codes |= codes_of(&v[i], &p);
+        }
+        int64_t before = (int64_t)(v[1].now.x - v[0].now.x) * (v[2].now.y - v[0].now.y)
+                       - (int64_t)(v[2].now.x - v[0].now.x) * (v[1].now.y - v[0].now.y);
+        int count = clip(v, &p, codes);
+        int64_t after = 0;
+        for (int i = 2; i < count; i++)
+            after += (int64_t)(v[i - 1].now.x - v[0].now.x) * (v[i].now.y - v[0].now.y)
+                   - (int64_t)(v[i].now.x - v[0].now.x) * (v[i - 1].now.y - v[0].now.y);
+        int64_t noise = 1 << 26;            /* rounding of thin slices */
+        if (!CHECK(count == 0 || (before > 0 ? after > -noise : after < noise)))
+            return;
+    }
+}
+
+void suite_clip(void)
+{
+    RUN(test_what_lies_inside_is_left_alone);
+    RUN(test_only_the_planes_named_by_the_codes_cut);
+    RUN(test_what_lies_outside_is_gone);
+    RUN(test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three);
+    RUN(test_a_plane_cuts_at_its_place);
+    RUN(test_other_poses_are_cut_at_the_same_place_of_the_surface);
+    RUN(test_both_triangles_at_an_edge_get_the_same_new_vertices);
+    RUN(test_nothing_is_left_outside);
+    RUN(test_attributes_stay_between_their_corners);
+    RUN(test_a_cut_keeps_the_order_of_the_corners);
+}

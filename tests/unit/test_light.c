@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: MIT */
+/* test_light.c - light on vertices and faces against double precision: rotations, scales, shears,
+ * mirrors; colours, alpha and packing. Host only. */
+#include "geometry/light.h"
+
+#include "base/tables.h"
+#include "tests/test.h"
+
+#include <math.h>
+
+void suite_light(void);
+
+static const smear_material plain = { 0 };
+
+static uint32_t random_state;
+
+static uint32_t random_u32(void)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    uint32_t x = random_state;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    return x ^ x >> 13;
+}
+
+static double uniform(double low, double high)
+{
+    return low + (high - low) * random_u32() / 4294967295.0;
+}
+
+static int between(int low, int high)
+{
+    return low + (int)(random_u32() % (uint32_t)(high - low + 1));
+}
+
+static void random_unit(double v[3])
+{
+    double length;
+    do {
+        length = 0;
+        for (int i = 0; i < 3; i++) {
+            v[i] = uniform(-1, 1);
+            length += v[i] * v[i];
+        }
+    } while (length < 0.01 || length > 1);
+    for (int i = 0; i < 3; i++)
+        v[i] /= sqrt(length);
+}
+
+/* A random rotation times `scale`. */
+static void random_rotation(double m[9], double scale)
+{
+    double x[3], y[3], dot = 0, length = 0;
+    random_unit(x);
+    do {
+        random_unit(y);
+        dot = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    } while (fabs(dot) > 0.9);
+    for (int i = 0; i < 3; i++) {
+        y[i] -= dot * x[i];
+        length += y[i] * y[i];
+    }
+    for (int i = 0; i < 3; i++)
+        y[i] /= sqrt(length);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        m[3 * i] = x[i] * scale;
+        m[3 * i + 1] = y[i] * scale;
+        m[3 * i + 2] = (x[j] * y[k] - x[k] * y[j]) * scale;
+    }
+}
+
+static smear_transform transform_of(const double m[9])
+{
+    smear_transform t = SMEAR_IDENTITY;
+    for (int i = 0; i < 9; i++)
+        t.basis[i] = (int32_t)lrint(m[i] * (1 << 24));
+    return t;
+}
+
+static const double light[3] = { 0.36, 0.80, 0.48 };
+
+/* The normal in the world: inverse transpose, not normalised. */
+static void world_normal(const double m[9], const double n[3], double out[3])
+{
+    double cofactor[9], det = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            cofactor[3 * i + j] = m[3 * i1 + j1] * m[3 * i2 + j2] - m[3 * i1 + j2] * m[3 * i2 + j1];
+        }
+    for (int j = 0; j < 3; j++)
+        det += m[j] * cofactor[j];
+    for (int i = 0; i < 3; i++) {
+        out[i] = 0;
+        for (int j = 0; j < 3; j++)
+            out[i] += cofactor[3 * i + j] * n[j] / det;
+    }
+}
+
+static double cosine_exactly(const double m[9], const double n[3])
+{
+    double w[3], dot = 0, length = 0;
+    world_normal(m, n, w);
+    for (int i = 0; i < 3; i++) {
+        dot += w[i] * light[i];
+        length += w[i] * w[i];
+    }
+    return fmax(0, dot / sqrt(length));
+}
+
+static struct smear_shading shading_of(const double m[9])
+{
+    struct smear_shading s;
+    const smear_transform t = transform_of(m);
+    smear_shading_make(&s, &t, &plain, true, true);
+    return s;
+}
+
+/* ------------------------------------------------------------------ normals */
+
+/* Worst difference over random normals. Their length is 127 +- 1/2 per axis, so light may differ by that much. */
+static double worst_normal(const double m[9])
+{
+    struct smear_shading s = shading_of(m);
+    double worst = 0;
+    for (int n = 0; n < 200; n++) {
+        double unit[3];
+        int8_t normal[3];
+        random_unit(unit);
+        for (int i = 0; i < 3; i++) {
+            normal[i] = (int8_t)lrint(unit[i] * 127);
+            unit[i] = normal[i] / 127.0;
+        }
+        double got = smear_light_normal(&s, normal) / 65536.0;
+        worst = fmax(worst, fabs(got - cosine_exactly(m, unit)));
+    }
+    return worst;
+}
+
+static void test_normals_under_rotation_and_scale_are_lit_within_a_hundredth(void)
+{
+    random_state = 1;
+    static const double scale[] = { 1, 0.001, 0.1, 3, 60, 100 };
+    for (int n = 0; n < 60; n++) {
+        double m[9];
+        random_rotation(m, scale[n % 6]);
+        CHECK(shading_of(m).even || scale[n % 6] < 0.01);
+        if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
+            return;
+    }
+}
+
+static void test_normals_under_stretch_and_shear_are_lit_within_a_hundredth(void)
+{
+    random_state = 2;
+    for (int n = 0; n < 60; n++) {
+        double m[9];
+        random_rotation(m, 1);
+        for (int i = 0; i < 3; i++) {
+            m[3 * i] *= uniform(0.2, 4);
+            m[3 * i + 1] *= n & 1 ? 1 : uniform(0.2, 4);
+        }
+        if (n % 3 == 0)
+            for (int i = 0; i < 3; i++)
+                m[3 * i] += m[3 * i + 1] * uniform(-1, 1);
+        if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
+            return;
+    }
+}
+
+static void test_mirrors_do_not_turn_the_light_around(void)
+{
+    random_state = 3;
+    for (int n = 0; n < 30; n++) {
+        double m[9];
+        random_rotation(m, uniform(0.5, 2));
+        for (int i = 0; i < 3; i++)
+            m[3 * i + n % 3] *= n & 1 ? -1 : -2;
+        if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
+            return;
+    }
+}
+
+static void test_the_full_light_is_one_and_the_far_side_zero(void)
+{
+    const double identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    struct smear_shading s = shading_of(identity);
+    const int8_t towards[3] = { 46, 102, 61 }, away[3] = { -46, -102, -61 }, up[3] = { 0, 127, 0 };
+    CHECK_NEAR(smear_light_normal(&s, towards), 65536, 400);
+    CHECK(smear_light_normal(&s, towards) <= 65536);
+    CHECK_EQ(smear_light_normal(&s, away), 0);
+    CHECK_NEAR(smear_light_normal(&s, up), 52429, 60);
+    const int8_t longest[3] = { 127, 127, 127 }, least[3] = { -128, -128, -128 }, none[3] = { 0, 0, 0 };
+    CHECK(smear_light_normal(&s, longest) <= 65536);
+    CHECK_EQ(smear_light_normal(&s, least), 0);
+    CHECK_EQ(smear_light_normal(&s, none), 0);
+}
+
+/* ------------------------------------------------------------------ faces */
+
+static void test_faces_are_lit_by_their_plane_within_a_hundredth(void)
+{
+    random_state = 4;
+    for (int n = 0; n < 400; n++) {
+        double m[9], u[3], v[3], normal[3];
+        random_rotation(m, 1);
+        for (int i = 0; i < 3 && n % 2; i++)
+            m[3 * i] *= n % 4 == 1 ? -1.5 : 0.4;
+        struct smear_shading s = shading_of(m);
+        int16_t p[3][3];
+        int reach = 8 << n % 13;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++)
+                p[k][i] = (int16_t)between(-(reach > 32767 ? 32767 : reach), reach > 32767 ? 32767 : reach);
+        for (int i = 0; i < 3; i++) {
+            u[i] = p[1][i] - p[0][i];
+            v[i] = p[2][i] - p[0][i];
+        }
+        double size = 0;
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+            normal[i] = u[j] * v[k] - u[k] * v[j];
+            size += normal[i] * normal[i];
+        }
+        if (size == 0)
+            continue;
+        double got = smear_light_face(&s, p[0], p[1], p[2]) / 65536.0;
+        if (!CHECK_CLOSE(got, cosine_exactly(m, normal), 0.01)) {
+            CHECK_EQ(n, -1);
+            return;
+        }
+        /* Turned around, the other side is lit. */
+        double back = smear_light_face(&s, p[0], p[2], p[1]) / 65536.0;
+        if (!CHECK(got == 0 || back == 0))
+            return;
+    }
+}
+
+static void test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm(void)
+{
+    static const int16_t p[4][3] = { { -32768, -32768, -32768 }, { 32767, 32767, 32767 }, { 0, 0, 0 }, { -32768, 32767, 0 } };
+    static const int32_t value[] = { 0, 1, -1, INT32_MAX, INT32_MIN, 1 << 24 };
+    random_state = 5;
+    for (int n = 0; n < 3000; n++) {
+        smear_transform t = SMEAR_IDENTITY;
+        for (int i = 0; i < 9; i++)
+            t.basis[i] = n < 6 ? value[n] : value[between(0, 5)];
+        struct smear_shading s;
+        smear_shading_make(&s, &t, &plain, true, n & 1);
+        CHECK(smear_light_face(&s, p[n % 4], p[n / 4 % 4], p[n / 16 % 4]) <= 65536);
+        const int8_t normal[3] = { (int8_t)between(-128, 127), (int8_t)between(-128, 127), (int8_t)between(-128, 127) };
+        if (!CHECK(smear_light_normal(&s, normal) <= 65536))
+            return;
+    }
+}
+
+/* ------------------------------------------------------------------ colours */
+
+static double decode(int code)
+{
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double encode(double l)
+{
+    return l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055;
+}
+
+static void test_colours_are_products_in_linear_light(void)
+{
+    random_state = 6;
+    for (int n = 0; n < 3000; n++) {
+        smear_material material = { .unlit = (uint8_t)(n % 3 == 0) };
+        uint8_t color[4], face[4];
+        for (int i = 0; i < 4; i++) {
+            material.color[i] = (uint8_t)between(0, 255);
+            color[i] = (uint8_t)between(0, 255);
+            face[i] = (uint8_t)between(0, 255);
+        }
+        if (n % 5 == 0)
+            material.color[3] = 0;              /* white, opaque */
+        const smear_transform t = SMEAR_IDENTITY;
+        bool linear = n & 1, has_color = n & 2, has_face = n & 4;
+        struct smear_shading s;
+        struct smear_color out;
+        smear_shading_make(&s, &t, &material, true, linear);
+        uint32_t cosine = (uint32_t)between(0, 65536);
+        smear_shade(&out, &s, has_color ? color : NULL, has_face ? face : NULL, cosine);
+        double factor = material.unlit ? 1 : 0.30 + 0.70 * cosine / 65536;
+        for (int i = 0; i < 4; i++) {
+            double want = i < 3 ? factor : 1;
+            if (material.color[3] != 0)
+                want *= i < 3 ? decode(material.color[i]) : material.color[i] / 255.0;
+            if (has_color)
+                want *= i < 3 ? decode(color[i]) : color[i] / 255.0;
+            if (has_face)
+                want *= i < 3 ? decode(face[i]) : face[i] / 255.0;
+            if (i == 3 || linear)
+                CHECK_CLOSE(out.channel[i] / 65535.0, want, 4 / 65535.0);
+            else
+                CHECK_CLOSE(out.channel[i] / 256.0, encode(want) * 255, 1.0);
+            if (test_state.failures_here > 0)
+                return;
+        }
+        uint32_t packed = smear_color_pack(&out, linear);
+        for (int i = 0; i < 3; i++) {
+            int got = (int)(packed >> (16 - 8 * i) & 255u);
+            CHECK_CLOSE(got, linear ? encode(out.channel[i] / 65535.0) * 255 : out.channel[i] / 256.0, 1.0);
+        }
+        CHECK_EQ(packed >> 24, out.channel[3] >> 8);
+    }
+}
+
+static void test_white_stays_white_and_codes_pass_unchanged(void)
+{
+    const smear_transform t = SMEAR_IDENTITY;
+    for (int linear = 0; linear < 2; linear++) {
+        const smear_material unlit = { .unlit = 1 };
+        struct smear_shading s;
+        struct smear_color out;
+        smear_shading_make(&s, &t, &unlit, true, linear);
+        smear_shade(&out, &s, NULL, NULL, 0);
+        CHECK_EQ(smear_color_pack(&out, linear), 0xffffffffu);
+        for (int code = 0; code < 256; code++) {
+            const uint8_t color[4] = { (uint8_t)code, (uint8_t)(255 - code), (uint8_t)(code / 2), (uint8_t)code };
+            smear_shade(&out, &s, color, NULL, 65536);
+            uint32_t want = (uint32_t)code << 24 | (uint32_t)code << 16 | (uint32_t)(255 - code) << 8 | (uint32_t)(code / 2);
+            CHECK_EQ(smear_color_pack(&out, linear), want);
+            smear_shade(&out, &s, NULL, color, 65536);
+            CHECK_EQ(smear_color_pack(&out, linear), want);
+            const smear_material factor = { .unlit = 1, .color = { color[0], color[1], color[2], 255 } };
+            struct smear_shading colored;
+            smear_shading_make(&colored, &t, &factor, true, linear);
+            smear_shade(&out, &colored, NULL, NULL, 65536);
+            CHECK_EQ(smear_color_pack(&out, linear), want | 0xff000000u);
+        }
+    }
+}
+
+static void test_ambient_light_is_three_tenths(void)
+{
+    const smear_transform t = SMEAR_IDENTITY;
+    struct smear_shading s;
+    struct smear_color out;
+    smear_shading_make(&s, &t, &plain, true, true);
+    smear_shade(&out, &s, NULL, NULL, 0);
+    CHECK_NEAR(out.channel[0], 19661, 2);
+    smear_shade(&out, &s, NULL, NULL, 65536);
+    CHECK_NEAR(out.channel[0], 65535, 2);
+    smear_shade(&out, &s, NULL, NULL, 32768);
+    CHECK_NEAR(out.channel[0], 42598, 2);
+    CHECK_EQ(out.channel[3], 65535);
+}
+
+void suite_light(void)
+{
+    RUN(test_normals_under_rotation_and_scale_are_lit_within_a_hundredth);
+    RUN(test_normals_under_stretch_and_shear_are_lit_within_a_hundredth);
+    RUN(test_mirrors_do_not_turn_the_light_around);
+    RUN(test_the_full_light_is_one_and_the_far_side_zero);
+    RUN(test_faces_are_lit_by_their_plane_within_a_hundredth);
+    RUN(test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm);
+    RUN(test_colours_are_products_in_linear_light);
+    RUN(test_white_stays_white_and_codes_pass_unchanged);
+    RUN(test_ambient_light_is_three_tenths);
+}

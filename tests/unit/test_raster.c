@@ -1,0 +1,1789 @@
+/* SPDX-License-Identifier: MIT */
+/* test_raster.c - coverage, depth, colour, texels and velocity of triangles, against exact integer
+ * arithmetic; and that cutting the frame into columns and bands never shows. Needs neither libc nor
+ * floating point. */
+#include "raster/raster.h"
+
+#include "base/pixel.h"
+#include "geometry/transform.h"
+#include "tests/test.h"
+
+void suite_raster(void);
+
+enum { W = 64, H = 40, POOL_WORDS = 3600, SEGMENTS = 8 };
+
+/* What a list is drawn into. */
+struct planes {
+    uint32_t color[W * H];
+    uint16_t depth[W * H];
+    int8_t velocity[W * H * 2];
+    int32_t inspect[W * H * 2];
+};
+
+static struct planes full, cut;
+
+static uint32_t pool[POOL_WORDS];
+static struct smear_segment segment[SEGMENTS];
+static struct smear_raster_draw draw[SEGMENTS];
+static struct smear_bins geometry;
+static struct smear_raster_frame frame;
+static uint8_t moving[W / 8];
+static uint32_t list_last;
+
+/* ------------------------------------------------------------------ random numbers */
+
+static uint32_t random_state;
+
+static uint32_t random_u32(void)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    uint32_t x = random_state;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    return x ^ x >> 13;
+}
+
+/* low .. high, both included */
+static int32_t between(int32_t low, int32_t high)
+{
+    return low + (int32_t)(random_u32() % (uint32_t)(high - low + 1));
+}
+
+static bool chance(int one_in)
+{
+    return random_u32() % (uint32_t)one_in == 0;
+}
+
+/* ------------------------------------------------------------------ lists made by hand */
+
+/* Empties the pool; segment i belongs to draw i and is flat, opaque and still unless a test says
+ * otherwise (set_layout). All share one base, so offsets mean the same in each. */
+static void list_begin(void)
+{
+    geometry = (struct smear_bins){
+        .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
+        .segment_limit = SEGMENTS
+    };
+    for (int i = 0; i < SEGMENTS; i++) {
+        segment[i] = (struct smear_segment){
+            .draw = (uint16_t)i, .stride = VERTEX_BASE_WORDS, .shade = SHADE_FLAT
+        };
+        draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
+    }
+    frame = (struct smear_raster_frame){
+        .bins = &geometry, .draw = draw, .width = W, .height = H, .velocity_scale = 32768,
+        .inspect_scale = 65536, .reach_q3 = 15 * 8
+    };
+    list_last = SMEAR_NO_TRIANGLE;
+}
+
+/* Lays out the vertices of a segment: what they carry. */
+static void set_layout(int at, bool uv, bool color, int moves, enum smear_shade_mode shade)
+{
+    struct smear_segment *s = &segment[at];
+    int words = VERTEX_BASE_WORDS;
+    s->uv = s->color = s->motion = 0;
+    if (uv)
+        s->uv = (uint8_t)words++;
+    if (color) {
+        s->color = (uint8_t)words;
+        words += 2;
+    }
+    if (moves != 0) {
+        s->motion = (uint8_t)words;
+        words += moves * MOTION_WORDS;
+    }
+    s->moves = (uint8_t)moves;
+    s->shade = (uint8_t)shade;
+    s->stride = (uint8_t)words;
+}
+
+/* A new vertex; returns its offset. The words beyond the place are the caller's to fill. */
+static uint16_t add_vertex(int at, int32_t x, int32_t y, int32_t depth)
+{
+    uint32_t word = geometry.vertex_words;
+    geometry.vertex_words += segment[at].stride;
+    for (uint32_t i = word; i < geometry.vertex_words; i++)
+        pool[i] = 0;
+    pool[word + VERTEX_X] = (uint32_t)x;
+    pool[word + VERTEX_Y] = (uint32_t)y;
+    pool[word + VERTEX_DEPTH] = (uint32_t)depth;
+    return (uint16_t)word;
+}
+
+/* Corners in any order: the raster wants them clockwise on the screen, and gets them so. */
+static uint32_t add_triangle(int at, uint16_t a, uint16_t b, uint16_t c, uint32_t color)
+{
+    const int32_t *pa = (const int32_t *)pool + a, *pb = (const int32_t *)pool + b;
+    const int32_t *pc = (const int32_t *)pool + c;
+    if ((int64_t)(pb[VERTEX_X] - pa[VERTEX_X]) * (pc[VERTEX_Y] - pa[VERTEX_Y])
+        < (int64_t)(pc[VERTEX_X] - pa[VERTEX_X]) * (pb[VERTEX_Y] - pa[VERTEX_Y])) {
+        uint16_t swap = b;
+        b = c;
+        c = swap;
+    }
+    uint32_t i = geometry.triangle_count++;
+    struct smear_triangle *t = bins_triangle(&geometry, i);
+    *t = (struct smear_triangle){
+        .vertex = { a, b, c }, .segment = (uint16_t)at, .next = SMEAR_NO_TRIANGLE, .color = color
+    };
+    if (list_last != SMEAR_NO_TRIANGLE)
+        bins_triangle(&geometry, list_last)->next = i;
+    list_last = i;
+    return i;
+}
+
+static bool list_has_room(void)
+{
+    return bins_has_room(&geometry, 3 * 16, 1) && geometry.vertex_words < 65000u;
+}
+
+static void planes_clear(struct planes *p)
+{
+    for (int i = 0; i < W * H; i++) {
+        p->color[i] = 0x123456u;
+        p->depth[i] = 0;
+        for (int axis = 0; axis < 2; axis++) {
+            p->velocity[2 * i + axis] = 0;
+            p->inspect[2 * i + axis] = 0;
+        }
+    }
+}
+
+static struct smear_raster_target target_of(struct planes *p)
+{
+    const struct smear_plane_rows rows = { W, 0, H, 0 };
+    return (struct smear_raster_target){
+        .x0 = 0, .y0 = 0, .x1 = W, .y1 = H, .color = p->color, .color_rows = rows,
+        .depth = p->depth, .window_rows = rows, .velocity8 = p->velocity, .inspect = p->inspect,
+        .moving = moving, .tile_shift = 3
+    };
+}
+
+static void draw_list(struct planes *p)
+{
+    struct smear_raster_target t = target_of(p);
+    smear_raster_list(&frame, &t, 0);
+}
+
+/* ------------------------------------------------------------------ exact coverage */
+
+/* e > 0 on the inner side of the edge a -> b of a triangle that is clockwise on the screen. */
+static int64_t edge_value(const int32_t a[2], const int32_t b[2], int32_t x, int32_t y)
+{
+    return (int64_t)(b[0] - a[0]) * (y - a[1]) - (int64_t)(b[1] - a[1]) * (x - a[0]);
+}
+
+static int64_t area_of(int32_t (*p)[2])
+{
+    return edge_value(p[0], p[1], p[2][0], p[2][1]);
+}
+
+/* The top-left rule for the centre of pixel (px, py). */
+static bool covers(int32_t (*p)[2], int32_t px, int32_t py)
+{
+    int32_t x = px * 256 + 128, y = py * 256 + 128;
+    bool clockwise = area_of(p) > 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *a = p[i], *b = p[i == 2 ? 0 : i + 1];
+        const int32_t *from = clockwise ? a : b, *to = clockwise ? b : a;
+        int64_t e = edge_value(from, to, x, y);
+        bool left = to[1] < from[1], top = to[1] == from[1] && to[0] > from[0];
+        if (e < 0 || (e == 0 && !left && !top))
+            return false;
+    }
+    return true;
+}
+
+static uint8_t count[W * H];
+
+/* Draws the triangle alone, checks every pixel against the rule, and adds it to `count`. */
+static bool draw_and_check(int32_t (*p)[2])
+{
+    if (area_of(p) == 0)
+        return true;            /* never reaches the raster */
+    list_begin();
+    uint16_t v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = add_vertex(0, p[i][0], p[i][1], SMEAR_DEPTH_MAX / 2);
+    int second = area_of(p) > 0 ? 1 : 2;        /* the list holds clockwise triangles */
+    add_triangle(0, v[0], v[second], v[3 - second], 0xffffffffu);
+    for (int i = 0; i < W * H; i++)
+        full.depth[i] = 0;
+    draw_list(&full);
+    bool ok = true;
+    for (int32_t y = 0; y < H && ok; y++) {
+        for (int32_t x = 0; x < W && ok; x++) {
+            bool drawn = full.depth[y * W + x] != 0;
+            count[y * W + x] = (uint8_t)(count[y * W + x] + drawn);
+            ok = drawn == covers(p, x, y);
+            if (!ok) {
+                CHECK_EQ(drawn, !drawn);
+                CHECK_EQ(x, -1);
+                CHECK_EQ(y, -1);
+                for (int i = 0; i < 3; i++) {
+                    CHECK_EQ(p[i][0], INT32_MIN);
+                    CHECK_EQ(p[i][1], INT32_MIN);
+                }
+            }
+        }
+    }
+    return ok;
+}
+
+static void count_clear(void)
+{
+    for (int i = 0; i < W * H; i++)
+        count[i] = 0;
+}
+
+/* Every pixel whose centre lies in the rectangle [x0, x1) x [y0, y1) was drawn once, all others
+ * never. */
+static bool check_counts(int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+{
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            int32_t cx = x * 256 + 128, cy = y * 256 + 128;
+            int want = cx >= x0 && cx < x1 && cy >= y0 && cy < y1;
+            if (!CHECK_EQ(count[y * W + x], want))
+                return false;
+        }
+    return true;
+}
+
+/* ------------------------------------------------------------------ coverage */
+
+static void test_corners_on_pixel_centres_follow_the_top_left_rule(void)
+{
+    /* A square from centre (1, 1) to centre (4, 3) holds the columns 1 2 3 and the rows 1 2. */
+    const int32_t left = 384, top = 384, right = 1152, bottom = 896;
+    int32_t a[3][2] = { { left, top }, { right, top }, { right, bottom } };
+    int32_t b[3][2] = { { left, top }, { right, bottom }, { left, bottom } };
+    count_clear();
+    draw_and_check(a);
+    draw_and_check(b);
+    for (int y = 0; y < 6; y++)
+        for (int x = 0; x < 6; x++)
+            CHECK_EQ(count[y * W + x], x >= 1 && x <= 3 && y >= 1 && y <= 2);
+}
+
+static void test_the_order_of_the_corners_does_not_matter(void)
+{
+    random_state = 1;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = between(-600, W * 256 + 600);
+            p[i][1] = between(-600, H * 256 + 600);
+        }
+        count_clear();
+        for (int turn = 0; turn < 6; turn++) {      /* all orders of the corners */
+            if (!draw_and_check(p))
+                return;
+            int swap = turn & 1;
+            for (int axis = 0; axis < 2; axis++) {
+                int32_t keep = p[swap][axis];
+                p[swap][axis] = p[swap + 1][axis];
+                p[swap + 1][axis] = keep;
+            }
+        }
+        for (int i = 0; i < W * H; i++)
+            if (!CHECK(count[i] == 0 || count[i] == 6))
+                return;
+    }
+}
+
+static void test_random_triangles_of_every_size_cover_exactly_their_centres(void)
+{
+    random_state = 2;
+    for (int n = 0; n < 400; n++) {
+        int32_t size = 16 << (n % 11);          /* 1/16 px to 64 px */
+        int32_t x = between(0, W * 256), y = between(0, H * 256), p[3][2];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            if (chance(4)) {                    /* on a pixel's centre or border */
+                p[i][0] = (p[i][0] & ~127);
+                p[i][1] = (p[i][1] & ~127);
+            }
+        }
+        if (!draw_and_check(p))
+            return;
+    }
+}
+
+static void test_boxes_around_the_limit_of_the_small_path_cover_exactly_their_centres(void)
+{
+    random_state = 3;
+    for (int n = 0; n < 300; n++) {
+        /* The box of pixel centres is 7, 8 or 9 wide and high; corners move by a fraction. */
+        int32_t w = between(7, 9) * 256, h = between(7, 9) * 256, p[3][2];
+        int32_t x = between(0, 5375), y = between(0, 5375);
+        p[0][0] = x;
+        p[0][1] = y + between(0, h);
+        p[1][0] = x + w + between(-1, 1);
+        p[1][1] = y;
+        p[2][0] = x + between(0, w);
+        p[2][1] = y + h + between(-1, 1);
+        if (!draw_and_check(p))
+            return;
+    }
+}
+
+static void test_triangles_that_reach_the_guard_band_cover_exactly_their_centres(void)
+{
+    /* All that the assembler lets through: 2048 px from the frame's centre, edges of 4096 px. */
+    const int32_t guard = SMEAR_GUARD_PX << 8, cx = W << 7, cy = H << 7;
+    random_state = 4;
+    for (int n = 0; n < 150; n++) {
+        int32_t p[3][2];
+        for (int i = 0; i < 3; i++) {
+            bool near = chance(3);
+            int32_t reach = near ? 40 << 8 : guard;
+            p[i][0] = cx + (chance(3) && !near ? (chance(2) ? -guard : guard) : between(-reach, reach));
+            p[i][1] = cy + (chance(3) && !near ? (chance(2) ? -guard : guard) : between(-reach, reach));
+        }
+        if (!draw_and_check(p))
+            return;
+    }
+    /* Slivers whose long edges all but coincide. */
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2] = { { cx - guard, cy + between(-5000, 5000) },
+                            { cx + guard, cy + between(-5000, 5000) }, { 0, 0 } };
+        p[2][0] = chance(2) ? p[0][0] : p[1][0];
+        p[2][1] = (chance(2) ? p[0][1] : p[1][1]) + between(-3, 3);
+        if (n & 1)
+            for (int i = 0; i < 3; i++) {
+                int32_t keep = p[i][0] - cx;
+                p[i][0] = p[i][1] - cy + cx;
+                p[i][1] = keep + cy;
+            }
+        if (!draw_and_check(p))
+            return;
+    }
+}
+
+/* A triangulation of a rectangle: grown by splitting, so that it has no T junctions. Corners are
+ * clockwise on the screen; adjacent[i] lies across the edge from corner i to the next. */
+enum { MESH_MAX = 160 };
+static struct { int16_t corner[3], adjacent[3]; } mesh[MESH_MAX];
+static int32_t point[MESH_MAX][2];
+static int mesh_count, point_count;
+
+static int64_t orient(int a, int b, int c)
+{
+    return edge_value(point[a], point[b], point[c][0], point[c][1]);
+}
+
+static void relink(int triangle, int old, int fresh)
+{
+    if (triangle < 0)
+        return;
+    for (int i = 0; i < 3; i++)
+        if (mesh[triangle].adjacent[i] == old)
+            mesh[triangle].adjacent[i] = (int16_t)fresh;
+}
+
+static void set_triangle(int t, int a, int b, int c, int ab, int bc, int ca)
+{
+    mesh[t].corner[0] = (int16_t)a;
+    mesh[t].corner[1] = (int16_t)b;
+    mesh[t].corner[2] = (int16_t)c;
+    mesh[t].adjacent[0] = (int16_t)ab;
+    mesh[t].adjacent[1] = (int16_t)bc;
+    mesh[t].adjacent[2] = (int16_t)ca;
+}
+
+static void mesh_rectangle(int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+{
+    const int32_t corner[4][2] = { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } };
+    for (int i = 0; i < 4; i++)
+        for (int axis = 0; axis < 2; axis++)
+            point[i][axis] = corner[i][axis];
+    point_count = 4;
+    mesh_count = 2;
+    set_triangle(0, 0, 1, 2, -1, -1, 1);
+    set_triangle(1, 0, 2, 3, 0, -1, -1);
+}
+
+/* Puts a point strictly inside triangle t; false when there is none at the chosen place. */
+static bool split_face(int t, int32_t x, int32_t y)
+{
+    int a = mesh[t].corner[0], b = mesh[t].corner[1], c = mesh[t].corner[2], p = point_count;
+    if (mesh_count + 2 > MESH_MAX || point_count == MESH_MAX)
+        return false;
+    point[p][0] = x;
+    point[p][1] = y;
+    if (orient(a, b, p) <= 0 || orient(b, c, p) <= 0 || orient(c, a, p) <= 0)
+        return false;
+    int ab = mesh[t].adjacent[0], bc = mesh[t].adjacent[1], ca = mesh[t].adjacent[2];
+    int u = mesh_count, v = mesh_count + 1;
+    point_count++;
+    mesh_count += 2;
+    set_triangle(t, a, b, p, ab, u, v);
+    set_triangle(u, b, c, p, bc, v, t);
+    set_triangle(v, c, a, p, ca, t, u);
+    relink(bc, t, u);
+    relink(ca, t, v);
+    return true;
+}
+
+/* Turns the diagonal between triangle t and the one across its edge i, where that stays a mesh. */
+static bool flip_edge(int t, int i)
+{
+    int o = mesh[t].adjacent[i];
+    if (o < 0)
+        return false;
+    int j = 0;
+    while (mesh[o].adjacent[j] != t)
+        j++;
+    int a = mesh[t].corner[i], b = mesh[t].corner[(i + 1) % 3], c = mesh[t].corner[(i + 2) % 3];
+    int d = mesh[o].corner[(j + 2) % 3];
+    if (orient(a, d, c) <= 0 || orient(d, b, c) <= 0)
+        return false;
+    int bc = mesh[t].adjacent[(i + 1) % 3], ca = mesh[t].adjacent[(i + 2) % 3];
+    int ad = mesh[o].adjacent[(j + 1) % 3], db = mesh[o].adjacent[(j + 2) % 3];
+    set_triangle(t, a, d, c, ad, o, ca);
+    set_triangle(o, d, b, c, db, bc, t);
+    relink(ad, o, t);
+    relink(bc, t, o);
+    return true;
+}
+
+static void flip_any_edge(void)
+{
+    int t = between(0, mesh_count - 1);
+    flip_edge(t, between(0, 2));
+}
+
+static bool mesh_draw_all(void)
+{
+    count_clear();
+    for (int t = 0; t < mesh_count; t++) {
+        int32_t p[3][2];
+        for (int i = 0; i < 3; i++)
+            for (int axis = 0; axis < 2; axis++)
+                p[i][axis] = point[mesh[t].corner[i]][axis];
+        if (!draw_and_check(p))
+            return false;
+    }
+    return true;
+}
+
+/* A place inside triangle t: near a corner, near an edge or anywhere; perhaps on a pixel centre. */
+static void place_in(int t, int32_t out[2])
+{
+    int32_t weight[3];
+    int style = between(0, 3);
+    for (int i = 0; i < 3; i++)
+        weight[i] = style == 0 ? between(1, 1000) : style == 1 ? between(1, 3) : 300;
+    if (style >= 2)
+        weight[between(0, 2)] = style == 2 ? 1 : 30000;
+    int32_t sum = weight[0] + weight[1] + weight[2];
+    for (int axis = 0; axis < 2; axis++) {
+        int64_t total = 0;
+        for (int i = 0; i < 3; i++)
+            total += (int64_t)point[mesh[t].corner[i]][axis] * weight[i];
+        out[axis] = (int32_t)(total / sum);
+        if (style == 1)
+            out[axis] = (out[axis] & ~255) + 128;
+    }
+}
+
+static void grow_mesh(int triangles)
+{
+    for (int tries = 0; mesh_count + 2 <= triangles && tries < 4 * triangles; tries++) {
+        int t = between(0, mesh_count - 1);
+        int32_t place[2];
+        place_in(t, place);
+        split_face(t, place[0], place[1]);
+        for (int i = 0; i < 3; i++)
+            flip_any_edge();
+    }
+}
+
+static void test_random_meshes_cover_every_pixel_once(void)
+{
+    random_state = 5;
+    for (int n = 0; n < 12; n++) {
+        int32_t x0 = between(-300, 1500), y0 = between(-300, 1500);
+        int32_t x1 = between(9000, W * 256 + 300), y1 = between(6000, H * 256 + 300);
+        if (n & 1) {
+            x0 = (x0 & ~255) + 128;
+            y1 = (y1 & ~255) + 128;
+        }
+        mesh_rectangle(x0, y0, x1, y1);
+        grow_mesh(40 + 10 * n);
+        CHECK(mesh_count > 30);
+        if (!mesh_draw_all() || !check_counts(x0, y0, x1, y1))
+            return;
+    }
+}
+
+static void test_meshes_of_slivers_cover_every_pixel_once(void)
+{
+    /* All points within half a pixel of one slanted line. */
+    random_state = 6;
+    for (int n = 0; n < 6; n++) {
+        mesh_rectangle(100, 100, W * 256 - 100, H * 256 - 100);
+        int32_t slope = between(-100, 100);
+        for (int tries = 0; tries < 900 && mesh_count < 90; tries++) {
+            int32_t x = between(1000, W * 256 - 1000);
+            int32_t y = H * 128 + (x - W * 128) * slope / 300 + between(-64, 64);
+            for (int t = 0; t < mesh_count; t++)
+                if (split_face(t, x, y))
+                    break;
+            flip_any_edge();
+        }
+        CHECK(mesh_count > 60);
+        if (!mesh_draw_all() || !check_counts(100, 100, W * 256 - 100, H * 256 - 100))
+            return;
+    }
+}
+
+static void test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once(void)
+{
+    /* A grid whose cells are 1/256 px wide, around the centre of pixel (10, 10). */
+    const int32_t x = 10 * 256 + 128, y = 10 * 256 + 128;
+    for (int shift = -3; shift <= 0; shift++) {
+        count_clear();
+        for (int32_t j = -3; j < 3; j++)
+            for (int32_t i = -3; i < 3; i++) {
+                int32_t x0 = x + i + (shift & 1), y0 = y + j + (shift & 2) / 2, x1 = x0 + 1, y1 = y0 + 1;
+                int32_t a[3][2] = { { x0, y0 }, { x1, y0 }, { x1, y1 } };
+                int32_t b[3][2] = { { x0, y0 }, { x1, y1 }, { x0, y1 } };
+                if (!draw_and_check(a) || !draw_and_check(b))
+                    return;
+            }
+        for (int i = 0; i < W * H; i++)
+            if (!CHECK_EQ(count[i], i == 10 * W + 10))
+                return;
+    }
+}
+
+static void test_fans_to_the_guard_band_cover_every_pixel_once(void)
+{
+    /* Twenty-four spokes from a centre, on a pixel's centre or not, to the rim of what may be drawn:
+     * the frame lies inside, so every pixel belongs to one blade. */
+    const int32_t guard = SMEAR_GUARD_PX << 8, cx = W << 7, cy = H << 7;
+    random_state = 7;
+    for (int n = 0; n < 4; n++) {
+        int32_t hub[2] = { between(500, W * 256 - 500), between(500, H * 256 - 500) };
+        if (n & 1)
+            for (int axis = 0; axis < 2; axis++)
+                hub[axis] = (hub[axis] & ~255) + 128;
+        int32_t rim[24][2];
+        for (int i = 0; i < 24; i++) {              /* around the square's border, clockwise */
+            int32_t along = -guard + (i % 6) * (guard / 3) + (i % 6 != 0 ? between(-900, 900) : 0);
+            int side = i / 6;
+            rim[i][0] = cx + (side == 0 ? along : side == 1 ? guard : side == 2 ? -along : -guard);
+            rim[i][1] = cy + (side == 0 ? -guard : side == 1 ? along : side == 2 ? guard : -along);
+        }
+        count_clear();
+        for (int i = 0; i < 24; i++) {
+            const int32_t *b = rim[i], *c = rim[(i + 1) % 24];
+            int32_t p[3][2] = { { hub[0], hub[1] }, { b[0], b[1] }, { c[0], c[1] } };
+            if (!draw_and_check(p))
+                return;
+        }
+        if (!check_counts(0, 0, W * 256, H * 256))
+            return;
+    }
+}
+
+/* ------------------------------------------------------------------ exact attributes */
+
+static uint32_t *words_at(uint16_t vertex, int offset)
+{
+    return pool + vertex + offset;
+}
+
+static void set_uv(int at, uint16_t vertex, int32_t u, int32_t v)
+{
+    *words_at(vertex, segment[at].uv) = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
+}
+
+static void set_color(int at, uint16_t vertex, const uint16_t channel[4])
+{
+    words_at(vertex, segment[at].color)[0] = channel[0] | (uint32_t)channel[1] << 16;
+    words_at(vertex, segment[at].color)[1] = channel[2] | (uint32_t)channel[3] << 16;
+}
+
+static void set_motion(int at, uint16_t vertex, int pose, int32_t dx, int32_t dy, int32_t ratio)
+{
+    uint32_t *motion = words_at(vertex, segment[at].motion + pose * MOTION_WORDS);
+    motion[MOTION_DX] = (uint32_t)dx;
+    motion[MOTION_DY] = (uint32_t)dy;
+    motion[MOTION_RATIO] = (uint32_t)ratio;
+}
+
+/* Weights of the corners at a pixel's centre; they add up to the area, which is positive. */
+static void weights_at(int32_t (*p)[2], int32_t px, int32_t py, int64_t *weight)
+{
+    int32_t centre[2] = { px * 256 + 128, py * 256 + 128 };
+    bool clockwise = area_of(p) > 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *a = p[(i + 1) % 3], *b = p[(i + 2) % 3];
+        int64_t e = edge_value(a, b, centre[0], centre[1]);
+        weight[i] = clockwise ? e : -e;
+    }
+}
+
+static int64_t floor_divide(int64_t a, int64_t b)
+{
+    int64_t q = a / b;
+    return a % b < 0 ? q - 1 : q;
+}
+
+/* sum weight value / sum weight, exact, for values below 2^31 and weights below 2^42. */
+static int64_t weighted(const int64_t weight[3], const int32_t value[3])
+{
+    int64_t high = 0, low = 0, area = weight[0] + weight[1] + weight[2];
+    for (int i = 0; i < 3; i++) {
+        high += weight[i] * (value[i] >> 15);
+        low += weight[i] * (value[i] & 0x7fff);
+    }
+    int64_t whole = floor_divide(high, area);
+    return whole * 32768 + floor_divide((high - whole * area) * 32768 + low, area);
+}
+
+/* Random corners of a triangle of at least `pixels` square pixels; false when luck is out. */
+static bool fat_triangle(int32_t (*p)[2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
+{
+    for (int tries = 0; tries < 50; tries++) {
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = between(low, high_x);
+            p[i][1] = between(low, high_y);
+        }
+        int64_t area = area_of(p);
+        if (area > (int64_t)pixels << 17 || area < -((int64_t)pixels << 17))
+            return true;
+    }
+    return false;
+}
+
+/* Code of exact depth units in q11, rounded as smear_depth_units undoes it. */
+static int32_t code_of(int64_t units_q11)
+{
+    int64_t units = (units_q11 + 1024) >> 11;
+    return (int32_t)(units < 32768 ? units : 32768 + ((units_q11 - (32768 << 11) + (8 << 11)) >> 15));
+}
+
+static void test_depth_is_the_plane_through_the_corners(void)
+{
+    random_state = 11;
+    for (int n = 0; n < 120; n++) {
+        const int32_t guard = SMEAR_GUARD_PX << 8;
+        int32_t p[3][2], q[3];
+        bool large = n % 4 == 3;
+        if (!fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
+            continue;
+        /* Everywhere from the far end to the near plane; a third of them bends. */
+        int32_t level = between(0, 13);
+        for (int i = 0; i < 3; i++)
+            q[i] = n % 3 == 0 ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
+                 : n % 3 == 1 ? (32768 << 11) + between(-(1 << 24), 1 << 24)
+                 : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        /* Gradients are rounded to 1/2 step of q11 per pixel: 1/32 unit over 64 px, two over 4096. */
+        int32_t slack = large ? 3 : 1;
+        for (int32_t y = 0; y < H; y++)
+            for (int32_t x = 0; x < W; x++) {
+                if (!covers(p, x, y))
+                    continue;
+                int64_t weight[3];
+                weights_at(p, x, y, weight);
+                if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), slack))
+                    return;
+            }
+    }
+}
+
+static void test_depth_stays_between_the_corners_even_of_slivers(void)
+{
+    random_state = 12;
+    for (int n = 0; n < 400; n++) {
+        int32_t p[3][2], q[3], low = INT32_MAX, high = 0;
+        int32_t size = 16 << n % 11, x = between(0, W * 256), y = between(0, H * 256);
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+        }
+        if (n & 1) {            /* all but on a line */
+            p[2][0] = (p[0][0] + p[1][0]) / 2 + between(-2, 2);
+            p[2][1] = (p[0][1] + p[1][1]) / 2 + between(-2, 2);
+        }
+        if (area_of(p) == 0)
+            continue;
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+            low = low < q[i] ? low : q[i];
+            high = high > q[i] ? high : q[i];
+        }
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        for (int i = 0; i < W * H; i++)
+            if (full.depth[i] != 0
+                && !CHECK(full.depth[i] >= code_of(low) - 1 && full.depth[i] <= code_of(high) + 1))
+                return;
+    }
+}
+
+static void test_depth_codes_grow_over_the_bend(void)
+{
+    /* A row in which units run from 16384 to 65536: every pixel is drawn, codes never fall. */
+    list_begin();
+    uint16_t a = add_vertex(0, 0, 0, 16384 << 11), b = add_vertex(0, W * 256, 0, 65536 << 11);
+    uint16_t c = add_vertex(0, W * 256, H * 256, 65536 << 11), d = add_vertex(0, 0, H * 256, 16384 << 11);
+    add_triangle(0, a, b, c, 0xffffffffu);
+    add_triangle(0, a, c, d, 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            int32_t units = 16384 + (2 * x + 1) * 49152 / (2 * W);
+            CHECK_NEAR((int32_t)smear_depth_units(full.depth[y * W + x]), units, units < 32768 ? 2 : 17);
+            if (x > 0 && !CHECK(full.depth[y * W + x] > full.depth[y * W + x - 1]))
+                return;
+        }
+    CHECK_EQ(smear_depth_units(32767), 32767);
+    CHECK_EQ(smear_depth_units(32768), 32768);
+    CHECK_EQ(smear_depth_units(32769), 32784);
+    CHECK_EQ(smear_depth_units(65535), SMEAR_DEPTH_NEAR);
+    CHECK_EQ(code_of((int64_t)SMEAR_DEPTH_NEAR << 11), 65535);
+}
+
+static void test_tiny_and_small_triangles_have_the_depth_of_large_ones(void)
+{
+    random_state = 13;
+    for (int n = 0; n < 200; n++) {
+        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000);
+        int32_t size = 300 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = (1 << 20 << n % 9) + between(0, 1 << 18 << n % 9);
+        }
+        int64_t area = area_of(p);
+        if (area < 30000 && area > -30000)
+            continue;
+        list_begin();
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        for (int32_t py = 0; py < H; py++)
+            for (int32_t px = 0; px < W; px++) {
+                if (!covers(p, px, py))
+                    continue;
+                int64_t weight[3];
+                weights_at(p, px, py, weight);
+                if (!CHECK_NEAR(full.depth[py * W + px], code_of(weighted(weight, q)), 1))
+                    return;
+            }
+    }
+}
+
+/* Channel c of a working pixel. */
+static int32_t code_in(uint32_t pixel, int c)
+{
+    return (int32_t)(pixel >> (16 - 8 * c) & 255u);
+}
+
+/* A triangle with random colours; checks each pixel against the exact mean of its corners' values. */
+static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, bool linear, int32_t slack)
+{
+    list_begin();
+    set_layout(0, false, true, 0, SHADE_GOURAUD);
+    segment[0].flat_depth = flat_depth;
+    frame.linear = linear;
+    uint16_t v[3], channel[3][4];
+    for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 4; c++)
+            channel[i][c] = (uint16_t)(chance(4) ? chance(2) ? 0 : 65535 : between(0, 65535));
+        if (!linear)
+            for (int c = 0; c < 3; c++)
+                channel[i][c] = (uint16_t)(channel[i][c] & 0xff00);
+        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+        set_color(0, v[i], channel[i]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y))
+                continue;
+            int64_t weight[3], sum = 0;
+            weights_at(p, x, y, weight);
+            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), 1))
+                return false;
+            for (int i = 0; i < 3; i++) {
+                weight[i] = flat_depth ? weight[i] : (weight[i] >> 8) * (q[i] >> 14);
+                sum += weight[i];
+            }
+            for (int c = 0; c < 3; c++) {
+                int64_t total = 0;
+                for (int i = 0; i < 3; i++)
+                    total += weight[i] * (channel[i][c] >> 4);
+                int64_t mean = total / sum;             /* 12 bits */
+                int32_t want = linear ? smear_srgb_encode[mean > 4095 ? 4095 : mean] : (int32_t)((mean + 8) >> 4);
+                if (!CHECK_NEAR(code_in(full.color[y * W + x], c), want, slack))
+                    return false;
+            }
+        }
+    return true;
+}
+
+static void test_colors_are_interpolated_within_a_code(void)
+{
+    random_state = 14;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], q[3];
+        for (int i = 0; i < 3; i++)
+            q[i] = between(1 << 20, 1 << 28);
+        if (!fat_triangle(p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        if (!check_colors(p, q, true, n & 1, n & 1 ? 2 : 1))
+            return;
+    }
+}
+
+static void test_colors_are_right_in_perspective(void)
+{
+    random_state = 15;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], q[3];
+        for (int i = 0; i < 3; i++)
+            q[i] = between(2 << 25, 3 << 25);
+        if (!fat_triangle(p, 400, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        if (!check_colors(p, q, false, n & 1, n & 1 ? 4 : 3))
+            return;
+    }
+}
+
+static void test_colors_of_small_triangles_are_interpolated_within_a_code(void)
+{
+    random_state = 16;
+    for (int n = 0; n < 150; n++) {
+        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+            q[i] = 1 << 26;
+        }
+        int64_t area = area_of(p);
+        if (area < 60000 && area > -60000)
+            continue;
+        if (!check_colors(p, q, false, n & 1, n & 1 ? 2 : 1))
+            return;
+    }
+}
+
+/* Texels that say where they are: u in the low byte and a half, v above. */
+enum { TEXELS = 64 * 64 };
+static uint32_t texels[TEXELS];
+
+static void set_texture(int at, int32_t width, int32_t height, int wrap_u, int wrap_v, int uv_shift)
+{
+    for (int32_t v = 0; v < height; v++)
+        for (int32_t u = 0; u < width; u++)
+            texels[v * width + u] = 0xff000000u | (uint32_t)v << 12 | (uint32_t)u;
+    const smear_texture texture = {
+        .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height,
+        .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
+    };
+    smear_sampler_make(&draw[at].sampler, &texture, uv_shift, false, false);
+}
+
+/* The texel that a wrap mode shows at integer coordinate i. */
+static int32_t wrapped(int64_t i, int32_t size, int mode)
+{
+    if (mode == SMEAR_CLAMP)
+        return (int32_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
+    int32_t period = mode == SMEAR_MIRROR ? 2 * size : size, at = (int32_t)(i % period);
+    at = at < 0 ? at + period : at;
+    return at < size ? at : period - 1 - at;
+}
+
+/* True when `got` is a texel that a coordinate (q8) moved by at most `slack` would show. */
+static bool is_near_texel(int32_t got, int64_t coordinate, int64_t slack, int32_t size, int mode)
+{
+    for (int64_t move = -slack; move < slack; move += 64)
+        if (wrapped(floor_divide(coordinate + move, 256), size, mode) == got)
+            return true;
+    return wrapped(floor_divide(coordinate + slack, 256), size, mode) == got;
+}
+
+/* A textured triangle. */
+struct textured {
+    int32_t p[3][2], q[3], uv[3][2];
+    int32_t width, height;
+    int wrap_u, wrap_v, uv_shift;
+};
+
+/* Exact texel coordinates at a pixel, q8. False where the point is behind the eye: beyond the triangle. */
+static bool texel_exactly(struct textured *t, int32_t x, int32_t y, int64_t out[2])
+{
+    int64_t weight[3], sum = 0;
+    weights_at(t->p, x, y, weight);
+    for (int i = 0; i < 3; i++) {           /* at most 2^29 x 2^12 */
+        weight[i] *= t->q[i] >> 18;
+        sum += weight[i];
+    }
+    for (int axis = 0; axis < 2 && sum > 0; axis++) {
+        int64_t total = 0;
+        for (int i = 0; i < 3; i++)
+            total += weight[i] * t->uv[i][axis];
+        int64_t ratio = floor_divide(total * 32, sum);          /* q5 mesh units */
+        out[axis] = floor_divide(ratio * (axis == 0 ? t->width : t->height) * 8, (int64_t)1 << t->uv_shift);
+    }
+    return sum > 0;
+}
+
+static int64_t distance_of(int64_t a, int64_t b)
+{
+    return a > b ? a - b : b - a;
+}
+
+/* Texels are those of the exact coordinate, moved by at most half a texel or half a pixel on the screen. */
+static bool check_texel_at(struct textured *t, int32_t x, int32_t y, uint32_t got)
+{
+    int64_t exact[2], there[2], per_pixel[2] = { 0, 0 };
+    texel_exactly(t, x, y, exact);
+    for (int side = 0; side < 4; side++) {
+        if (!texel_exactly(t, x + (side == 0) - (side == 1), y + (side == 2) - (side == 3), there))
+            continue;
+        for (int axis = 0; axis < 2; axis++)
+            if (distance_of(there[axis], exact[axis]) > per_pixel[axis])
+                per_pixel[axis] = distance_of(there[axis], exact[axis]);
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        int64_t slack = per_pixel[axis] / 2 > 128 ? per_pixel[axis] / 2 : 128;
+        int32_t texel = (int32_t)(got >> 12 * axis & 4095u);
+        if (!CHECK(is_near_texel(texel, exact[axis], slack, axis == 0 ? t->width : t->height,
+                                 axis == 0 ? t->wrap_u : t->wrap_v))) {
+            CHECK_EQ(x * 1000 + y, -1);
+            CHECK_EQ(texel * 256, exact[axis]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_texels(struct textured *t)
+{
+    list_begin();
+    set_layout(0, true, false, 0, SHADE_NONE);
+    set_texture(0, t->width, t->height, t->wrap_u, t->wrap_v, t->uv_shift);
+    uint16_t v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, t->p[i][0], t->p[i][1], t->q[i]);
+        set_uv(0, v[i], t->uv[i][0], t->uv[i][1]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    int32_t (*p)[2] = t->p;
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y))
+                continue;
+            int64_t weight[3];
+            weights_at(p, x, y, weight);
+            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, t->q)), 1)
+                || !check_texel_at(t, x, y, full.color[y * W + x] & 0xffffffu))
+                return false;
+        }
+    return true;
+}
+
+static void test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel(void)
+{
+    static const int32_t size[][2] = { { 16, 16 }, { 64, 64 }, { 8, 64 }, { 1, 1 }, { 64, 2 }, { 50, 37 },
+                                       { 3, 5 }, { 33, 64 }, { 64, 63 } };
+    random_state = 17;
+    for (int n = 0; n < 180; n++) {
+        struct textured t = {
+            .width = size[n % 9][0], .height = size[n % 9][1], .wrap_u = n % 3, .wrap_v = n / 3 % 3,
+            .uv_shift = n % 2 ? 15 : 13
+        };
+        if (!fat_triangle(t.p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            continue;
+        for (int i = 0; i < 3; i++) {
+            t.q[i] = between(1350, 4000) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                t.uv[i][axis] = between(-32768, 32767) / (n % 3 == 0 ? 1 : 8);
+        }
+        if (!check_texels(&t))
+            return;
+    }
+}
+
+static void test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel(void)
+{
+    random_state = 27;
+    for (int n = 0; n < 150; n++) {
+        struct textured t = { .width = 32, .height = 16, .uv_shift = 15 };
+        int32_t x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            t.p[i][0] = x + between(-size, size);
+            t.p[i][1] = y + between(-size, size);
+            t.q[i] = between(2400, 2600) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                t.uv[i][axis] = between(0, 8191);
+        }
+        int64_t area = area_of(t.p);
+        if ((area > 60000 || area < -60000) && !check_texels(&t))
+            return;
+    }
+}
+
+/* Whose coordinates are polynomials, up to the error at which these give way to quotients. */
+static void test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel(void)
+{
+    random_state = 37;
+    for (int n = 0; n < 200; n++) {
+        struct textured t = { .width = 64, .height = 64, .uv_shift = 15 };
+        if (!fat_triangle(t.p, 64, 0, W * 256, H * 256))
+            continue;
+        int32_t nearest = between(1600, 2400);
+        for (int i = 0; i < 3; i++) {
+            t.q[i] = between(1500, nearest) * (1 << 18);
+            for (int axis = 0; axis < 2; axis++)
+                t.uv[i][axis] = between(0, 1) * 24576 + between(-2000, 2000);
+        }
+        if (!check_texels(&t))
+            return;
+    }
+}
+
+static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
+{
+    /* One texel per pixel, no perspective: each pixel shows its own texel. */
+    static const int32_t size[][2] = { { 64, 32 }, { 50, 37 }, { 64, 64 } };
+    for (int k = 0; k < 3; k++)
+        for (int wrap = SMEAR_REPEAT; wrap <= SMEAR_MIRROR; wrap++) {
+            int32_t w = size[k][0], h = size[k][1];
+            list_begin();
+            set_layout(0, true, false, 0, SHADE_NONE);
+            segment[0].flat_depth = 1;
+            set_texture(0, w, h, wrap, wrap, 15);
+            uint16_t v[4];
+            static const int corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+            for (int i = 0; i < 4; i++) {
+                v[i] = add_vertex(0, corner[i][0] * w * 256, corner[i][1] * h * 256, 1 << 28);
+                set_uv(0, v[i], corner[i][0] * 32767, corner[i][1] * 32767);
+            }
+            add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+            add_triangle(0, v[0], v[2], v[3], 0xffffffffu);
+            planes_clear(&full);
+            draw_list(&full);
+            for (int32_t y = 0; y < H && y < h; y++)
+                for (int32_t x = 0; x < W && x < w; x++)
+                    if (!CHECK_EQ(full.color[y * W + x] & 0xffffffu, y << 12 | x))
+                        return;
+        }
+}
+
+/* ------------------------------------------------------------------ velocity */
+
+/* A moving triangle against the exact quotient; `slack` in 1/256 px. */
+static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], int32_t slack)
+{
+    list_begin();
+    set_layout(0, false, false, poses, SHADE_FLAT);
+    uint16_t v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, p[i][0], p[i][1], 1 << 28);
+        for (int pose = 0; pose < poses; pose++)
+            set_motion(0, v[i], pose, motion[pose][i][0], motion[pose][i][1], motion[pose][i][2]);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++) {
+            if (!covers(p, x, y)) {
+                if (!CHECK_EQ(full.inspect[2 * (y * W + x)], 0))
+                    return false;
+                continue;
+            }
+            int64_t weight[3];
+            int32_t want[2] = { 0, 0 };
+            weights_at(p, x, y, weight);
+            for (int pose = 0; pose < poses; pose++)
+                for (int axis = 0; axis < 2; axis++) {
+                    int64_t top = 0, ratio = 0;
+                    for (int i = 0; i < 3; i++) {       /* 2^22 x (2^12 x 2^15 + 2^27) */
+                        int64_t b = weight[i] >> 8, r = motion[pose][i][2] >> 8;
+                        top += b * (r * p[i][axis] + motion[pose][i][axis] * 4096);
+                        ratio += b * r;
+                    }
+                    int32_t there = (int32_t)floor_divide(top, ratio) - ((axis == 0 ? x : y) * 256 + 128);
+                    want[axis] += pose == 0 ? -there : there;
+                }
+            for (int axis = 0; axis < 2; axis++) {
+                int32_t got = full.inspect[2 * (y * W + x) + axis];
+                if (!CHECK_NEAR(got, want[axis], slack))
+                    return false;
+                /* The packed one: half of it (the shutter is open all the time), in 1/8 px, no longer than the reach. */
+                int64_t length = (int64_t)want[0] * want[0] + (int64_t)want[1] * want[1];
+                int64_t reach = 2 * 15 * 256;
+                int32_t packed = full.velocity[2 * (y * W + x) + axis];
+                if (length < (reach - 256) * (reach - 256) && !CHECK_NEAR(packed * 64, want[axis], slack + 40))
+                    return false;
+            }
+            int32_t vx = full.velocity[2 * (y * W + x)], vy = full.velocity[2 * (y * W + x) + 1];
+            if (!CHECK(vx * vx + vy * vy <= (15 * 8 + 1) * (15 * 8 + 1)))
+                return false;
+        }
+    return true;
+}
+
+static void test_velocities_of_unchanging_depth_are_planes(void)
+{
+    random_state = 18;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], motion[2][3][3];
+        if (!fat_triangle(p, 64, -1000, W * 256 + 1000, H * 256 + 1000))
+            continue;
+        int32_t size = 16 << n % 8;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-size, size);
+                motion[pose][i][1] = between(-size, size);
+                motion[pose][i][2] = 1 << 20;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 8))
+            return;
+    }
+}
+
+static void test_velocities_of_changing_depth_are_quotients(void)
+{
+    random_state = 19;
+    for (int n = 0; n < 60; n++) {
+        int32_t p[3][2], motion[2][3][3];
+        if (!fat_triangle(p, 400, -1000, W * 256 + 1000, H * 256 + 1000))
+            continue;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-2000, 2000);
+                motion[pose][i][1] = between(-2000, 2000);
+                motion[pose][i][2] = between(3500, 4800) << 8;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 48))
+            return;
+    }
+}
+
+static void test_velocities_of_small_triangles_are_planes(void)
+{
+    random_state = 28;
+    for (int n = 0; n < 150; n++) {
+        int32_t p[3][2], motion[2][3][3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+        }
+        int64_t area = area_of(p);
+        if (area < 60000 && area > -60000)
+            continue;
+        for (int pose = 0; pose < 2; pose++)
+            for (int i = 0; i < 3; i++) {
+                motion[pose][i][0] = between(-500, 500);
+                motion[pose][i][1] = between(-500, 500);
+                motion[pose][i][2] = 1 << 20;
+            }
+        if (!check_velocity(p, 1 + n % 2, motion, 8))
+            return;
+    }
+}
+
+static void test_long_velocities_keep_their_direction_and_end_at_the_reach(void)
+{
+    random_state = 20;
+    for (int n = 0; n < 80; n++) {
+        list_begin();
+        set_layout(0, false, false, 1, SHADE_FLAT);
+        int32_t scale = 1 << n % 10, dx = between(-1500, 1500) * scale, dy = between(-1500, 1500) * scale;
+        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 28);
+            set_motion(0, v[i], 0, -dx, -dy, 1 << 20);
+        }
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        int64_t vx = full.velocity[2 * (3 * W + 3)], vy = full.velocity[2 * (3 * W + 3) + 1];
+        int64_t square = vx * vx + vy * vy, want = ((int64_t)dx * dx + (int64_t)dy * dy) / (64 * 64);
+        if (want > (15 * 8) * (15 * 8))
+            want = (15 * 8) * (15 * 8);
+        /* Lengths within 1/8 px or a fortieth: squares within a twentieth. */
+        CHECK_NEAR(square, want, want / 20 + 3 * 120);
+        /* |v x d| / |v||d| is the sine: the two parts are rounded to 1/16 px. */
+        int64_t cross = vx * dy - vy * dx, dot = vx * dx + vy * dy;
+        int64_t bound = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+        if (!CHECK(cross <= bound && cross >= -bound) || !CHECK(dot >= 0))
+            return;
+    }
+}
+
+static void test_a_still_triangle_stops_what_it_hides_and_nothing_else(void)
+{
+    for (int order = 0; order < 2; order++) {
+        list_begin();
+        set_layout(1, false, false, 1, SHADE_FLAT);
+        uint16_t still[3], moves[3];
+        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
+        for (int i = 0; i < 3; i++) {
+            still[i] = add_vertex(0, corner[i][0] / 2, corner[i][1] / 2, 1 << 27);
+            moves[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(1, moves[i], 0, -1024, 512, 1 << 20);
+        }
+        if (order == 0)
+            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
+        add_triangle(0, still[0], still[1], still[2], 0xff808080u);
+        if (order == 1)
+            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
+        planes_clear(&full);
+        for (int i = 0; i < W / 8; i++)
+            moving[i] = 0;
+        draw_list(&full);
+        for (int y = 0; y < H; y++)
+            for (int x = 0; x < W; x++) {
+                uint32_t c = full.color[y * W + x];
+                int want = c == 0xffffffu ? 16 : 0;
+                if (!CHECK_EQ(full.velocity[2 * (y * W + x)], want)
+                    || !CHECK_EQ(full.velocity[2 * (y * W + x) + 1], -want / 2)
+                    || !CHECK_EQ(full.inspect[2 * (y * W + x)], want * 64))
+                    return;
+            }
+        for (int i = 0; i < W / 8; i++)
+            CHECK_EQ(moving[i], 1);
+    }
+}
+
+static void test_only_columns_of_tiles_with_motion_are_marked(void)
+{
+    list_begin();
+    set_layout(0, false, false, 1, SHADE_FLAT);
+    uint16_t v[3];
+    static const int32_t corner[3][2] = { { 17 * 256, 0 }, { 31 * 256, 0 }, { 17 * 256, H * 256 } };
+    for (int i = 0; i < 3; i++) {
+        v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
+        set_motion(0, v[i], 0, 1024, 0, 1 << 20);
+    }
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    for (int i = 0; i < W / 8; i++)
+        moving[i] = 0;
+    draw_list(&full);
+    for (int i = 0; i < W / 8; i++)
+        CHECK_EQ(moving[i], i == 2 || i == 3);
+}
+
+/* ------------------------------------------------------------------ which pixel wins */
+
+static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
+{
+    random_state = 21;
+    enum { N = 24 };
+    int32_t p[N][3][2];
+    for (int equal = 0; equal < 2; equal++) {
+        for (int i = 0; i < N; i++)
+            fat_triangle(p[i], 64, -500, W * 256, H * 256);
+        for (int turn = 0; turn < 3; turn++) {
+            list_begin();
+            for (int k = 0; k < N; k++) {
+                int i = equal || turn == 0 ? k : turn == 1 ? N - 1 - k : k * 7 % N;
+                uint16_t v[3];
+                for (int c = 0; c < 3; c++)
+                    v[c] = add_vertex(0, p[i][c][0], p[i][c][1], equal ? 1 << 27 : (i * 5 % N + 10) << 22);
+                add_triangle(0, v[0], v[1], v[2], 0xff000000u | (uint32_t)(i + 1));
+            }
+            planes_clear(&full);
+            draw_list(&full);
+            for (int32_t y = 0; y < H; y++)
+                for (int32_t x = 0; x < W; x++) {
+                    uint32_t want = 0x123456u;
+                    int best = -1;
+                    for (int i = 0; i < N; i++)
+                        if (covers(p[i], x, y) && (best < 0 || (!equal && i * 5 % N > best * 5 % N)))
+                            best = i;
+                    if (best >= 0)
+                        want = (uint32_t)best + 1;
+                    if (!CHECK_EQ(full.color[y * W + x], want))
+                        return;
+                }
+        }
+    }
+}
+
+static void test_cutouts_leave_what_lies_behind_their_holes(void)
+{
+    static const uint8_t cutoffs[] = { 1, 60, 255 };
+    for (int k = 0; k < 3; k++) {
+        int cutoff = cutoffs[k];
+        list_begin();
+        set_layout(0, false, false, 1, SHADE_FLAT);
+        set_layout(1, true, false, 0, SHADE_NONE);
+        set_texture(1, 16, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
+        for (uint32_t i = 0; i < 256; i++)
+            texels[i] = i << 24 | 0x405060u;        /* every alpha there is */
+        draw[1].alpha = SMEAR_CUTOUT;
+        draw[1].cutoff = (uint8_t)cutoff;
+        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
+        uint16_t back[3], front[3];
+        for (int i = 0; i < 3; i++) {
+            back[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(0, back[i], 0, -1024, 0, 1 << 20);
+            front[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 27);
+            set_uv(1, front[i], corner[i][0] != 0 ? 32767 : 0, corner[i][1] != 0 ? 32767 : 0);
+        }
+        add_triangle(0, back[0], back[1], back[2], 0xff00ff00u);
+        add_triangle(1, front[0], front[1], front[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        int holes = 0, solid = 0;
+        for (int i = 0; i < W * H; i++) {
+            bool hole = full.color[i] == 0x00ff00u;
+            CHECK(hole || full.color[i] == 0x405060u);
+            CHECK_EQ(full.depth[i], hole ? 1 << 15 : code_of(1 << 27));
+            CHECK_EQ(full.velocity[2 * i], hole ? 16 : 0);
+            holes += hole;
+            solid += !hole;
+        }
+        /* The quarter of the texture that is seen has alphas from 0 to 119. */
+        CHECK(cutoff == 1 ? holes > 0 && holes < W * H / 16
+              : cutoff == 60 ? holes > W * H / 4 && solid > W * H / 4 : solid == 0);
+    }
+}
+
+static void test_blended_triangles_only_change_colour(void)
+{
+    for (int linear = 0; linear < 2; linear++) {
+        list_begin();
+        frame.linear = linear;
+        draw[1].alpha = SMEAR_BLEND;
+        set_layout(2, false, false, 1, SHADE_FLAT);
+        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
+        uint16_t solid[3], glass[3], behind[3];
+        for (int i = 0; i < 3; i++) {
+            solid[i] = add_vertex(2, corner[i][0], corner[i][1], 1 << 26);
+            set_motion(2, solid[i], 0, -1024, 0, 1 << 20);
+            glass[i] = add_vertex(1, corner[i][0] / 3, corner[i][1], 1 << 27);
+            behind[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 25);
+        }
+        add_triangle(2, solid[0], solid[1], solid[2], 0xff204060u);
+        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);
+        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);     /* the same depth again: still over it */
+        add_triangle(1, behind[0], behind[1], behind[2], 0xc0ffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        uint32_t once = pixel_blend(0x204060u, 0x60ff8000u, 0x60, linear);
+        uint32_t twice = pixel_blend(once, 0x60ff8000u, 0x60, linear);
+        int blended = 0;
+        for (int i = 0; i < W * H; i++) {
+            CHECK(full.color[i] == 0x204060u || full.color[i] == twice);
+            CHECK_EQ(full.depth[i], 1 << 15);
+            CHECK_EQ(full.velocity[2 * i], 16);
+            blended += full.color[i] == twice;
+        }
+        CHECK(blended > W * H / 4 && blended < W * H);
+    }
+    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, false), 0x123456u);
+    CHECK_EQ(pixel_blend(0x123456u, 0xabcdefu, 255, false), 0xabcdefu);
+    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, true), 0x123456u);
+    CHECK_EQ(pixel_blend(0x123456u, 0xffabcdefu, 255, true), 0xabcdefu);
+}
+
+/* ------------------------------------------------------------------ cuts of the frame */
+
+/* A list of everything there is: all kinds of vertices, poses, textures, alpha; large, small and huge. */
+static void random_list(void)
+{
+    list_begin();
+    frame.linear = chance(2);
+    set_texture(0, 32, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
+    for (int i = 0; i < SEGMENTS; i++) {
+        bool uv = i & 1, color = i & 2;
+        int moves = between(0, 2);
+        set_layout(i, uv, color, moves, color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
+        segment[i].flat_depth = chance(4);
+        draw[i].alpha = (uint8_t)(chance(2) ? SMEAR_OPAQUE : chance(2) ? SMEAR_CUTOUT : SMEAR_BLEND);
+        if (draw[i].alpha == SMEAR_BLEND)
+            set_layout(i, uv, color, 0, (enum smear_shade_mode)segment[i].shade);
+        int wrap_u = between(0, 2), wrap_v = between(0, 2);
+        const smear_texture texture = {
+            .texels = texels, .width = chance(2) ? 32 : 23, .height = 16,
+            .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
+        };
+        int uv_shift = between(12, 15);
+        smear_sampler_make(&draw[i].sampler, &texture, uv_shift, chance(4), frame.linear);
+    }
+    for (uint32_t i = 0; i < 32 * 16; i++)
+        texels[i] = random_u32();
+    /* One of the plainest textured kind, which has a loop of its own. */
+    set_layout(1, true, false, between(0, 1), SHADE_NONE);
+    draw[1].alpha = SMEAR_OPAQUE;
+    const smear_texture plain = { .texels = texels, .width = 32, .height = 16 };
+    smear_sampler_make(&draw[1].sampler, &plain, 13, false, frame.linear);
+    for (int n = 0; n < 40 && list_has_room(); n++) {
+        int at = between(0, SEGMENTS - 1);
+        int32_t size = chance(4) ? SMEAR_GUARD_PX << 8 : 256 << between(0, 6), p[3][2];
+        int32_t x = size > 1 << 16 ? W << 7 : between(0, W * 256), y = size > 1 << 16 ? H << 7 : between(0, H * 256);
+        int32_t level = between(0, 8);
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            int32_t depth = SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
+            v[i] = add_vertex(at, p[i][0], p[i][1], depth);
+            if (segment[at].uv != 0) {
+                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
+                set_uv(at, v[i], s, t);
+            }
+            if (segment[at].color != 0) {
+                uint16_t channel[4];
+                for (int c = 0; c < 4; c++)
+                    channel[c] = (uint16_t)random_u32();
+                set_color(at, v[i], channel);
+            }
+            for (int pose = 0; pose < segment[at].moves; pose++) {
+                int32_t reach = 16 << between(0, 12);
+                int32_t dx = between(-reach, reach), dy = between(-reach, reach);
+                set_motion(at, v[i], pose, dx, dy, n & 1 ? 1 << 20 : between(1 << 14, 1 << 22));
+            }
+        }
+        add_triangle(at, v[0], v[1], v[2], random_u32());
+    }
+}
+
+static bool same_planes(const struct planes *a, const struct planes *b)
+{
+    for (int i = 0; i < W * H; i++) {
+        bool same = a->color[i] == b->color[i] && a->depth[i] == b->depth[i];
+        for (int axis = 0; axis < 2; axis++)
+            same = same && a->velocity[2 * i + axis] == b->velocity[2 * i + axis]
+                && a->inspect[2 * i + axis] == b->inspect[2 * i + axis];
+        if (!same) {
+            CHECK_EQ(i % W, -1);
+            CHECK_EQ(i / W, -1);
+            CHECK_EQ(a->color[i], b->color[i]);
+            CHECK_EQ(a->depth[i], b->depth[i]);
+            CHECK_EQ(a->velocity[2 * i], b->velocity[2 * i]);
+            return CHECK_EQ(a->inspect[2 * i], b->inspect[2 * i]);
+        }
+    }
+    return true;
+}
+
+static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
+{
+    random_state = 22;
+    for (int n = 0; n < 60; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        planes_clear(&cut);
+        int32_t column = 16 * between(1, 4), band = chance(3) ? 8 : between(1, H);
+        for (int32_t y = 0; y < H; y += band)
+            for (int32_t x = 0; x < W; x += column) {
+                struct smear_raster_target t = target_of(&cut);
+                t.x0 = x;
+                t.x1 = x + column < W ? x + column : W;
+                t.y0 = y;
+                t.y1 = y + band < H ? y + band : H;
+                t.color_rows.slot0 = t.window_rows.slot0 = y;
+                smear_raster_list(&frame, &t, 0);
+            }
+        if (!same_planes(&full, &cut))
+            return;
+    }
+}
+
+/* Triangles with loops of their own, of any size and near any bend of the depth code. */
+static void random_kind(int level, int far)
+{
+    const uint16_t light[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
+    for (int k = 0; k < 6 && list_has_room(); k++) {
+        int32_t extent = 256 << between(2, 7), x = between(0, W * 256), y = between(0, H * 256), p[3][2];
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-extent, extent);
+            p[i][1] = y + between(-extent, extent);
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            int32_t depth = SMEAR_DEPTH_MAX >> far;
+            v[i] = add_vertex(0, p[i][0], p[i][1], max_i32(SMEAR_DEPTH_MIN, depth - between(0, depth >> level)));
+            if (segment[0].uv != 0) {
+                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
+                set_uv(0, v[i], s, t);
+            }
+            if (segment[0].color != 0) {
+                uint16_t other[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
+                set_color(0, v[i], segment[0].uv != 0 ? light : other);
+            }
+            for (int pose = 0; pose < segment[0].moves; pose++) {
+                int32_t dx = between(-4096, 4096), dy = between(-4096, 4096);
+                set_motion(0, v[i], pose, dx, dy, between(1 << 19, 1 << 21));
+            }
+        }
+        add_triangle(0, v[0], v[1], v[2], random_u32() | 0xff000000u);
+    }
+}
+
+static uint16_t direct[2][W * H];
+
+/* Draws the list as what is opaque and as what is cut out nowhere, which is
+ * the general loop's: into working pixels, and into finished ones. */
+static bool check_general(void)
+{
+    planes_clear(&full);
+    draw_list(&full);
+    draw[0].alpha = SMEAR_CUTOUT;
+    draw[0].cutoff = 0;
+    planes_clear(&cut);
+    draw_list(&cut);
+    if (!same_planes(&full, &cut))
+        return false;
+    if (!SMEAR_DIRECT)
+        return true;
+    bool same = true;
+    for (int i = 0; i < 2; i++) {
+        struct planes *p = i == 0 ? &full : &cut;
+        planes_clear(p);
+        struct smear_raster_target t = target_of(p);
+        t.direct = direct[i];
+        t.velocity8 = NULL;
+        t.inspect = NULL;
+        for (int k = 0; k < W * H; k++)
+            direct[i][k] = 0;
+        draw[0].alpha = i == 0 ? SMEAR_OPAQUE : SMEAR_CUTOUT;
+        smear_raster_list(&frame, &t, 0);
+    }
+    for (int k = 0; k < W * H; k++)
+        same = same && direct[0][k] == direct[1][k] && full.depth[k] == cut.depth[k];
+    return CHECK(same);
+}
+
+/* Texels have loops of their own, which must say what the general one says. Formats, lights, sizes with loops of their
+ * own and others, velocities, bends of the depth code, all blocks. */
+static void test_texels_in_rows_are_those_of_the_general_loop(void)
+{
+    static const uint8_t size[][2] = { { 64, 64 }, { 32, 32 }, { 64, 32 }, { 2, 64 } };
+    static const enum smear_shade_mode shade[] = { SHADE_NONE, SHADE_FLAT, SHADE_GOURAUD };
+    random_state = 47;
+    for (uint32_t i = 0; i < TEXELS; i++)
+        texels[i] = random_u32() & 0xffffffu;     /* working pixels need no alpha */
+    for (int n = 0; n < 270; n++) {
+        const enum smear_shade_mode mode = shade[n / 3 % 3];
+        list_begin();
+        set_layout(0, true, mode == SHADE_GOURAUD, n % 3, mode);
+        const smear_texture texture = { .texels = texels, .palette = texels, .width = size[n % 4][0],
+                                        .height = size[n % 4][1], .format = (uint8_t)(n / 9 % 3) };
+        smear_sampler_make(&draw[0].sampler, &texture, between(9, 15), false, false);
+        random_kind(between(0, 8), between(0, 3) * 4);
+        if (!check_general())
+            return;
+    }
+}
+
+/* And so have colours between vertices. */
+static void test_colors_in_rows_are_those_of_the_general_loop(void)
+{
+    random_state = 53;
+    for (int n = 0; n < 160; n++) {
+        list_begin();
+        set_layout(0, false, true, 1 + n % 2, SHADE_GOURAUD);      /* what moves is never tiny */
+        frame.linear = SMEAR_WITH_LINEAR && n / 2 % 2 == 1;
+        random_kind(between(0, 8), between(0, 3) * 4);
+        if (!check_general())
+            return;
+    }
+}
+
+/* A ring of rows that is shorter than the frame, and a tile of its own for the colours. */
+enum { RING = 12, BAND = 8, TILE = 16 };
+static uint32_t tile_color[TILE * BAND];
+static struct {
+    uint32_t color[W * RING];
+    uint16_t depth[W * RING];
+    int8_t velocity[W * RING * 2];
+    int32_t inspect[W * RING * 2];
+} ring;
+
+/* Clears what the target will be drawn into, wherever its rows lie. Through the target's pointers: gcc 12 at -Os drops
+ * calls of functions that do nothing but fill static arrays. */
+static void target_clear(const struct smear_raster_target *t, uint16_t depth)
+{
+    for (int32_t y = t->y0; y < t->y1; y++)
+        for (int32_t x = t->x0; x < t->x1; x++) {
+            const struct smear_plane_rows *c = &t->color_rows, *w = &t->window_rows;
+            t->color[(c->slot0 + y - t->y0) % c->ring * c->stride + x - c->x0] = 0x123456u;
+            int32_t at = (w->slot0 + y - t->y0) % w->ring * w->stride + x - w->x0;
+            t->depth[at] = depth;
+            for (int axis = 0; axis < 2; axis++) {
+                if (t->velocity8 != NULL)
+                    t->velocity8[2 * at + axis] = 0;
+                if (t->inspect != NULL)
+                    t->inspect[2 * at + axis] = 0;
+            }
+        }
+}
+
+static void test_rings_of_rows_change_nothing(void)
+{
+    random_state = 23;
+    for (int n = 0; n < 30; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        planes_clear(&cut);
+        for (int32_t y0 = 0; y0 < H; y0 += BAND) {
+            struct smear_raster_target t = target_of(&cut);
+            t.y0 = y0;
+            t.y1 = y0 + BAND;
+            t.color = ring.color;
+            t.depth = ring.depth;
+            t.velocity8 = ring.velocity;
+            t.inspect = ring.inspect;
+            t.color_rows = t.window_rows = (struct smear_plane_rows){ W, y0 % RING, RING, 0 };
+            target_clear(&t, 0);
+            smear_raster_list(&frame, &t, 0);
+            for (int32_t y = y0; y < y0 + BAND; y++)
+                for (int32_t x = 0; x < W; x++) {
+                    int32_t at = y % RING * W + x, to = y * W + x;
+                    cut.color[to] = ring.color[at];
+                    cut.depth[to] = ring.depth[at];
+                    for (int axis = 0; axis < 2; axis++) {
+                        cut.velocity[2 * to + axis] = ring.velocity[2 * at + axis];
+                        cut.inspect[2 * to + axis] = ring.inspect[2 * at + axis];
+                    }
+                }
+        }
+        if (!same_planes(&full, &cut))
+            return;
+    }
+}
+
+static void test_blending_into_tiles_of_their_own_changes_nothing(void)
+{
+    random_state = 24;
+    for (int n = 0; n < 30; n++) {
+        random_list();
+        for (int i = 0; i < SEGMENTS; i++) {
+            draw[i].alpha = SMEAR_BLEND;
+            segment[i].moves = 0;
+        }
+        planes_clear(&full);
+        for (int i = 0; i < W * H; i++)
+            full.depth[i] = 1 << 12;
+        draw_list(&full);
+        for (int32_t y0 = 0; y0 < H; y0 += BAND)
+            for (int32_t x0 = 0; x0 < W; x0 += TILE) {
+                struct smear_raster_target t = target_of(&cut);
+                t.x0 = x0;
+                t.x1 = x0 + TILE;
+                t.y0 = y0;
+                t.y1 = y0 + BAND;
+                t.color = tile_color;
+                t.color_rows = (struct smear_plane_rows){ TILE, 0, BAND, x0 };
+                t.depth = ring.depth;
+                t.velocity8 = NULL;
+                t.inspect = NULL;
+                t.window_rows = (struct smear_plane_rows){ W, y0 % RING, RING, 0 };
+                target_clear(&t, 1 << 12);
+                smear_raster_list(&frame, &t, 0);
+                for (int32_t y = y0; y < y0 + BAND; y++)
+                    for (int32_t x = x0; x < x0 + TILE; x++)
+                        if (!CHECK_EQ(tile_color[(y - y0) * TILE + x - x0], full.color[y * W + x])
+                            || !CHECK_EQ(ring.depth[y % RING * W + x], 1 << 12))
+                            return;
+            }
+    }
+}
+
+static int16_t wide_velocity[W * H * 2];
+
+static void test_wide_velocities_are_the_narrow_ones_where_those_suffice(void)
+{
+    random_state = 24;
+    for (int n = 0; n < 10; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        for (int i = 0; i < W * H * 2; i++)
+            wide_velocity[i] = 0;
+        struct smear_raster_target t = target_of(&full);
+        for (int i = 0; i < W * H; i++)
+            full.depth[i] = 0;
+        t.velocity8 = NULL;
+        t.velocity16 = wide_velocity;
+        smear_raster_list(&frame, &t, 0);
+        for (int i = 0; i < W * H * 2; i++)
+            if (!CHECK_EQ(full.velocity[i], wide_velocity[i]))
+                return;
+    }
+}
+
+void suite_raster(void)
+{
+    RUN(test_corners_on_pixel_centres_follow_the_top_left_rule);
+    RUN(test_the_order_of_the_corners_does_not_matter);
+    RUN(test_random_triangles_of_every_size_cover_exactly_their_centres);
+    RUN(test_boxes_around_the_limit_of_the_small_path_cover_exactly_their_centres);
+    RUN(test_triangles_that_reach_the_guard_band_cover_exactly_their_centres);
+    RUN(test_random_meshes_cover_every_pixel_once);
+    RUN(test_meshes_of_slivers_cover_every_pixel_once);
+    RUN(test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once);
+    RUN(test_fans_to_the_guard_band_cover_every_pixel_once);
+    RUN(test_depth_is_the_plane_through_the_corners);
+    RUN(test_depth_stays_between_the_corners_even_of_slivers);
+    RUN(test_depth_codes_grow_over_the_bend);
+    RUN(test_tiny_and_small_triangles_have_the_depth_of_large_ones);
+    RUN(test_colors_are_interpolated_within_a_code);
+    RUN(test_colors_are_right_in_perspective);
+    RUN(test_colors_of_small_triangles_are_interpolated_within_a_code);
+    RUN(test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel);
+    RUN(test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel);
+    RUN(test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel);
+    RUN(test_texels_of_a_flat_plane_are_exact_away_from_borders);
+    RUN(test_velocities_of_unchanging_depth_are_planes);
+    RUN(test_velocities_of_changing_depth_are_quotients);
+    RUN(test_velocities_of_small_triangles_are_planes);
+    RUN(test_long_velocities_keep_their_direction_and_end_at_the_reach);
+    RUN(test_a_still_triangle_stops_what_it_hides_and_nothing_else);
+    RUN(test_only_columns_of_tiles_with_motion_are_marked);
+    RUN(test_the_nearest_wins_in_any_order_and_the_first_of_equals);
+    RUN(test_cutouts_leave_what_lies_behind_their_holes);
+    RUN(test_blended_triangles_only_change_colour);
+    RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
+    RUN(test_texels_in_rows_are_those_of_the_general_loop);
+    RUN(test_colors_in_rows_are_those_of_the_general_loop);
+    RUN(test_rings_of_rows_change_nothing);
+    RUN(test_blending_into_tiles_of_their_own_changes_nothing);
+    RUN(test_wide_velocities_are_the_narrow_ones_where_those_suffice);
+}
