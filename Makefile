@@ -31,20 +31,26 @@ $(error no TARGET=$(TARGET): make help lists them)
 endif
 include platform/$(TARGET)/target.mk
 
-# The library's rooms, the lowest first: a file includes only what lies in its own room or in those before it
-# (`make layers` checks it). Above them all: frame.c, smear.c.
-ROOMS   := base geometry raster filter ports display temporal layers model
-LIB_SRC := $(wildcard $(ROOMS:%=src/%/*.c) src/*.c)
+# Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
+# Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
+# with others lies in its root, below them.
+SRC_ROOMS  := $(addprefix src/,base geometry raster filter ports display temporal layers model) src
+TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
+PORT_ROOMS := platform platform/common platform/cortexm
+PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
+TEST_ROOMS := tests $(addprefix tests/,data ref unit suite fuzz target shell)
+
+LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
 IMAGE_SRC := $(wildcard tools/image/*.c)
 MODEL_SRC := $(wildcard tools/model/*.c)
 SCENE_SRC := $(wildcard tools/scenes/*.c)
 CONVERT_SRC := $(wildcard tools/convert/*.c)
-CLI_SRC   := $(wildcard tools/cli/*.c)
-VIEW_SRC  := $(filter-out tools/view/host_display.c,$(wildcard tools/view/*.c))
+CLI_SRC   := $(wildcard tools/player/*.c tools/options/*.c tools/cli/*.c)
+VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/cli/,device.c crew.c picture.c say.c) $(MODEL_SRC) \
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(MODEL_SRC) \
     $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c palette.c png_read.c \
         png_write.c ppm.c) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
@@ -105,8 +111,8 @@ $(BIN)/smear-demo: $(call objects,$(DEMO_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 # platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked
-# by its CRCs (tools/view/host_display.c).
-HOST_DISPLAY_SRC := platform/host/platform.c tools/view/host_display.c tools/cli/picture.c \
+# by its CRCs (platform/host/desktop_display.c).
+HOST_DISPLAY_SRC := platform/host/platform.c platform/host/desktop_display.c tools/player/picture.c \
     $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
         console.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
 
@@ -134,9 +140,9 @@ $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix t
 readme-pictures: $(BIN)/smear-demo
 	$(BIN)/smear-demo --readme $(or $(wildcard ../shared/assets),-) tools/demo/pictures
 
-## files of src/ include only what lies above them
+## includes run one way: a file includes only what lies in its own room or below
 layers:
-	sh tests/shell/layers.sh $(ROOMS)
+	sh tests/shell/layers.sh $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(TEST_ROOMS)
 
 ## how src/ is built, measured: longest functions, switches of the top floor
 house:
@@ -160,7 +166,7 @@ dist-test: dist build/tapes/golden.c
 
 ## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
 dist: build/dist-single
-	sh tools/dist/dist.sh $< build/dist $(ROOMS)
+	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
 
 build/dist-single: tools/dist/single.c
 	@mkdir -p $(@D)
@@ -211,7 +217,7 @@ TEST_SRC := tests/run.c tests/test.c tests/rig.c $(wildcard tests/ref/*.c tests/
 TESTS    := $(BUILD)/run
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
-TEST_SRC += $(VIEW_PARTS) tools/cli/picture.c
+TEST_SRC += $(VIEW_PARTS) tools/player/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/unit/test_*.c tests/suite/test_*.c)

@@ -11,11 +11,11 @@
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
  * and right a shorter or longer shutter; start stops and goes on. */
-#include "demo_player.h"
-#include "display.h"
-#include "platform.h"
+#include "platform/demo_player.h"
+#include "platform/display.h"
+#include "platform/platform.h"
 
-#include "print.h"
+#include "platform/print.h"
 
 #include <stdbool.h>
 

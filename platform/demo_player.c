@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* demo_player.c - see demo_player.h. */
-#include "demo_player.h"
+#include "platform/demo_player.h"
 
-#include "play.h"
+#include "platform/play.h"
 
 #define DAY 0xa9d6efu
 

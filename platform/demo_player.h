@@ -3,7 +3,7 @@
 #ifndef SMEAR_DEMO_PLAYER_H
 #define SMEAR_DEMO_PLAYER_H
 
-#include "demo_scene.h"
+#include "platform/demo_scene.h"
 
 struct demo_screen {
     const char *name;

@@ -7,11 +7,11 @@
  * The output holds one tape (platform/play.h) per level of detail, named as in levels[]; its only
  * frame has one draw per prop, in the order of demo_scene.h. Metres; x is the way the car drives,
  * y up, z to its right. */
-#include "demo_scene.h"
+#include "platform/demo_scene.h"
 
-#include "../tools/scenes/build.h"
-#include "../tools/scenes/present.h"
-#include "../tools/scenes/tape.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/present.h"
+#include "tools/scenes/tape.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* demo_scene.c - see demo_scene.h. Two shots: the camera drives ahead of the car and looks back;
  * then it stands beside the road, where a drone hovers and the car rushes by. */
-#include "demo_scene.h"
+#include "platform/demo_scene.h"
 
 #define METRES(x) ((int32_t)((x) * 65536.0))    /* of constants only */
 #define DEGREES(x) ((int32_t)((x) * 65536.0 / 360.0))

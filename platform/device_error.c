@@ -9,7 +9,7 @@
  * frames, in the screen's own light. Frames are those that the target draws, before its display's
  * format rounds them: the library gives the same bits everywhere. Every STEPth frame of the loop
  * counts, as in `demo cost SCREEN BLUR STEP`. */
-#include "demo_player.h"
+#include "platform/demo_player.h"
 
 #include <math.h>
 #include <stdio.h>

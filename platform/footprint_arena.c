@@ -2,9 +2,9 @@
 /* footprint_arena.c - bytes of memory the library wants for contexts of 240x240 pixels,
  * RGB565, 600 triangles, 8 draws: sharp; with a window (reach 12); timed without a window
  * (tiles of 16); timed with one. 0: refused. */
-#include "platform.h"
+#include "platform/platform.h"
 
-#include "print.h"
+#include "platform/print.h"
 
 #include <smear.h>
 

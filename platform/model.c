@@ -8,10 +8,10 @@
  * Keys: up and down nearer or farther; A sharp or blurred.
  *
  * The header is made by `smear convert FILE --name model -o build/model.h`; see programs.mk. */
-#include "display.h"
-#include "platform.h"
+#include "platform/display.h"
+#include "platform/platform.h"
 
-#include "print.h"
+#include "platform/print.h"
 
 #include MODEL_HEADER
 

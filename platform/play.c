@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* play.c - plays tapes; see play.h. */
-#include "play.h"
+#include "platform/play.h"
 
 static int take_band(void *user, const smear_band *band)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* print.c - see print.h. */
-#include "print.h"
+#include "platform/print.h"
 
-#include "platform.h"
+#include "platform/platform.h"
 
 void print_decimal(uint32_t value)
 {

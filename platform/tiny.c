@@ -6,11 +6,11 @@
  *
  * A mean of 8 instants, band by band (desc.accumulate = 2): no window, no lists of movers, sums of 4 rows.
  * The same program draws the same frames on a host with the whole library. */
-#include "platform.h"
-#include "tiny.h"
-#include "tiny_plane.h"
+#include "platform/platform.h"
+#include "platform/tiny.h"
+#include "platform/tiny_plane.h"
 
-#include "print.h"
+#include "platform/print.h"
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* arena.c - platform.h's memory, as the linker script laid it out: the arena from link_arena_start to
  * link_arena_end, the stack as stack.h says. */
-#include "../platform.h"
-#include "stack.h"
+#include "platform/platform.h"
+#include "platform/common/stack.h"
 
 extern uint64_t link_arena_start[], link_arena_end[];
 

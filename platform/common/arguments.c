@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* arguments.c - see arguments.h. */
-#include "arguments.h"
+#include "platform/common/arguments.h"
 
 #include <stddef.h>
 

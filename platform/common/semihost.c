@@ -2,7 +2,7 @@
 /* semihost.c - semihosting calls: the operation in the first register, its argument or a block of them
  * in the second, the result in the first. "Semihosting for AArch32 and AArch64", Arm, release 2.0;
  * "RISC-V Semihosting", RISC-V International. */
-#include "semihost.h"
+#include "platform/common/semihost.h"
 
 enum {
     SYS_OPEN = 0x01,

@@ -6,8 +6,8 @@
  * an instruction: counts are exact to the single instruction and wrap after 2.7e9 of them (a frame of
  * 240x240 by time masks on a Cortex-M0+ takes up to 1.4e9). Other boards have no such timer: programs
  * that read the clock are for mps2 only. */
-#include "../platform.h"
-#include "../common/semihost.h"
+#include "platform/platform.h"
+#include "platform/common/semihost.h"
 
 struct cmsdk_timer {
     uint32_t control, value, reload;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* startup.c - from reset to main on any Cortex-M, without a C library. */
-#include "../common/arguments.h"
-#include "../common/semihost.h"
-#include "../common/stack.h"
-#include "interrupt.h"
+#include "platform/common/arguments.h"
+#include "platform/common/semihost.h"
+#include "platform/common/stack.h"
+#include "platform/cortexm/interrupt.h"
 
 #include <stdint.h>
 

@@ -5,8 +5,8 @@
  * one, and the interrupt at the start of the vertical blank shows it. A frame of half the screen's
  * size fills the screen, every pixel 2x2. Frames of the screen's own size go to mode 3, which has
  * room for one page only. */
-#include "../display.h"
-#include "gba.h"
+#include "platform/display.h"
+#include "platform/gba/gba.h"
 
 enum {
     SCREEN_WIDTH = 240, SCREEN_HEIGHT = 160, PAGE_WIDTH = 160, PAGE_HEIGHT = 128,

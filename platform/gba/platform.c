@@ -3,10 +3,10 @@
  *
  * Text goes to mGBA's debug port, line by line; on a console nobody hears it. The clock is timers 0
  * and 1, cascaded: 32 bits of processor cycles. */
-#include "../platform.h"
-#include "../common/arguments.h"
-#include "gba.h"
-#include "stage.h"
+#include "platform/platform.h"
+#include "platform/common/arguments.h"
+#include "platform/gba/gba.h"
+#include "platform/gba/stage.h"
 
 #include <stdbool.h>
 

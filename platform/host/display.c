@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* display.c - display.h where there is no display: programs check and measure their frames, and say that they cannot show
  * them. */
-#include "../display.h"
+#include "platform/display.h"
 
 bool display_open(smear_desc *desc)
 {

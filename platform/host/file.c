@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* file.c - tiny.h by stdio. */
-#include "../tiny.h"
+#include "platform/tiny.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* platform.c - platform.h on a machine with an operating system. */
-#include "../platform.h"
+#include "platform/platform.h"
 
 #include <stdio.h>
 #include <stdlib.h>

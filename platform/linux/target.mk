@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Linux without a window system. The display is that of desktops (tools/view/host_display.c), on DRM
+# Linux without a window system. The display is that of desktops (platform/host/desktop_display.c), on DRM
 # with page flips or on the framebuffer device; tests boot a kernel with the demo as only process.
 # Packages: qemu-system-x86; boot.sh fetches the distribution's kernel
 CC ?= cc

@@ -8,9 +8,9 @@
  * PC7 D/C, PD0 select of the SD card on the same bus (high: not selected).
  *
  * References: LM3S6965 data sheet (SSI, GPIO), SSD0323 data sheet. */
-#include "../display.h"
+#include "platform/display.h"
 
-#include "../cortexm/interrupt.h"
+#include "platform/cortexm/interrupt.h"
 
 #define REG(address) (*(volatile uint32_t *)(address))
 

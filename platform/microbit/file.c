@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* file.c - tiny.h by semihosting. */
-#include "../common/semihost.h"
-#include "../tiny.h"
+#include "platform/common/semihost.h"
+#include "platform/tiny.h"
 
 enum { MODE_WB = 5 };
 

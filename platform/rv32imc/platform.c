@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* platform.c - platform.h on QEMU's virt machine. Under `qemu -icount shift=0` the counter of retired
  * instructions is exact. */
-#include "../platform.h"
-#include "../common/arguments.h"
-#include "../common/semihost.h"
+#include "platform/platform.h"
+#include "platform/common/arguments.h"
+#include "platform/common/semihost.h"
 
 int main(int argc, char **argv);
 void riscv_main(void);

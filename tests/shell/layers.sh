@@ -1,28 +1,44 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# layers.sh [--order] ROOM...
-# Checks that includes run one way. ROOM... are the folders of src/, the lowest first; files of src/ itself are the top
-# floor. A file includes files of its own room and of rooms below it, within a room nothing includes itself by way of
-# others, and the public headers include nothing of src/. With --order it prints the files instead, each after all that
-# it includes: headers first, then sources.
+# layers.sh [--order] FOLDER...
+# Checks that includes run one way. FOLDER... are the rooms that hold sources, the lowest first. A file includes files of
+# its own room and of rooms below it, and nothing includes itself by way of others. The public headers include nothing
+# but each other. An include names a file from the root, from src/, from include/, or beside the file that includes it.
+# With --order it prints the files instead, each after all that it includes: headers first, then sources.
 set -u
 mode=check
 [ "${1:-}" != --order ] || { mode=order; shift; }
-rooms=$*
 if grep -n '^#include "' include/*.h | grep -v -e '"smear[a-z_]*\.h"'; then
     echo "layers: a public header includes a private one"
     exit 1
 fi
-# shellcheck disable=SC2046
-awk -v rooms="$rooms" -v mode="$mode" '
-    function room_of(path,    part) {
-        part = path
-        sub(/^src\//, "", part)
-        return part ~ /\// ? substr(part, 1, index(part, "/") - 1) : "top"
+if [ $mode = check ]; then
+    for folder in $(find src tools platform tests -name '*.[ch]' -exec dirname {} + | sort -u); do
+        case " $* " in
+        *" $folder "*) ;;
+        *) echo "layers: the Makefile names no room $folder"; exit 1 ;;
+        esac
+    done
+fi
+files=$(for folder in "$@"; do find "$folder" -maxdepth 1 -name '*.[ch]' | LC_ALL=C sort; done)
+# shellcheck disable=SC2086
+awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
+    function room_of(path) {
+        sub(/\/[^\/]*$/, "", path)
+        return path
     }
     function complain(text) {
         print "layers: " text
         bad = 1
+    }
+    function place_of(header, path) {
+        if ((room_of(path) "/" header) in known)
+            return room_of(path) "/" header
+        if (header in known)
+            return header
+        if (("src/" header) in known)
+            return "src/" header
+        return ("include/" header) in known ? "include/" header : ""
     }
     # Depth first: a file after all that it includes.
     function visit(path,    i) {
@@ -42,37 +58,31 @@ awk -v rooms="$rooms" -v mode="$mode" '
         n = split(rooms, name, " ")
         for (i = 1; i <= n; i++)
             floor[name[i]] = i
-        floor["top"] = n + 1
+        total = split(names, list, " ")
+        for (i = 1; i <= total; i++)
+            known[list[i]] = 1
     }
-    FNR == 1 {
-        files[++file_count] = FILENAME
-        known[FILENAME] = 1
-        if (!(room_of(FILENAME) in floor))
-            complain(FILENAME " lies in no room that the Makefile names")
-    }
+    FNR == 1 { files[++file_count] = FILENAME }
     match($0, /^#include "[^"]*"/) {
         header = substr($0, 11, RLENGTH - 11)
-        if (header ~ /^(smear|smear_config|smear_model|smear_memory|smear_math)\.h$/)
-            next
         if (header == "context.h")      # which stages still see: until they get rows
             next
-        include[FILENAME, ++count[FILENAME]] = "src/" header
-        if (floor[room_of("src/" header)] > floor[room_of(FILENAME)])
-            complain(FILENAME " includes " header ", which is not below it")
+        place = place_of(header, FILENAME)
+        if (place == "")
+            complain(FILENAME " includes " header ", which is not there")
+        else if (place !~ /^include\//) {
+            include[FILENAME, ++count[FILENAME]] = place
+            if (floor[room_of(place)] > floor[room_of(FILENAME)])
+                complain(FILENAME " includes " place ", which is not below it")
+        }
     }
     END {
         for (i = 1; i <= file_count; i++)
-            for (k = 1; k <= count[files[i]]; k++)
-                if (!(include[files[i], k] in known))
-                    complain(files[i] " includes " include[files[i], k] ", which is not there")
-        for (floor_now = 1; floor_now <= n + 1; floor_now++)
-            for (i = 1; i <= file_count; i++)
-                if (floor[room_of(files[i])] == floor_now)
-                    visit(files[i])
+            visit(files[i])
         if (bad)
             exit 1
         if (mode == "check") {
-            print "layers: " file_count " files in " n + 1 " rooms, in order"
+            print "layers: " file_count " files in " n " rooms, in order"
             exit 0
         }
         for (i = 1; i <= placed; i++)
@@ -81,4 +91,4 @@ awk -v rooms="$rooms" -v mode="$mode" '
         for (i = 1; i <= placed; i++)
             if (ordered[i] ~ /\.c$/)
                 print ordered[i]
-    }' $(ls src/*.[ch] src/*/*.[ch])
+    }' $files

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# view_display.sh - firmware on a desktop's display (tools/view/host_display.c): the demo's frames are
+# view_display.sh - firmware on a desktop's display (platform/host/desktop_display.c): the demo's frames are
 # those of the boards, environment variables do what they say.
 #
 #     sh tests/shell/view_display.sh build/host/demo-screen

@@ -4,7 +4,7 @@
  * wires. */
 #include "tests/test.h"
 
-#include "tools/cli/picture.h"
+#include "tools/player/picture.h"
 #include "tools/scenes/present.h"
 #include "tools/scenes/xform.h"
 #include "tools/view/board.h"

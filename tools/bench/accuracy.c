@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* accuracy.c - how right the sharp frames of the peers' scenes are: against the reference in double
  * precision, and whether meshes are closed. */
-#include "layers.h"
-#include "sheet.h"
-#include "take.h"
+#include "tools/bench/layers.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
 
-#include "../ref/ref.h"
+#include "tools/ref/ref.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,10 +7,10 @@
  * Without arguments, the first six. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
-#include "chart.h"
-#include "count.h"
-#include "groups.h"
-#include "sheet.h"
+#include "tools/bench/chart.h"
+#include "tools/bench/count.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/sheet.h"
 
 #include <errno.h>
 #include <stdlib.h>

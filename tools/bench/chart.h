@@ -17,10 +17,10 @@
 #ifndef SMEAR_BENCH_CHART_H
 #define SMEAR_BENCH_CHART_H
 
-#include "../failure.h"
-#include "count.h"
-#include "kinds.h"
-#include "take.h"
+#include "tools/failure.h"
+#include "tools/bench/count.h"
+#include "tools/bench/kinds.h"
+#include "tools/bench/take.h"
 
 #include <stdbool.h>
 #include <stdint.h>

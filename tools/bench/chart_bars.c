@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_bars.c - the bars that blur is held to, met or missed, in the main condition. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "sheet.h"
+#include "tools/bench/sheet.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,10 +4,10 @@
  * Whatever is measured is kept in build/chart/measured.csv together with a number that stands for
  * the program, so that a run goes on where another was stopped, and a changed program measures
  * anew. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "../image/image.h"
-#include "sheet.h"
+#include "tools/image/image.h"
+#include "tools/bench/sheet.h"
 
 #include <errno.h>
 #include <stdlib.h>

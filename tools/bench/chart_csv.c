@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_csv.c - one line for every scene and setting. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

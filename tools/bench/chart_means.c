@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_means.c - means over groups of scenes, and frontiers. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "sheet.h"
+#include "tools/bench/sheet.h"
 
 static const double least_error = 0.01;     /* so that geometric means stay finite */
 

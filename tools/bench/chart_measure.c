@@ -4,10 +4,10 @@
  * A job is one scene under one condition: its pictures are drawn here, its instructions counted in
  * a process of their own. Jobs are shared among threads; times are taken when all are done, so that
  * nothing of ours disturbs them. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "sheet.h"
-#include "truth.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/truth.h"
 
 #include <math.h>
 #include <pthread.h>

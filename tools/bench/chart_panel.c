@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_panel.c - see chart_panel.h. Drawn from the ground up: shade, grid, frontier, curves,
  * labels. */
-#include "chart_panel.h"
+#include "tools/bench/chart_panel.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 #ifndef SMEAR_BENCH_CHART_PANEL_H
 #define SMEAR_BENCH_CHART_PANEL_H
 
-#include "chart.h"
-#include "labels.h"
-#include "svg.h"
+#include "tools/bench/chart.h"
+#include "tools/bench/labels.h"
+#include "tools/bench/svg.h"
 
 #define PANEL_INK "#1f2937"
 #define PANEL_PALE "#6b7280"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_plot.c - the pictures of a chart: panels, titles, axes. */
-#include "chart_panel.h"
+#include "tools/bench/chart_panel.h"
 
 static const char cost_axis[] = "cost: instructions per frame, relative to the sharp frame";
 static const char error_axis[] = "error: RMSE in codes of 1/255";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_settings.c - what is measured. A new setting is a line here and nothing else. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
 #include <string.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* chart_tables.c - means for the terminal; means and every scene in Markdown. */
-#include "chart.h"
+#include "tools/bench/chart.h"
 
-#include "../image/image.h"
-#include "sheet.h"
-#include "truth.h"
+#include "tools/image/image.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/truth.h"
 
 #include <stdlib.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* count.c - starts callgrind, and reads the totals of its dumps: one for every call of
  * bench_frame. */
-#include "count.h"
+#include "tools/bench/count.h"
 
-#include "groups.h"
-#include "take.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/take.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #ifndef SMEAR_BENCH_COUNT_H
 #define SMEAR_BENCH_COUNT_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stdbool.h>
 #include <stdint.h>

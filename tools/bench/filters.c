@@ -2,11 +2,11 @@
 /* filters.c - what the camera's velocity costs per pixel, whatever the scene; passes
  * against direct taps; the other filters on the scenes they are for. Linear light, poses at
  * shutter open and close, XRGB8888, 180 degrees. */
-#include "groups.h"
-#include "kinds.h"
-#include "sheet.h"
-#include "take.h"
-#include "truth.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/kinds.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
+#include "tools/bench/truth.h"
 
 #include <inttypes.h>
 #include <math.h>

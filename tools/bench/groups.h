@@ -4,7 +4,7 @@
 #ifndef SMEAR_BENCH_GROUPS_H
 #define SMEAR_BENCH_GROUPS_H
 
-#include "take.h"
+#include "tools/bench/take.h"
 
 /* False when the group or the number does not exist. */
 bool group_take(const char *group, int index, struct take *out);

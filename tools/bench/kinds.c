@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* kinds.c - the table of kinds.h. */
-#include "kinds.h"
+#include "tools/bench/kinds.h"
 
 #include <string.h>
 

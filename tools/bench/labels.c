@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* labels.c - tries places around each anchor, nearest first, one label after the other; then once
  * more, as those placed later may have left better ones. */
-#include "labels.h"
+#include "tools/bench/labels.h"
 
 #include <math.h>
 #include <stdbool.h>

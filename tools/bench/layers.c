@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* layers.c - a scene around a scene that swaps every surface for glass. */
-#include "layers.h"
+#include "tools/bench/layers.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,8 +9,8 @@
 #ifndef SMEAR_BENCH_LAYERS_H
 #define SMEAR_BENCH_LAYERS_H
 
-#include "../failure.h"
-#include "../scenes/scene.h"
+#include "tools/failure.h"
+#include "tools/scenes/scene.h"
 
 /* `scene` must outlive `out`, which is freed with scene_free. */
 bool layers_scene(struct scene *scene, struct scene *out, struct failure *f);

@@ -2,7 +2,7 @@
 /* memory.c - the arena of two small displays, meshes excluded: smear_memory_size() of this
  * machine (pointers are twice as wide here as on a microcontroller: context and draws are
  * a little larger) and the macro's constant. */
-#include "sheet.h"
+#include "tools/bench/sheet.h"
 
 #include <smear.h>
 #include <stdio.h>

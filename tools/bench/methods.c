@@ -6,11 +6,11 @@
  * at shutter open and close, XRGB8888, reach of 5 % of the height, 180 degrees. Error is the RMSE
  * in codes against 256 exact instants. "object" is the geometric mean over the scenes in which
  * things move before a still camera, "camera" over those in which the camera moves. */
-#include "groups.h"
-#include "kinds.h"
-#include "sheet.h"
-#include "take.h"
-#include "truth.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/kinds.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
+#include "tools/bench/truth.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -8,9 +8,9 @@
  * vertices in the cache (peers keep all), room for every triangle so that no frame is drawn in
  * parts. "Whole" is one band of the frame's height. The figure beside ours is the best peer that
  * tests depth and, in B and C, corrects perspective. */
-#include "groups.h"
-#include "sheet.h"
-#include "take.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
 
 #include <inttypes.h>
 #include <string.h>

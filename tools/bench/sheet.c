@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* sheet.c - bars, means, clocks. */
-#include "sheet.h"
+#include "tools/bench/sheet.h"
 
 #include <math.h>
 #include <stdlib.h>

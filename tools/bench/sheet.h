@@ -3,8 +3,8 @@
 #ifndef SMEAR_BENCH_SHEET_H
 #define SMEAR_BENCH_SHEET_H
 
-#include "../failure.h"
-#include "count.h"
+#include "tools/failure.h"
+#include "tools/bench/count.h"
 
 #include <stdbool.h>
 

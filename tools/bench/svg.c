@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* svg.c - writes SVG into memory, then into a file. */
-#include "svg.h"
+#include "tools/bench/svg.h"
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <math.h>
 #include <stdlib.h>

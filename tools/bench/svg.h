@@ -4,8 +4,8 @@
 #ifndef SMEAR_BENCH_SVG_H
 #define SMEAR_BENCH_SVG_H
 
-#include "../failure.h"
-#include "chart.h"
+#include "tools/failure.h"
+#include "tools/bench/chart.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* take.c - sets up scenes and contexts, draws, collects what is flushed. */
-#include "take.h"
+#include "tools/bench/take.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -8,10 +8,10 @@
 #ifndef SMEAR_BENCH_TAKE_H
 #define SMEAR_BENCH_TAKE_H
 
-#include "../failure.h"
-#include "../image/image.h"
-#include "../scenes/present.h"
-#include "../scenes/scene.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
+#include "tools/scenes/present.h"
+#include "tools/scenes/scene.h"
 
 #include <smear.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* targets.c - reads what target_bench printed on a Cortex-M (instructions per frame of the peers'
  * scenes at 320x240), and puts it beside the peers' figures on the same core. */
-#include "sheet.h"
+#include "tools/bench/sheet.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,9 +5,9 @@
  * Counted: instructions on core 0 outside the jobs that cores take, against all instructions of
  * both cores; waiting is left out. Timed: one worker and two, in turn, on this machine as it is
  * now. */
-#include "groups.h"
-#include "sheet.h"
-#include "take.h"
+#include "tools/bench/groups.h"
+#include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
 
 #include <inttypes.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* truth.c - draws truths, with the reference or with the library, or reads what was drawn
  * before. */
-#include "truth.h"
+#include "tools/bench/truth.h"
 
-#include "take.h"
-#include "../ref/ref.h"
+#include "tools/bench/take.h"
+#include "tools/ref/ref.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -3,8 +3,8 @@
 #ifndef SMEAR_BENCH_TRUTH_H
 #define SMEAR_BENCH_TRUTH_H
 
-#include "../failure.h"
-#include "../image/image.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
 
 #include <stdbool.h>
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* compare.c - `smear compare`: how far two pictures are from each other. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "../image/file.h"
-#include "../image/image.h"
-#include "arguments.h"
-#include "picture.h"
-#include "say.h"
-#include "sink.h"
+#include "tools/image/file.h"
+#include "tools/image/image.h"
+#include "tools/options/arguments.h"
+#include "tools/player/picture.h"
+#include "tools/options/say.h"
+#include "tools/options/sink.h"
 
 #include <math.h>
 #include <stdlib.h>

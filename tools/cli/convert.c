@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* convert.c - `smear convert`: a model as constant data for firmware. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "../convert/convert.h"
-#include "../image/image.h"
-#include "arguments.h"
-#include "say.h"
-#include "source.h"
+#include "tools/convert/convert.h"
+#include "tools/image/image.h"
+#include "tools/options/arguments.h"
+#include "tools/options/say.h"
+#include "tools/options/source.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* help.c - `smear help`: what the program can do, on standard output. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "arguments.h"
-#include "say.h"
+#include "tools/options/arguments.h"
+#include "tools/options/say.h"
 
 #include <string.h>
 

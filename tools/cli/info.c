@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* info.c - `smear info`: what is in a scene. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "arguments.h"
-#include "memory.h"
-#include "say.h"
-#include "source.h"
+#include "tools/options/arguments.h"
+#include "tools/player/memory.h"
+#include "tools/options/say.h"
+#include "tools/options/source.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* main.c - the program `smear`: finds the command and hands over. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "../image/file.h"
-#include "arguments.h"
-#include "say.h"
+#include "tools/image/file.h"
+#include "tools/options/arguments.h"
+#include "tools/options/say.h"
 #include "smear.h"
 
 #include <errno.h>

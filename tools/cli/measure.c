@@ -2,9 +2,9 @@
 /* measure.c - `smear bench` and `smear chart`: the program smear-bench, which is built with this
  * one and lies beside it. It is one of its own because it runs itself under callgrind and brings a
  * second renderer to measure against. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "say.h"
+#include "tools/options/say.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* render.c - `smear render`: frames of a scene through the library into files and statistics. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "device.h"
-#include "exact.h"
-#include "options.h"
-#include "picture.h"
-#include "planes.h"
-#include "say.h"
-#include "setup.h"
-#include "stats.h"
+#include "tools/player/device.h"
+#include "tools/player/exact.h"
+#include "tools/options/options.h"
+#include "tools/player/picture.h"
+#include "tools/player/planes.h"
+#include "tools/options/say.h"
+#include "tools/options/setup.h"
+#include "tools/player/stats.h"
 
 #include <stdlib.h>
 #include <string.h>

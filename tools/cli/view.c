@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* view.c - `smear view`: the options of `render` that say what is drawn, and those of a viewer. */
-#include "commands.h"
+#include "tools/cli/commands.h"
 
-#include "arguments.h"
-#include "options.h"
-#include "say.h"
+#include "tools/options/arguments.h"
+#include "tools/options/options.h"
+#include "tools/options/say.h"
 
-#include "../view/board.h"
-#include "../view/control.h"
-#include "../view/view.h"
+#include "tools/view/board.h"
+#include "tools/view/control.h"
+#include "tools/view/view.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* blob.c - a conversion as a .smr file: src/model/blob.h has the layout. Written byte by byte, low byte first, so
  * that the host's byte order does not matter. */
-#include "build.h"
+#include "tools/convert/build.h"
 
 #include "model/blob.h"
-#include "../image/buffer.h"
-#include "../image/image.h"
+#include "tools/image/buffer.h"
+#include "tools/image/image.h"
 
 static void put_u16(struct buffer *b, unsigned value)
 {

@@ -3,9 +3,9 @@
 #ifndef SMEAR_TOOLS_CONVERT_BUILD_H
 #define SMEAR_TOOLS_CONVERT_BUILD_H
 
-#include "convert.h"
+#include "tools/convert/convert.h"
 
-#include "../scenes/present_surface.h"
+#include "tools/scenes/present_surface.h"
 
 /* ------------------------------------------------------------------ memory */
 

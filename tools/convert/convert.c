@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* convert.c - the order of a conversion's stages, and what they share. See convert.h. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
+#include "tools/convert/exact.h"
 
-#include "../model/matrix.h"
+#include "tools/model/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>

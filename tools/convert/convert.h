@@ -17,8 +17,8 @@
 #ifndef SMEAR_TOOLS_CONVERT_H
 #define SMEAR_TOOLS_CONVERT_H
 
-#include "../failure.h"
-#include "../model/model.h"
+#include "tools/failure.h"
+#include "tools/model/model.h"
 
 #include <smear_model.h>
 #include <stdbool.h>

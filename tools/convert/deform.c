@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* deform.c - skins and morph targets in fixed point. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
+#include "tools/convert/exact.h"
 
-#include "../model/matrix.h"
+#include "tools/model/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>

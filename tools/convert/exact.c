@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* exact.c - see exact.h. */
-#include "exact.h"
+#include "tools/convert/exact.h"
 
 #include "base/tables.h"
 

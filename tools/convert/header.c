@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* header.c - a conversion as a C header: typed constant arrays and the
  * smear_model that points to them. C99 and C++. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "../image/buffer.h"
+#include "tools/image/buffer.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

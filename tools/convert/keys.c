@@ -5,10 +5,10 @@
  * where it bends; then as few of those instants as will do become keys: each segment is made as long as the
  * mixture stays within the tolerance at all instants in it. Errors are in world units, by how far the node's
  * vertices reach; what skins and chains of nodes make of them together is measured afterwards (measure.c). */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
-#include "track.h"
+#include "tools/convert/exact.h"
+#include "tools/convert/track.h"
 
 #include <math.h>
 #include <string.h>

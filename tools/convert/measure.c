@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* measure.c - what a conversion costs, and how far its vertices are from where the model has them: the result
  * is played by the code that plays it on the device. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "../model/matrix.h"
+#include "tools/model/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,12 +2,12 @@
 /* nodes.c - which nodes of a model have to be nodes on the device. The others go into what hangs on them:
  * vertices of a mesh that stands still, matrices of joints. Then scales: every node's basis is kept near one
  * by a power of two, and places are counted in units that suit the model's size. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
-#include "track.h"
+#include "tools/convert/exact.h"
+#include "tools/convert/track.h"
 
-#include "../model/matrix.h"
+#include "tools/model/matrix.h"
 
 #include <math.h>
 #include <string.h>

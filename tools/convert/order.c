@@ -7,7 +7,7 @@
  * taken one by one: of those at a vertex in the cache the one that has to transform the fewest vertices;
  * among equals the one whose vertices have the fewest triangles left, or lie there longest. Whichever order
  * transforms the fewest vertices is kept, the file's own among them. */
-#include "build.h"
+#include "tools/convert/build.h"
 
 #include <limits.h>
 #include <string.h>

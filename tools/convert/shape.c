@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* shape.c - which draws of the model become one draw of the result,
  * and their vertices on grids of int16 steps. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
+#include "tools/convert/exact.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* texture.c - smaller pictures, palettes, and colours instead of a texture. Integers throughout, so that the
  * same picture gives the same bytes on every host. */
-#include "build.h"
+#include "tools/convert/build.h"
 
-#include "exact.h"
+#include "tools/convert/exact.h"
 
 #include "base/tables.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* track.c - see track.h. */
-#include "track.h"
+#include "tools/convert/track.h"
 
-#include "exact.h"
+#include "tools/convert/exact.h"
 
-#include "../model/matrix.h"
+#include "tools/model/matrix.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_CONVERT_TRACK_H
 #define SMEAR_TOOLS_CONVERT_TRACK_H
 
-#include "../model/model.h"
+#include "tools/model/model.h"
 
 /* The channel's values at `time`; rotations have length 1. */
 void track_sample(const struct model_channel *channel, double time, double *out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* weld.c - vertices that are equal in everything the device sees become one; triangles that lose a corner by
  * it go. Vertices keep the order in which they come first. */
-#include "build.h"
+#include "tools/convert/build.h"
 
 #include <string.h>
 

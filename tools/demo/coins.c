@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* coins.c - a platform game: the hero jumps from one platform to the next through turning coins. */
-#include "dioramas.h"
+#include "tools/demo/dioramas.h"
 
-#include "../scenes/demo.h"
+#include "tools/scenes/demo.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* diorama.c - see diorama.h. Every file is a scene of its own (model_scene.c); a diorama poses each
  * once per actor and gathers the draws. */
-#include "diorama.h"
+#include "tools/demo/diorama.h"
 
-#include "../model/model.h"
+#include "tools/model/model.h"
 
 #include <math.h>
 #include <stdlib.h>

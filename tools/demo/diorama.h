@@ -6,9 +6,9 @@
 #ifndef SMEAR_TOOLS_DEMO_DIORAMA_H
 #define SMEAR_TOOLS_DEMO_DIORAMA_H
 
-#include "../failure.h"
-#include "../scenes/scene.h"
-#include "../scenes/stage.h"
+#include "tools/failure.h"
+#include "tools/scenes/scene.h"
+#include "tools/scenes/stage.h"
 
 #include <stdbool.h>
 

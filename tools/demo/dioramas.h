@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_DEMO_DIORAMAS_H
 #define SMEAR_TOOLS_DEMO_DIORAMAS_H
 
-#include "diorama.h"
+#include "tools/demo/diorama.h"
 
 extern const struct diorama_kind diorama_rally;     /* trucks on a forest track, camera alongside */
 extern const struct diorama_kind diorama_pass;      /* the same trucks rush past a still camera */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* figures.c - figures that move by their own clips: robot and fox run along the built-in track
  * (chase), the robot dances before fans (dance), fans turn in the wind (wind). */
-#include "dioramas.h"
+#include "tools/demo/dioramas.h"
 
-#include "../scenes/build.h"
-#include "../scenes/demo.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/demo.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* film.c - see film.h. */
-#include "film.h"
+#include "tools/demo/film.h"
 
-#include "../cli/picture.h"
+#include "tools/player/picture.h"
 
 /* Half of each frame's time, as film cameras have it. The scenes are functions of time, so the
  * library gets the poses at which the shutter opens and closes. */

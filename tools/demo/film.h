@@ -4,11 +4,11 @@
 #ifndef SMEAR_TOOLS_DEMO_FILM_H
 #define SMEAR_TOOLS_DEMO_FILM_H
 
-#include "../cli/device.h"
-#include "../failure.h"
-#include "../image/image.h"
-#include "../scenes/present.h"
-#include "../scenes/scene.h"
+#include "tools/player/device.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
+#include "tools/scenes/present.h"
+#include "tools/scenes/scene.h"
 
 #include <smear.h>
 #include <stdbool.h>

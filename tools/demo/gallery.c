@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gallery.c - see gallery.h. */
-#include "gallery.h"
+#include "tools/demo/gallery.h"
 
 #include <errno.h>
 #include <math.h>

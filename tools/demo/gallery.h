@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_DEMO_GALLERY_H
 #define SMEAR_TOOLS_DEMO_GALLERY_H
 
-#include "../failure.h"
-#include "../image/image.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
 
 #include <stdbool.h>
 

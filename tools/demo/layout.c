@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* layout.c - see layout.h. */
-#include "layout.h"
+#include "tools/demo/layout.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_DEMO_LAYOUT_H
 #define SMEAR_TOOLS_DEMO_LAYOUT_H
 
-#include "../failure.h"
-#include "../image/image.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
 
 /* Side by side, with a white line of `gap` pixels between neighbours. All of one size. */
 bool layout_row(const struct image *pictures, int count, int gap, struct image *out,

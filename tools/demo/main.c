@@ -7,15 +7,15 @@
  * ASSETS is a folder of models. With `-` only the built-in scenes are shown, and a scene whose
  * models are missing or broken is named and left out. --readme writes the pictures of the README
  * instead. */
-#include "dioramas.h"
-#include "film.h"
-#include "gallery.h"
-#include "layout.h"
-#include "night.h"
+#include "tools/demo/dioramas.h"
+#include "tools/demo/film.h"
+#include "tools/demo/gallery.h"
+#include "tools/demo/layout.h"
+#include "tools/demo/night.h"
 
-#include "../cli/say.h"
-#include "../image/file.h"
-#include "../scenes/builtin.h"
+#include "tools/options/say.h"
+#include "tools/image/file.h"
+#include "tools/scenes/builtin.h"
 
 #include <errno.h>
 #include <stdio.h>

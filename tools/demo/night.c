@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* night.c - a scene for displays of few greys: windmills before a black sky. */
-#include "night.h"
+#include "tools/demo/night.h"
 
-#include "../scenes/build.h"
+#include "tools/scenes/build.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_DEMO_NIGHT_H
 #define SMEAR_TOOLS_DEMO_NIGHT_H
 
-#include "../failure.h"
-#include "../scenes/scene.h"
+#include "tools/failure.h"
+#include "tools/scenes/scene.h"
 
 enum { NIGHT_LOOP_FRAMES = 48 };
 

@@ -4,10 +4,10 @@
  *
  * Metres; the track runs along x, z to the right of those who drive. Vehicles and pieces of track
  * come along +z from their files. */
-#include "dioramas.h"
+#include "tools/demo/dioramas.h"
 
-#include "../scenes/build.h"
-#include "../scenes/demo.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/demo.h"
 
 #include <math.h>
 

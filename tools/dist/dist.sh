@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # dist.sh SINGLE-TOOL OUT ROOM...
 # Writes the forms in which people take a library: OUT/single (smear.c and smear.h), and OUT/FORM/smear for CMake,
-# PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests. ROOM... are the folders of src/,
-# the lowest first.
+# PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests. ROOM... are the folders of src/, src/ itself
+# last, the lowest first.
 set -eu
 tool=$1 out=$2
 shift 2

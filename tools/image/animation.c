@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* animation.c - the life of an animation file; gif.c and apng.c know the formats. */
-#include "animation.h"
+#include "tools/image/animation.h"
 
 #include <errno.h>
 

@@ -3,9 +3,9 @@
 #ifndef SMEAR_TOOLS_IMAGE_ANIMATION_H
 #define SMEAR_TOOLS_IMAGE_ANIMATION_H
 
-#include "file.h"
-#include "image.h"
-#include "png.h"
+#include "tools/image/file.h"
+#include "tools/image/image.h"
+#include "tools/image/png.h"
 
 struct animation_writer;
 

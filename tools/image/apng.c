@@ -4,7 +4,7 @@
  * Every frame replaces the rectangle that differs from what is shown, alpha included. The first
  * frame decides whether the file has alpha: the header stands before the others, and an alpha that
  * is never used would cost 10 to 15 % of the file. */
-#include "animation.h"
+#include "tools/image/animation.h"
 
 #include <errno.h>
 

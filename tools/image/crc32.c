@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* crc32.c - the checksum of PNG chunks and of frame statistics (CRC-32/ISO-HDLC, as in zlib). */
-#include "image.h"
+#include "tools/image/image.h"
 
 /* The remainders of the 16 values of half a byte under the reflected polynomial 0xedb88320. Two
  * steps per byte instead of one keep the table at 64 bytes; files are dominated by compression

@@ -6,8 +6,8 @@
  * the next position starts a longer one. The
  * resulting tokens are written in blocks, each with its own Huffman codes, the fixed ones, or
  * stored, whichever is the smallest. */
-#include "deflate.h"
-#include "inflate.h"
+#include "tools/image/deflate.h"
+#include "tools/image/inflate.h"
 
 enum {
     WINDOW = 32768,             /* distances stay below this */

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_IMAGE_DEFLATE_H
 #define SMEAR_TOOLS_IMAGE_DEFLATE_H
 
-#include "buffer.h"
+#include "tools/image/buffer.h"
 
 /* Appends a zlib stream of the `size` bytes (below 2^32) to `out`; false without memory. */
 bool deflate_zlib(const uint8_t *bytes, size_t size, struct buffer *out);

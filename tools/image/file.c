@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* file.c - whole files in, complete files out. */
-#include "file.h"
-#include "image.h"
+#include "tools/image/file.h"
+#include "tools/image/image.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_IMAGE_FILE_H
 #define SMEAR_TOOLS_IMAGE_FILE_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stdio.h>
 

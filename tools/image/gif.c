@@ -5,8 +5,8 @@
  * changed, and inside it the pixels that have not are transparent: they cost little, take no part
  * in choosing the palette, and keep their dither, so still parts do not flicker. Translucent
  * pictures are seen on black. */
-#include "animation.h"
-#include "palette.h"
+#include "tools/image/animation.h"
+#include "tools/image/palette.h"
 
 enum {
     MAX_CODES = 4096,           /* of LZW; 12 bits */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* image.c - pictures in memory, and loading whichever format a file has. */
-#include "image.h"
+#include "tools/image/image.h"
 
 #include <stdlib.h>
 #include <string.h>

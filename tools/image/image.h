@@ -7,7 +7,7 @@
 #ifndef SMEAR_TOOLS_IMAGE_H
 #define SMEAR_TOOLS_IMAGE_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -4,7 +4,7 @@
  * RFC 1951. Everything the format forbids is refused: codes that are over-full or, except for a
  * lone code, incomplete; a block without an end code; the reserved symbols; distances before the
  * start. */
-#include "inflate.h"
+#include "tools/image/inflate.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_IMAGE_INFLATE_H
 #define SMEAR_TOOLS_IMAGE_INFLATE_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stddef.h>
 #include <stdint.h>

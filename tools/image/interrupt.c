@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* interrupt.c - what a signal ends leaves no unfinished files. */
-#include "file.h"
+#include "tools/image/file.h"
 
 #include <signal.h>
 #include <unistd.h>

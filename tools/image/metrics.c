@@ -8,7 +8,7 @@
  * Both SSIM and FLIP are convolutions with separable kernels. Rows are convolved along x when the
  * window of the column convolution first needs them, and kept in a ring as high as the kernel, so
  * memory grows with the width and the radius but not with the height. */
-#include "image.h"
+#include "tools/image/image.h"
 
 #include <math.h>
 #include <stdlib.h>

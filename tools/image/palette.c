@@ -4,7 +4,7 @@
  * Colours are compared in luma and two colour differences, all linear in sRGB codes, so that a
  * mixture of two colours lies on the line between them. The palette is a variance-based median cut
  * of the frame's histogram, refined by k-means. */
-#include "palette.h"
+#include "tools/image/palette.h"
 
 #include <float.h>
 #include <math.h>

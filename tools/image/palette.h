@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_IMAGE_PALETTE_H
 #define SMEAR_TOOLS_IMAGE_PALETTE_H
 
-#include "image.h"
+#include "tools/image/image.h"
 
 struct palette {
     int count;                  /* 0..256 */

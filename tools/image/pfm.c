@@ -4,8 +4,8 @@
  * A header of three lines, "Pf" (1 channel) or "PF" (3), the size, and a scale whose sign tells the
  * byte order (negative: little-endian); then the floats of IEEE 754, bottom row first. The size of
  * the scale has no agreed meaning and is ignored. Values may be infinite or NaN. */
-#include "buffer.h"
-#include "image.h"
+#include "tools/image/buffer.h"
+#include "tools/image/image.h"
 
 #include <stdio.h>
 

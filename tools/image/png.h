@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_IMAGE_PNG_H
 #define SMEAR_TOOLS_IMAGE_PNG_H
 
-#include "buffer.h"
-#include "image.h"
+#include "tools/image/buffer.h"
+#include "tools/image/image.h"
 
 extern const uint8_t png_signature[8];
 

@@ -4,8 +4,8 @@
  * Strict where the file is damaged (checksums, order of chunks, pixels missing), silent about what
  * a picture does not need: ancillary chunks, among them gamma and profiles, are checked and
  * skipped, so codes come out as they are in the file. Of an APNG the default picture is read. */
-#include "inflate.h"
-#include "png.h"
+#include "tools/image/inflate.h"
+#include "tools/image/png.h"
 
 enum colour_type { GREY = 0, RGB = 2, INDEXED = 3, GREY_ALPHA = 4, RGB_ALPHA = 6 };
 

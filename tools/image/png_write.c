@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* png_write.c - pictures to PNG files: 8-bit RGB, or RGBA when anything is transparent. */
-#include "deflate.h"
-#include "palette.h"
-#include "png.h"
+#include "tools/image/deflate.h"
+#include "tools/image/palette.h"
+#include "tools/image/png.h"
 
 const uint8_t png_signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* ppm.c - the Netpbm formats P2, P3, P5 and P6 to pictures, and pictures to P6. */
-#include "buffer.h"
-#include "image.h"
+#include "tools/image/buffer.h"
+#include "tools/image/image.h"
 
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* external.c - see external.h. */
-#include "external.h"
+#include "tools/model/external.h"
 
-#include "../image/file.h"
+#include "tools/image/file.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf.c - the glTF 2.0 container (.glb and .gltf) and the order in which its parts are read. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <stdlib.h>
 #include <string.h>

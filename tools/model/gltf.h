@@ -15,9 +15,9 @@
 #ifndef SMEAR_TOOLS_GLTF_H
 #define SMEAR_TOOLS_GLTF_H
 
-#include "external.h"
-#include "json.h"
-#include "model.h"
+#include "tools/model/external.h"
+#include "tools/model/json.h"
+#include "tools/model/model.h"
 
 /* A buffer view: a checked slice of a buffer. */
 struct gltf_view {

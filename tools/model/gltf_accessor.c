@@ -3,7 +3,7 @@
  * of the file is checked against the real bytes before anything is decoded, so that reading
  * cannot fail for its extent. Little-endian bytes are put together one by one: any host, any
  * alignment. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <math.h>
 #include <string.h>

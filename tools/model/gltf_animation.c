@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_animation.c - clips: one channel per node and property, with keys of its own. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <stdlib.h>
 #include <string.h>

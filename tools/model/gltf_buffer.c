@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_buffer.c - buffers from the BIN chunk, data URIs and files; buffer views as checked
  * slices. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <stdlib.h>
 #include <string.h>

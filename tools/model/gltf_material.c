@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_material.c - base colour, alpha and sidedness of materials; the pictures of those that are
  * drawn. Other maps are not looked at, so their pictures may be missing or of any format. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_mesh.c - primitives as plain triangle lists. Of a primitive's vertices only those that its
  * triangles use are decoded: files often share one big vertex buffer among many primitives. */
-#include "gltf.h"
+#include "tools/model/gltf.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_scene.c - the node hierarchy, which of it is drawn, skins and cameras. */
-#include "gltf.h"
-#include "matrix.h"
+#include "tools/model/gltf.h"
+#include "tools/model/matrix.h"
 
 #include <float.h>
 #include <math.h>

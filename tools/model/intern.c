@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* intern.c - see intern.h. */
-#include "intern.h"
+#include "tools/model/intern.h"
 
 #include <limits.h>
 #include <stdint.h>

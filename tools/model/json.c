@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* json.c - see json.h. One pass over a private copy of the text; strings are unescaped where
  * they stand, which works because no escape is shorter than what it stands for. */
-#include "json.h"
+#include "tools/model/json.h"
 
 #include <math.h>
 #include <stdlib.h>

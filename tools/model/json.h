@@ -9,7 +9,7 @@
 #ifndef SMEAR_TOOLS_JSON_H
 #define SMEAR_TOOLS_JSON_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stddef.h>
 #include <stdint.h>

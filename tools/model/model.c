@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* model.c - loads a model of either format, frees it, finds things in it by name. */
-#include "model.h"
+#include "tools/model/model.h"
 
-#include "../image/file.h"
-#include "gltf.h"
-#include "obj.h"
+#include "tools/image/file.h"
+#include "tools/model/gltf.h"
+#include "tools/model/obj.h"
 
 #include <ctype.h>
 #include <limits.h>

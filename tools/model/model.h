@@ -11,8 +11,8 @@
 #ifndef SMEAR_TOOLS_MODEL_H
 #define SMEAR_TOOLS_MODEL_H
 
-#include "../failure.h"
-#include "../image/image.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
 
 #include <stddef.h>
 #include <stdint.h>

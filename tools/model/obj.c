@@ -5,10 +5,10 @@
  * root), so both names can be asked for. Faces of a node that share a material and a form (with
  * or without texture coordinates and normals) make a primitive. Polygons become fans of
  * triangles. */
-#include "obj.h"
+#include "tools/model/obj.h"
 
-#include "external.h"
-#include "obj_text.h"
+#include "tools/model/external.h"
+#include "tools/model/obj_text.h"
 
 #include <limits.h>
 #include <stdlib.h>

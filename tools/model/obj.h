@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_OBJ_H
 #define SMEAR_TOOLS_OBJ_H
 
-#include "intern.h"
-#include "model.h"
+#include "tools/model/intern.h"
+#include "tools/model/model.h"
 
 bool obj_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
                struct failure *f);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* obj_material.c - MTL: diffuse colour and map, dissolve. The rest of a material is not shown. */
-#include "obj.h"
-#include "obj_text.h"
+#include "tools/model/obj.h"
+#include "tools/model/obj_text.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* obj_text.c - see obj_text.h. */
-#include "obj_text.h"
+#include "tools/model/obj_text.h"
 
 #include <float.h>
 #include <math.h>

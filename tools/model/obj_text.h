@@ -4,7 +4,7 @@
 #ifndef SMEAR_TOOLS_OBJ_TEXT_H
 #define SMEAR_TOOLS_OBJ_TEXT_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <stddef.h>
 #include <stdint.h>

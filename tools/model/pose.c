@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* pose.c - a model at an instant: channels to node transforms, transforms to the world, then morphs
  * and skins. Equations are those of glTF 2.0 (3.7 meshes and skins, appendix C interpolation). */
-#include "matrix.h"
-#include "model.h"
+#include "tools/model/matrix.h"
+#include "tools/model/model.h"
 
 #include <float.h>
 #include <math.h>

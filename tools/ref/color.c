@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ref_color.c - the sRGB transfer function, for the reference renderer and the reference filter. */
-#include "ref.h"
+#include "tools/ref/ref.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ref_compare.c - how far a picture is from the reference, edges told apart from interiors. */
-#include "ref.h"
+#include "tools/ref/ref.h"
 
 #include <math.h>
 #include <string.h>

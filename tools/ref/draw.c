@@ -9,7 +9,7 @@
  * Camera space here is x right, y up, d the distance along -Z. The homogeneous barycentrics are
  * those of Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates" (1997);
  * they come from the uncut triangle, so that clipping changes coverage only. */
-#include "ref.h"
+#include "tools/ref/ref.h"
 
 #include <float.h>
 #include <math.h>

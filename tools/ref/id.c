@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* ref_id.c - a scene in which the colour of a pixel names its triangle. Wraps another scene: poses
  * come from it, surfaces are copied with a face colour per triangle and no light. */
-#include "ref.h"
+#include "tools/ref/ref.h"
 
 #include <stdlib.h>
 #include <string.h>

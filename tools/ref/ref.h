@@ -18,9 +18,9 @@
 #ifndef SMEAR_REF_H
 #define SMEAR_REF_H
 
-#include "../failure.h"
-#include "../image/image.h"
-#include "../scenes/scene.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
+#include "tools/scenes/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>

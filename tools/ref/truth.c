@@ -5,7 +5,7 @@
  * Instant k stands at (k + 0.5) / N of the exposure (box shutter), is posed by the scene itself and
  * drawn by ref_draw. Even and odd instants are summed apart, by one thread each or by one thread in
  * turn, so that the sum is the same number either way. */
-#include "ref.h"
+#include "tools/ref/ref.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* build.c - see build.h. Positions are computed in double precision and rounded to float once. */
-#include "build.h"
+#include "tools/scenes/build.h"
 
-#include "color.h"
+#include "tools/scenes/color.h"
 
 #include <stdlib.h>
 #include <string.h>

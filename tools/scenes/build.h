@@ -8,7 +8,7 @@
 #ifndef SMEAR_TOOLS_SCENES_BUILD_H
 #define SMEAR_TOOLS_SCENES_BUILD_H
 
-#include "stage.h"
+#include "tools/scenes/stage.h"
 
 enum build_parts { BUILD_NORMAL = 1, BUILD_UV = 2, BUILD_COLOR = 4, BUILD_FACE_COLOR = 8 };
 

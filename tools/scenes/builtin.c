@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* builtin.c - finds a built-in scene in the catalog that is linked. */
-#include "scene.h"
+#include "tools/scenes/scene.h"
 
 #include <string.h>
 

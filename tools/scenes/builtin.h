@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_SCENES_BUILTIN_H
 #define SMEAR_TOOLS_SCENES_BUILTIN_H
 
-#include "scene.h"
+#include "tools/scenes/scene.h"
 
 bool peer_make(const char *name, struct scene *out, struct failure *f);
 bool demo_make(const char *name, struct scene *out, struct failure *f);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* catalog.c - every built-in scene by name. */
-#include "builtin.h"
-#include "failures.h"
+#include "tools/scenes/builtin.h"
+#include "tools/scenes/failures.h"
 
 const struct scene_entry scene_catalog[] = {
     {"demo/race", "racing car chased by a drone, loops after 60 frames", demo_make},

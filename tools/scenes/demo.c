@@ -3,9 +3,9 @@
  *
  * Both last LOOP_FRAMES frames at 30 per second and then show the same pictures again. The car
  * really drives along x, so positions grow by LOOP_LENGTH per loop. */
-#include "builtin.h"
+#include "tools/scenes/builtin.h"
 
-#include "demo.h"
+#include "tools/scenes/demo.h"
 
 #include <math.h>
 

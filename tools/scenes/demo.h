@@ -6,7 +6,7 @@
 #ifndef SMEAR_TOOLS_SCENES_DEMO_H
 #define SMEAR_TOOLS_SCENES_DEMO_H
 
-#include "stage.h"
+#include "tools/scenes/stage.h"
 
 /* A racing car at the origin, on the ground y = 0. */
 enum { CAR_BODY, CAR_WHEEL, CAR_SHADOW = CAR_WHEEL + 4, CAR_PROPS };

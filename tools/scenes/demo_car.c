@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* demo_car.c - a small open-wheel racing car; the wheels are props of their own. */
-#include "demo.h"
+#include "tools/scenes/demo.h"
 
-#include "build.h"
+#include "tools/scenes/build.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* demo_drone.c - a quadrotor of 1.7 m, large enough that its blades show on a small screen. */
-#include "demo.h"
+#include "tools/scenes/demo.h"
 
-#include "build.h"
+#include "tools/scenes/build.h"
 
 #include <math.h>
 

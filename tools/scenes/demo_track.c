@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* demo_track.c - the land beside the racing car: road, kerbs, grass, hoardings, trees, far
  * hills. */
-#include "demo.h"
+#include "tools/scenes/demo.h"
 
-#include "build.h"
+#include "tools/scenes/build.h"
 
 #include <math.h>
 #include <stdlib.h>

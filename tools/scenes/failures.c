@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* failures.c - scenes fail/... on a plane before an orthographic camera: one unit is one pixel, and
  * an exposure of 360 degrees lasts from -1/2 to 1/2 of what fail_shutters counts. */
-#include "failures.h"
+#include "tools/scenes/failures.h"
 
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 #include <string.h>

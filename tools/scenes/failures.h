@@ -8,8 +8,8 @@
 #ifndef SMEAR_TOOLS_SCENES_FAILURES_H
 #define SMEAR_TOOLS_SCENES_FAILURES_H
 
-#include "build.h"
-#include "stage.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/stage.h"
 
 bool failure_make(const char *name, struct scene *out, struct failure *f);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* failures_space.c - scenes fail/... in perspective: things pass the eye, the camera turns, orbits
  * and takes things along. */
-#include "failures.h"
+#include "tools/scenes/failures.h"
 
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 #include <string.h>

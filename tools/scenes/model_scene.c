@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* model_scene.c - scenes from model files: their draws, their cameras, and the automatic camera. */
-#include "scene.h"
+#include "tools/scenes/scene.h"
 
-#include "xform.h"
+#include "tools/scenes/xform.h"
 
 #include <math.h>
 #include <stdlib.h>

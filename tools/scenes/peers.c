@@ -6,10 +6,10 @@
  * All of them: camera at the origin along -z, 60 degrees, near 0.25, far 64, unlit, clear (16,
  * 24, 48); one draw, whose model-view is T(t) Rx(ax) Ry(ay) T(p). Colours are given as display
  * codes. */
-#include "builtin.h"
+#include "tools/scenes/builtin.h"
 
-#include "build.h"
-#include "color.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/color.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* present.c - from the floats of a scene to the integers of the library; present.h has the rules */
-#include "present.h"
+#include "tools/scenes/present.h"
 
-#include "present_surface.h"
+#include "tools/scenes/present_surface.h"
 
 #include <limits.h>
 #include <math.h>

@@ -27,9 +27,9 @@
 #ifndef SMEAR_TOOLS_PRESENT_H
 #define SMEAR_TOOLS_PRESENT_H
 
-#include "../failure.h"
-#include "../image/image.h"
-#include "scene.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
+#include "tools/scenes/scene.h"
 
 #include <smear.h>
 #include <stdbool.h>

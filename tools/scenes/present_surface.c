@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* present_surface.c - vertices, colours and textures into the library's formats. */
-#include "present_surface.h"
+#include "tools/scenes/present_surface.h"
 
-#include "present.h"
+#include "tools/scenes/present.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_PRESENT_SURFACE_H
 #define SMEAR_TOOLS_PRESENT_SURFACE_H
 
-#include "../failure.h"
-#include "scene.h"
+#include "tools/failure.h"
+#include "tools/scenes/scene.h"
 
 #include <smear.h>
 #include <stdbool.h>

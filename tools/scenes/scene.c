@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* scene.c - the calls that every scene answers. */
-#include "scene.h"
+#include "tools/scenes/scene.h"
 
 #include <math.h>
 

@@ -8,9 +8,9 @@
 #ifndef SMEAR_TOOLS_SCENE_H
 #define SMEAR_TOOLS_SCENE_H
 
-#include "../failure.h"
-#include "../image/image.h"
-#include "../model/model.h"
+#include "tools/failure.h"
+#include "tools/image/image.h"
+#include "tools/model/model.h"
 
 #include <stdbool.h>
 #include <stdint.h>

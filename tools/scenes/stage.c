@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* stage.c - the life of a built-in scene: memory, instants, and the defaults that `move` starts
  * from. */
-#include "stage.h"
+#include "tools/scenes/stage.h"
 
 #include <math.h>
 #include <stdlib.h>

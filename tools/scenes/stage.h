@@ -8,8 +8,8 @@
 #ifndef SMEAR_TOOLS_SCENES_STAGE_H
 #define SMEAR_TOOLS_SCENES_STAGE_H
 
-#include "scene.h"
-#include "xform.h"
+#include "tools/scenes/scene.h"
+#include "tools/scenes/xform.h"
 
 #include <stddef.h>
 

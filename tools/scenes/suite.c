@@ -14,9 +14,9 @@
  *     cross      13.10  13.87     subpixel    1.33   1.41     cubic       5.48   5.29
  *                                 skin        6.61   6.78     arena      10.08  11.10
  */
-#include "builtin.h"
+#include "tools/scenes/builtin.h"
 
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_SCENES_SUITE_H
 #define SMEAR_TOOLS_SCENES_SUITE_H
 
-#include "build.h"
-#include "stage.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/stage.h"
 
 extern const struct stage_kind suite_object_kinds[], suite_camera_kinds[];
 extern const int suite_object_count, suite_camera_count;

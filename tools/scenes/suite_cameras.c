@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* suite_cameras.c - seven scenes of the quality suite in which the camera moves, and one where
  * nothing does. */
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 

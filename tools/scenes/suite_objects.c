@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* suite_objects.c - twelve scenes of the quality suite in which things move before a still
  * camera. */
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 #include <string.h>

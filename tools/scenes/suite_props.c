@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* suite_props.c - sets and movers of the quality suite. Most of it is flat or Gouraud shaded, as
  * scenes on small machines are. */
-#include "suite.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * Every object of the source is first written into a text of its own. Equal texts are the same
  * object, so whatever two frames share is found without looking at what it is: a frame's text names
  * its cameras, a draw's text its mesh, a mesh's text its arrays. */
-#include "tape.h"
+#include "tools/scenes/tape.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 #ifndef SMEAR_TOOLS_TAPE_H
 #define SMEAR_TOOLS_TAPE_H
 
-#include "../failure.h"
-#include "present.h"
+#include "tools/failure.h"
+#include "tools/scenes/present.h"
 
 struct tape_writer;
 

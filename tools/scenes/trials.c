@@ -2,10 +2,10 @@
 /* trials.c - scenes test/..., on which the rasterizer is compared with a reference: each is hard
  * in one way, and all move by up to 64 px per frame at 320x240, so that velocities can be
  * compared as well. */
-#include "builtin.h"
+#include "tools/scenes/builtin.h"
 
-#include "build.h"
-#include "suite.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/suite.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
  * Arenas leave room for a program's own data, stack and, on the Game Boy Advance, sound. Bus
  * clocks are what the panels' controllers take in practice, not their cautious data sheets;
  * their refresh is by an oscillator of their own, never quite the 60 Hz it is meant to be. */
-#include "board.h"
+#include "tools/view/board.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
  *
  * Row r is written at  start + write r / H  and read at  scan + refresh r / H. It shows the new
  * frame when it is read after it was written; both are straight lines, so they cross once. */
-#include "bus.h"
+#include "tools/view/bus.h"
 
 #include <math.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* console.c - see console.h. */
 #ifdef __linux__
-#include "console.h"
+#include "tools/view/console.h"
 
-#include "guard.h"
-#include "tty.h"
+#include "tools/view/guard.h"
+#include "tools/view/tty.h"
 
 #include <errno.h>
 #include <linux/kd.h>

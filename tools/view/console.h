@@ -4,7 +4,7 @@
 #ifndef SMEAR_TOOLS_VIEW_CONSOLE_H
 #define SMEAR_TOOLS_VIEW_CONSOLE_H
 
-#include "screen.h"
+#include "tools/view/screen.h"
 
 /* Where there is no terminal, no keys come; that is no failure. Signals put everything right. */
 void console_open(void);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* control.c - see control.h. */
-#include "control.h"
+#include "tools/view/control.h"
 
-#include "film.h"
+#include "tools/view/film.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_CONTROL_H
 #define SMEAR_TOOLS_VIEW_CONTROL_H
 
-#include "view.h"
+#include "tools/view/view.h"
 
 struct control {
     const char *keys;           /* for people */

@@ -7,7 +7,7 @@
  * are assumptions about code that runs from cached flash or from RAM; on the ARM7TDMI, whose
  * data lies behind wait states, they weigh most. The M7 and the ARM7TDMI run the M4's and M3's
  * instructions. */
-#include "cost.h"
+#include "tools/view/cost.h"
 
 #include <stdbool.h>
 #include <string.h>

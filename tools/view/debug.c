@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* debug.c - see debug.h. */
-#include "debug.h"
+#include "tools/view/debug.h"
 
-#include "wire.h"
+#include "tools/view/wire.h"
 
 #include <math.h>
 #include <stdlib.h>

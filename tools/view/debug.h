@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_VIEW_DEBUG_H
 #define SMEAR_TOOLS_VIEW_DEBUG_H
 
-#include "../cli/planes.h"
-#include "lane.h"
+#include "tools/player/planes.h"
+#include "tools/view/lane.h"
 
 #include <stdint.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* film.c - see film.h. */
-#include "film.h"
+#include "tools/view/film.h"
 
-#include "../cli/picture.h"
-#include "../cli/say.h"
-#include "../cli/sink.h"
+#include "tools/player/picture.h"
+#include "tools/options/say.h"
+#include "tools/options/sink.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef SMEAR_TOOLS_VIEW_FILM_H
 #define SMEAR_TOOLS_VIEW_FILM_H
 
-#include "view.h"
+#include "tools/view/view.h"
 
 enum film_kind { FILM_GIF, FILM_APNG };
 

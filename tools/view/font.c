@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* font.c - see font.h. Glyphs are 5 x 7, drawn for this program. */
-#include "font.h"
+#include "tools/view/font.h"
 
 #include <string.h>
 

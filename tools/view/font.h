@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_FONT_H
 #define SMEAR_TOOLS_VIEW_FONT_H
 
-#include "surface.h"
+#include "tools/view/surface.h"
 
 enum { FONT_WIDTH = 6, FONT_HEIGHT = 9 };
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* golden.c - see golden.h. */
-#include "golden.h"
+#include "tools/view/golden.h"
 
-#include "../image/file.h"
+#include "tools/image/file.h"
 
 #include <errno.h>
 #include <stdlib.h>

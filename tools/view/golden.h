@@ -7,7 +7,7 @@
 #ifndef SMEAR_TOOLS_VIEW_GOLDEN_H
 #define SMEAR_TOOLS_VIEW_GOLDEN_H
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* guard.c - see guard.h. */
-#include "guard.h"
+#include "tools/view/guard.h"
 
-#include "../image/file.h"
+#include "tools/image/file.h"
 
 #include <signal.h>
 #include <stddef.h>

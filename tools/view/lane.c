@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* lane.c - see lane.h. */
-#include "lane.h"
+#include "tools/view/lane.h"
 
-#include "clock.h"
+#include "tools/view/clock.h"
 
-#include "../cli/say.h"
+#include "tools/options/say.h"
 
 #include <stdlib.h>
 

@@ -5,9 +5,9 @@
 #ifndef SMEAR_TOOLS_VIEW_LANE_H
 #define SMEAR_TOOLS_VIEW_LANE_H
 
-#include "../cli/setup.h"
-#include "panel.h"
-#include "tiles.h"
+#include "tools/options/setup.h"
+#include "tools/view/panel.h"
+#include "tools/view/tiles.h"
 
 #include <smear.h>
 #include <stdbool.h>

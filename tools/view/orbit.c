@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* orbit.c - see orbit.h. */
-#include "orbit.h"
+#include "tools/view/orbit.h"
 
-#include "../scenes/xform.h"
+#include "tools/scenes/xform.h"
 
 #include <math.h>
 #include <string.h>

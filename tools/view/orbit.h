@@ -5,7 +5,7 @@
 #ifndef SMEAR_TOOLS_VIEW_ORBIT_H
 #define SMEAR_TOOLS_VIEW_ORBIT_H
 
-#include "../scenes/scene.h"
+#include "tools/scenes/scene.h"
 
 #include <stdbool.h>
 

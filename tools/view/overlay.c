@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* overlay.c - see overlay.h. */
-#include "overlay.h"
+#include "tools/view/overlay.h"
 
-#include "clock.h"
-#include "control.h"
-#include "font.h"
+#include "tools/view/clock.h"
+#include "tools/view/control.h"
+#include "tools/view/font.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_OVERLAY_H
 #define SMEAR_TOOLS_VIEW_OVERLAY_H
 
-#include "view.h"
+#include "tools/view/view.h"
 
 /* The lines for a place of `columns` x `rows` letters. */
 void overlay_text(const struct view *view, int columns, int rows, struct text *out);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* panel.c - see panel.h. */
-#include "panel.h"
+#include "tools/view/panel.h"
 
-#include "../cli/picture.h"
+#include "tools/player/picture.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_VIEW_PANEL_H
 #define SMEAR_TOOLS_VIEW_PANEL_H
 
-#include "../image/image.h"
-#include "surface.h"
+#include "tools/image/image.h"
+#include "tools/view/surface.h"
 
 #include <smear.h>
 #include <stdbool.h>

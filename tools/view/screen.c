@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* screen.c - which back end there is. */
-#include "screen.h"
+#include "tools/view/screen.h"
 
 #include <stdlib.h>
 #include <string.h>

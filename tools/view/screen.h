@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_VIEW_SCREEN_H
 #define SMEAR_TOOLS_VIEW_SCREEN_H
 
-#include "../failure.h"
-#include "surface.h"
+#include "tools/failure.h"
+#include "tools/view/surface.h"
 
 #include <stdbool.h>
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* screen_drm.c - a display through the kernel's mode setting: the first connector that has
  * something plugged in, in the mode that it prefers, two buffers, flipped at the refresh. */
-#include "screen.h"
+#include "tools/view/screen.h"
 
 #ifdef __linux__
 
-#include "console.h"
-#include "drm.h"
+#include "tools/view/console.h"
+#include "tools/view/drm.h"
 
 #include <errno.h>
 #include <fcntl.h>

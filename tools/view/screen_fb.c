@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* screen_fb.c - a Linux framebuffer device: $FRAMEBUFFER, or /dev/fb0. Where the device has room
  * for two pictures they are shown in turn. */
-#include "screen.h"
+#include "tools/view/screen.h"
 
 #ifdef __linux__
 
-#include "console.h"
+#include "tools/view/console.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* screen_null.c - nobody looks: for tests and for machines without a display. */
-#include "screen.h"
+#include "tools/view/screen.h"
 
 #include <stdlib.h>
 

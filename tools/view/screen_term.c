@@ -3,10 +3,10 @@
  * colour of the upper one on the colour of the lower one. Only cells that have changed are
  * written. */
 #define _DEFAULT_SOURCE                 /* SIGWINCH */
-#include "screen.h"
+#include "tools/view/screen.h"
 
-#include "guard.h"
-#include "tty.h"
+#include "tools/view/guard.h"
+#include "tools/view/tty.h"
 
 #include <signal.h>
 #include <stdlib.h>

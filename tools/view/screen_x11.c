@@ -2,10 +2,10 @@
 /* screen_x11.c - a window, through x11.h. Pictures go by MIT-SHM where the server takes it, two in
  * turn, so that one is drawn while the other is read; else in strips by PutImage. */
 #define _DEFAULT_SOURCE                 /* shared memory */
-#include "screen.h"
+#include "tools/view/screen.h"
 
-#include "guard.h"
-#include "x11.h"
+#include "tools/view/guard.h"
+#include "tools/view/x11.h"
 
 #include <stdlib.h>
 #include <string.h>

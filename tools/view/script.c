@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* script.c - see script.h. */
-#include "script.h"
+#include "tools/view/script.h"
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,9 +11,9 @@
 #ifndef SMEAR_TOOLS_VIEW_SCRIPT_H
 #define SMEAR_TOOLS_VIEW_SCRIPT_H
 
-#include "../failure.h"
-#include "../image/file.h"
-#include "screen.h"
+#include "tools/failure.h"
+#include "tools/image/file.h"
+#include "tools/view/screen.h"
 
 #include <stdbool.h>
 

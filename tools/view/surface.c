@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* surface.c - see surface.h. */
-#include "surface.h"
+#include "tools/view/surface.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tiles.c - see tiles.h. The only file of the viewer that looks into a context: the public statistics
  * count tiles, but do not say where they are. */
-#include "tiles.h"
+#include "tools/view/tiles.h"
 
 #include "context.h"
 

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_TILES_H
 #define SMEAR_TOOLS_VIEW_TILES_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <smear.h>
 #include <stdbool.h>

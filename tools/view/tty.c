@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* tty.c - see tty.h. */
-#include "tty.h"
+#include "tools/view/tty.h"
 
-#include "guard.h"
+#include "tools/view/guard.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #ifndef SMEAR_TOOLS_VIEW_TTY_H
 #define SMEAR_TOOLS_VIEW_TTY_H
 
-#include "screen.h"
+#include "tools/view/screen.h"
 
 #include <stdbool.h>
 

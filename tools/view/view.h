@@ -14,15 +14,15 @@
 #ifndef SMEAR_TOOLS_VIEW_VIEW_H
 #define SMEAR_TOOLS_VIEW_VIEW_H
 
-#include "bus.h"
-#include "cost.h"
-#include "debug.h"
-#include "golden.h"
-#include "lane.h"
-#include "orbit.h"
-#include "panel.h"
-#include "screen.h"
-#include "script.h"
+#include "tools/view/bus.h"
+#include "tools/view/cost.h"
+#include "tools/view/debug.h"
+#include "tools/view/golden.h"
+#include "tools/view/lane.h"
+#include "tools/view/orbit.h"
+#include "tools/view/panel.h"
+#include "tools/view/screen.h"
+#include "tools/view/script.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* viewer.c - the loop of `smear view`: input, time, a frame, the screen. Start reading at
  * loop(). */
-#include "view.h"
+#include "tools/view/view.h"
 
-#include "clock.h"
-#include "control.h"
-#include "film.h"
-#include "guard.h"
-#include "overlay.h"
+#include "tools/view/clock.h"
+#include "tools/view/control.h"
+#include "tools/view/film.h"
+#include "tools/view/guard.h"
+#include "tools/view/overlay.h"
 
-#include "../cli/say.h"
+#include "tools/options/say.h"
 
 #include <math.h>
 #include <stdarg.h>

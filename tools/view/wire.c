@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* wire.c - see wire.h. From the library's integers, in double precision. */
-#include "wire.h"
+#include "tools/view/wire.h"
 
 #include <math.h>
 #include <string.h>

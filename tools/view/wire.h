@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_WIRE_H
 #define SMEAR_TOOLS_VIEW_WIRE_H
 
-#include "../scenes/present.h"
+#include "tools/scenes/present.h"
 
 #include <stdint.h>
 

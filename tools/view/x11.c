@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* x11.c - see x11.h. "X Window System Protocol", version 11; numbers are its own. */
-#include "x11.h"
+#include "tools/view/x11.h"
 
-#include "guard.h"
-#include "x11_auth.h"
+#include "tools/view/guard.h"
+#include "tools/view/x11_auth.h"
 
 #include <errno.h>
 #include <netdb.h>

@@ -6,8 +6,8 @@
 #ifndef SMEAR_TOOLS_VIEW_X11_H
 #define SMEAR_TOOLS_VIEW_X11_H
 
-#include "../failure.h"
-#include "surface.h"
+#include "tools/failure.h"
+#include "tools/view/surface.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* x11_auth.c - see x11_auth.h. A record is a family and four counted strings, all 16-bit numbers
  * with the high byte first: address, display number, method, data. */
-#include "x11_auth.h"
+#include "tools/view/x11_auth.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* catalog.c - the built-in scenes of the page: those that are to be looked at. In place of
  * tools/scenes/catalog.c. */
-#include "../scenes/builtin.h"
+#include "tools/scenes/builtin.h"
 
 const struct scene_entry scene_catalog[] = {
     {"demo/race", "racing car chased by a drone", demo_make},

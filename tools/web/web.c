@@ -5,19 +5,19 @@
  * Texts go in through web_argument (a command line, word by word), pictures and texts come out as
  * addresses in the module's memory. Whatever goes wrong is printed on standard error, as the
  * program does it; functions return its exit status. */
-#include "libc/web_file.h"
+#include "tools/web/libc/web_file.h"
 
-#include "../cli/arguments.h"
-#include "../cli/commands.h"
-#include "../cli/crew.h"
-#include "../cli/say.h"
-#include "../image/image.h"
-#include "../scenes/builtin.h"
-#include "../view/board.h"
-#include "../view/bus.h"
-#include "../view/cost.h"
-#include "../view/lane.h"
-#include "../view/orbit.h"
+#include "tools/options/arguments.h"
+#include "tools/cli/commands.h"
+#include "tools/player/crew.h"
+#include "tools/options/say.h"
+#include "tools/image/image.h"
+#include "tools/scenes/builtin.h"
+#include "tools/view/board.h"
+#include "tools/view/bus.h"
+#include "tools/view/cost.h"
+#include "tools/view/lane.h"
+#include "tools/view/orbit.h"
 
 #include <math.h>
 #include <stdlib.h>

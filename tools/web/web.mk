@@ -11,8 +11,8 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(filter-out $(addprefix tools/image/,apng.c interrupt.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
     $(addprefix tools/scenes/,build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
-    $(filter-out $(addprefix tools/cli/,compare.c crew.c exact.c help.c info.c main.c measure.c memory.c planes.c render.c sink.c \
-        stats.c view.c),$(CLI_SRC)) \
+    $(filter-out $(addprefix tools/cli/,compare.c help.c info.c main.c measure.c render.c view.c) tools/options/sink.c \
+        $(addprefix tools/player/,crew.c exact.c memory.c planes.c stats.c),$(CLI_SRC)) \
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
@@ -20,7 +20,7 @@ WEB_FAST := $(filter src/filter/% src/ports/% src/layers/% src/raster/% src/temp
     src/temporal/temporal_rows.c src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
-    -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
+    -Iinclude -Isrc -I. -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
 .PHONY: web web-chart web-bench

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* stats.c - see stats.h. */
-#include "stats.h"
+#include "tools/player/stats.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* arguments.c - see arguments.h. */
-#include "arguments.h"
+#include "tools/options/arguments.h"
 
-#include "say.h"
+#include "tools/options/say.h"
 
 #include <errno.h>
 #include <math.h>

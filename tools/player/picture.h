@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_CLI_PICTURE_H
 #define SMEAR_TOOLS_CLI_PICTURE_H
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <smear.h>
 #include <stddef.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* source.c - see source.h. */
-#include "source.h"
+#include "tools/options/source.h"
 
-#include "arguments.h"
-#include "say.h"
+#include "tools/options/arguments.h"
+#include "tools/options/say.h"
 
 #include <math.h>
 #include <string.h>

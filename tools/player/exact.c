@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* exact.c - see exact.h. */
-#include "exact.h"
+#include "tools/player/exact.h"
 
 #include <math.h>
 #include <stdlib.h>

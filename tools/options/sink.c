@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* sink.c - see sink.h. */
-#include "sink.h"
+#include "tools/options/sink.h"
 
-#include "../image/file.h"
-#include "picture.h"
-#include "say.h"
+#include "tools/image/file.h"
+#include "tools/player/picture.h"
+#include "tools/options/say.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_CLI_SOURCE_H
 #define SMEAR_TOOLS_CLI_SOURCE_H
 
-#include "../model/model.h"
-#include "../scenes/scene.h"
+#include "tools/model/model.h"
+#include "tools/scenes/scene.h"
 
 #include <stdbool.h>
 

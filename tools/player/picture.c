@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* picture.c - see picture.h. */
-#include "picture.h"
+#include "tools/player/picture.h"
 
 #include <math.h>
 #include <string.h>

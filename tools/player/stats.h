@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_CLI_STATS_H
 #define SMEAR_TOOLS_CLI_STATS_H
 
-#include "../image/file.h"
-#include "device.h"
+#include "tools/image/file.h"
+#include "tools/player/device.h"
 
 #include <smear.h>
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 #ifndef SMEAR_TOOLS_CLI_SAY_H
 #define SMEAR_TOOLS_CLI_SAY_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 enum status {
     STATUS_OK = 0,

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_CLI_SINK_H
 #define SMEAR_TOOLS_CLI_SINK_H
 
-#include "../image/image.h"
+#include "tools/image/image.h"
 
 #include <stdbool.h>
 

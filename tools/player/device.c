@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* device.c - see device.h. */
-#include "device.h"
+#include "tools/player/device.h"
 
-#include "crew.h"
-#include "picture.h"
+#include "tools/player/crew.h"
+#include "tools/player/picture.h"
 
 #include <stdlib.h>
 #include <string.h>

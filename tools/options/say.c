@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* say.c - see say.h. */
-#include "say.h"
+#include "tools/options/say.h"
 
 #include <time.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* options_filter.c - see options_filter.h. */
-#include "options_filter.h"
+#include "tools/options/options_filter.h"
 
-#include "say.h"
+#include "tools/options/say.h"
 
 #include <math.h>
 #include <string.h>

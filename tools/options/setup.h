@@ -4,9 +4,9 @@
 #ifndef SMEAR_TOOLS_CLI_SETUP_H
 #define SMEAR_TOOLS_CLI_SETUP_H
 
-#include "device.h"
-#include "options.h"
-#include "source.h"
+#include "tools/player/device.h"
+#include "tools/options/options.h"
+#include "tools/options/source.h"
 
 #include <stdint.h>
 

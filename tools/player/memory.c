@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* memory.c - see memory.h. */
-#include "memory.h"
+#include "tools/player/memory.h"
 
-#include "device.h"
+#include "tools/player/device.h"
 
 static bool draws_in_one(struct device *device, const struct presented *presented,
                          uint32_t triangles, smear_stats *stats, struct failure *f)

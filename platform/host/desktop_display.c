@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* host_display.c - platform/display.h on a desktop: what firmware draws is seen in a window, in
+/* desktop_display.c - platform/display.h on a desktop: what firmware draws is seen in a window, in
  * the terminal, or kept and checked without anybody looking. Environment variables stand for the
  * options of `smear view`:
  *
@@ -16,16 +16,16 @@
  *
  * Arrow keys are themselves; a, x and space are A, Enter is start; q, escape and closing the
  * window end the program. */
-#include "../../platform/display.h"
+#include "platform/display.h"
 
-#include "clock.h"
-#include "golden.h"
-#include "guard.h"
-#include "panel.h"
-#include "screen.h"
-#include "script.h"
+#include "tools/view/clock.h"
+#include "tools/view/golden.h"
+#include "tools/view/guard.h"
+#include "tools/view/panel.h"
+#include "tools/view/screen.h"
+#include "tools/view/script.h"
 
-#include "../cli/picture.h"
+#include "tools/player/picture.h"
 
 #include <math.h>
 #include <stdlib.h>

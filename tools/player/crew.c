@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* crew.c - see crew.h. Threads sleep between frames; within one they spin in smear_work. */
-#include "crew.h"
+#include "tools/player/crew.h"
 
 #include <pthread.h>
 #include <sched.h>

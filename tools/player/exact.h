@@ -4,7 +4,7 @@
 #ifndef SMEAR_TOOLS_CLI_EXACT_H
 #define SMEAR_TOOLS_CLI_EXACT_H
 
-#include "device.h"
+#include "tools/player/device.h"
 
 struct exact {
     struct device display;      /* turns the mean into the wanted format */

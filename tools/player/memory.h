@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_CLI_MEMORY_H
 #define SMEAR_TOOLS_CLI_MEMORY_H
 
-#include "../scenes/present.h"
+#include "tools/scenes/present.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* planes.c - see planes.h. */
-#include "planes.h"
+#include "tools/player/planes.h"
 
 static void take_row(void *user, int y, const uint32_t *color, const uint16_t *depth,
                      const int32_t *velocity)

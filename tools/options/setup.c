@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* setup.c - see setup.h. */
-#include "setup.h"
+#include "tools/options/setup.h"
 
-#include "options_filter.h"
-#include "say.h"
+#include "tools/options/options_filter.h"
+#include "tools/options/say.h"
 
 #include <stdlib.h>
 

@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_CLI_OPTIONS_FILTER_H
 #define SMEAR_TOOLS_CLI_OPTIONS_FILTER_H
 
-#include "arguments.h"
-#include "options.h"
+#include "tools/options/arguments.h"
+#include "tools/options/options.h"
 
 option_read_fn read_inside, read_camera_step, read_pingpong, read_weights, read_scatter, read_scale, read_shutter,
     read_shutter_mode;

@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_CLI_CREW_H
 #define SMEAR_TOOLS_CLI_CREW_H
 
-#include "../failure.h"
+#include "tools/failure.h"
 
 #include <smear.h>
 

@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_CLI_PLANES_H
 #define SMEAR_TOOLS_CLI_PLANES_H
 
-#include "../image/image.h"
-#include "device.h"
+#include "tools/image/image.h"
+#include "tools/player/device.h"
 
 struct planes {
     struct device device;               /* draws for the planes alone */

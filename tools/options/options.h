@@ -3,8 +3,8 @@
 #ifndef SMEAR_TOOLS_CLI_OPTIONS_H
 #define SMEAR_TOOLS_CLI_OPTIONS_H
 
-#include "sink.h"
-#include "source.h"
+#include "tools/options/sink.h"
+#include "tools/options/source.h"
 
 #include <smear.h>
 #include <stdbool.h>

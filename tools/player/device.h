@@ -4,8 +4,8 @@
 #ifndef SMEAR_TOOLS_CLI_DEVICE_H
 #define SMEAR_TOOLS_CLI_DEVICE_H
 
-#include "../failure.h"
-#include "../scenes/present.h"
+#include "tools/failure.h"
+#include "tools/scenes/present.h"
 
 #include <smear.h>
 #include <stdbool.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* options.c - see options.h. */
-#include "options.h"
+#include "tools/options/options.h"
 
-#include "arguments.h"
-#include "options_filter.h"
-#include "say.h"
+#include "tools/options/arguments.h"
+#include "tools/options/options_filter.h"
+#include "tools/options/say.h"
 
 #include <limits.h>
 #include <math.h>
