@@ -83,121 +83,126 @@ static inline bool is_due(const struct smear_assembler *a, const struct box *box
     return !a->due->only || tile_box_is_damaged(a->due, tiles);
 }
 
-/* The triangle is cut: its polygon is stored as a fan, with vertices of its own. */
-static SMEAR_NOINLINE bool add_clipped(struct smear_assembler *a, const struct smear_assembly *d,
-                                       struct smear_segment **segment, uint32_t triangle,
-                                       const struct smear_cached_vertex *corner[3])
-{
-    struct smear_clip_polygon polygon;
-    struct smear_screen screen[SMEAR_CLIP_MAX];
-    const smear_mesh *mesh = d->mesh;
-    const bool textured = segment_textured(*segment), colored = segment_colored(*segment);
-    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
-    const int codes = corner[0]->outcode | corner[1]->outcode | corner[2]->outcode;
-    struct smear_face face;
-    int64_t area;
-    /* Which side is seen decides the light of vertices, and only the cut polygon can tell: where
-     * it is the back, once more. */
-    for (bool back = false, known = !colored;; known = true) {
-        if (colored)
-            face = smear_face_of(d, triangle, back);
-        for (int i = 0; i < 3; i++) {
-            struct smear_clip_vertex *v = &polygon.vertex[i];
-            uint32_t index = index_of(corner[i]);
-            v->now = *now_of(&v->now, d, corner[i]);
-            for (int pose = 0; pose < poses; pose++)
-                pose_transform(&v->pose[pose], d, pose, index);
-            if (textured) {
-                v->uv[0] = mesh->uv[2 * index];
-                v->uv[1] = mesh->uv[2 * index + 1];
-            }
-            if (colored) {
-                struct smear_color color;
-                smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
-                for (int c = 0; c < CLIP_COLORS; c++)
-                    v->color[c] = color.channel[c];
-            }
-        }
-        smear_clip_start(&polygon, poses, textured, colored);
-        smear_clip_polygon(&polygon, &d->at.now, codes);
-        area = 0;
-        for (int i = 0; i < polygon.count; i++) {
-            smear_project(&screen[i], &d->at.now, &clip_corner(&polygon, i)->now, &a->viewport);
-            if (i >= 2)
-                area += area_of(&screen[0], &screen[i - 1], &screen[i]);
-        }
-        back = (area > 0) != d->mirrored;
-        if (area == 0 || (back && !d->material->double_sided))
-            return true;
-        if (!colored)
-            face = smear_face_of(d, triangle, back);
-        if (known || !back)
-            break;
-    }
-
-    const int32_t guard = SMEAR_GUARD_PX << 8;
-    int32_t cx = a->viewport.width << 7, cy = a->viewport.height << 7;
-    for (int i = 0; i < polygon.count; i++) {
-        screen[i].x = clamp_i32(screen[i].x, cx - guard, cx + guard);
-        screen[i].y = clamp_i32(screen[i].y, cy - guard, cy + guard);
-    }
-    for (int i = 2; i < polygon.count; i++) {
-        const int fan[3] = { 0, i - 1, i };
-        const struct smear_screen *place[3] = { &screen[0], &screen[i - 1], &screen[i] };
-        /* Rounding may turn a sliver of the fan over: it covers nothing that is not covered. */
-        int64_t part = area_of(place[0], place[1], place[2]);
-        if (part == 0 || (part > 0) != (area > 0))
-            continue;
-        struct box box = box_of(place[0], place[1], place[2]);
-        box_cut(&box, a);
-        if (box_is_empty(&box) || !is_due(a, &box))
-            continue;
-        struct smear_segment *s = make_room(a, d, *segment, 1);
-        if (s == NULL)
-            return false;
-        *segment = s;
-        uint16_t offset[3];
-        for (int k = 0; k < 3; k++) {
-            const struct smear_clip_vertex *v = clip_corner(&polygon, fan[k]);
-            uint32_t *record = a->bins->pool + a->bins->vertex_words;
-            offset[k] = (uint16_t)(a->bins->vertex_words - s->base);
-            a->bins->vertex_words += s->stride;
-            store_place(record, place[k]);
-            if (segment_textured(s))
-                store_uv(record + s->uv, v->uv[0], v->uv[1]);
-            if (segment_colored(s)) {
-                uint16_t channel[4] = { 0, 0, 0, 0 };
-                for (int c = 0; c < CLIP_COLORS; c++)
-                    channel[c] = (uint16_t)v->color[c];
-                store_color(record + s->color, channel);
-            }
-            for (int pose = 0; pose < segment_moves(s); pose++)
-                store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &v->pose[pose],
-                             &v->now, place[k], &a->viewport);
-        }
-        struct smear_bins *g = a->bins;
-        struct smear_triangle *t = bins_add(g, row_list(g, d, bins_row(g, box.y0)));
-        a->triangles_drawn++;
-        t->segment = (uint16_t)(s - a->bins->segment);
-        t->color = smear_face_color(d, s, &face);
-        t->vertex[0] = offset[0];
-        t->vertex[1] = offset[area > 0 ? 1 : 2];
-        t->vertex[2] = offset[area > 0 ? 2 : 1];
-    }
-    return true;
-}
-
-/* A draw on its way: what the loop over its triangles needs at every turn. */
+/* What the loop over a draw's triangles needs for each of them. */
 struct batch {
     struct smear_assembler *a;
     const struct smear_assembly *d;
     struct smear_segment *segment;      /* the newest */
-    bool shares;                        /* vertices are the same for all faces */
-    bool cut;                           /* only a part of the frame is being filled */
-    bool points;                        /* nothing but a colour and depth: may become points */
-    const uint8_t *face_color;          /* flat colours as they are; null: shaded */
-    const uint8_t *vertex_color;        /* codes of vertices as they are; null: shaded, or none */
+    bool shares;                        /* all faces of a vertex share its record */
+    bool partial;                       /* only a part of the frame is being filled */
+    bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
+    bool double_sided;
+    const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
+    const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
 };
+
+/* ------------------------------------------------------------------ clipped triangles */
+
+/* What clipping leaves of a triangle. */
+struct clipped {
+    struct smear_clip_polygon polygon;
+    struct smear_screen screen[SMEAR_CLIP_MAX];
+    struct smear_face face;
+    int64_t area;               /* twice the polygon's area, positive when it is clockwise on the screen */
+};
+
+/* Clips the triangle, its vertices shaded as those of c->face, and projects what is left. */
+static void clip_and_project(struct clipped *c, const struct batch *b,
+                             const struct smear_cached_vertex *const corner[3])
+{
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
+    for (int i = 0; i < 3; i++) {
+        struct smear_clip_vertex *v = &c->polygon.vertex[i];
+        const uint32_t index = index_of(corner[i]);
+        v->now = *now_of(&v->now, d, corner[i]);
+        for (int pose = 0; pose < poses; pose++)
+            pose_transform(&v->pose[pose], d, pose, index);
+        smear_vertex_for_clipping(v, d, s, index, &c->face);
+    }
+    smear_clip_start(&c->polygon, poses, segment_textured(s), segment_colored(s));
+    smear_clip_polygon(&c->polygon, &d->at.now, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
+    c->area = 0;
+    for (int i = 0; i < c->polygon.count; i++) {
+        smear_project(&c->screen[i], &d->at.now, &clip_corner(&c->polygon, i)->now, &b->a->viewport);
+        if (i >= 2)
+            c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
+    }
+    for (int i = 0; i < c->polygon.count; i++)
+        screen_clamp(&c->screen[i], &b->a->viewport);
+}
+
+/* Stores corner i of the polygon; returns the offset of its record in the segment. */
+static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
+{
+    const struct smear_segment *s = b->segment;
+    const struct smear_clip_vertex *v = clip_corner(&c->polygon, i);
+    struct smear_bins *g = b->a->bins;
+    const uint32_t word = g->vertex_words;
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_place(record, &c->screen[i]);
+    smear_vertex_store_clipped(record, s, v);
+    for (int pose = 0; pose < segment_moves(s); pose++)
+        store_motion(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i],
+                     &b->a->viewport);
+    return (uint16_t)(word - s->base);
+}
+
+/* Adds the triangle of corners 0, i - 1 and i. Returns false where there is no room. */
+static bool add_fan(struct batch *b, struct clipped *c, int i)
+{
+    const struct smear_screen *place[3] = { &c->screen[0], &c->screen[i - 1], &c->screen[i] };
+    const int64_t area = area_of(place[0], place[1], place[2]);
+    /* Rounding may turn over a sliver of the fan, which then covers nothing that its neighbours do not. */
+    if (area == 0 || (area > 0) != (c->area > 0))
+        return true;
+    struct box box = box_of(place[0], place[1], place[2]);
+    box_cut(&box, b->a);
+    if (box_is_empty(&box) || !is_due(b->a, &box))
+        return true;
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 1);
+    if (s == NULL)
+        return false;
+    b->segment = s;
+    const uint16_t first = store_corner(b, c, 0), second = store_corner(b, c, i - 1), third = store_corner(b, c, i);
+    struct smear_bins *g = b->a->bins;
+    struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
+    b->a->triangles_drawn++;
+    t->segment = (uint16_t)(s - g->segment);
+    t->color = smear_face_color(b->d, s, &c->face);
+    t->vertex[0] = first;
+    t->vertex[1] = c->area > 0 ? second : third;
+    t->vertex[2] = c->area > 0 ? third : second;
+    return true;
+}
+
+/* Adds what is left of a triangle that has to be clipped, as a fan. Returns false where there is no room. */
+static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3],
+                                       uint32_t triangle)
+{
+    struct clipped c;
+    const bool colored = segment_colored(b->segment);
+    if (colored)
+        c.face = smear_face_of(b->d, triangle, false);
+    clip_and_project(&c, b, corner);
+    const bool back = (c.area > 0) != b->d->mirrored;
+    if (c.area == 0 || (back && !b->double_sided))
+        return true;
+    /* Which side is seen decides the light of vertices, and only the clipped polygon tells: the back is shaded and
+     * clipped again. */
+    if (!colored || back)
+        c.face = smear_face_of(b->d, triangle, back);
+    if (colored && back)
+        clip_and_project(&c, b, corner);
+    for (int i = 2; i < c.polygon.count; i++)
+        if (!add_fan(b, &c, i))
+            return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------ whole triangles */
 
 /* The pixel a triangle covers and its weights there. */
 struct covered {
@@ -269,10 +274,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
         record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
         record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
     } else if (segment_colored(s)) {
-        struct smear_color color;
-        struct smear_face face = smear_face_of(d, triangle, back);
-        smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
-        store_color(record + s->color, color.channel);
+        smear_vertex_store_color(record + s->color, d, index, triangle, back);
     }
     for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h, now;
@@ -420,32 +422,66 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
     return v;
 }
 
+static void batch_start(struct batch *b)
+{
+    const struct smear_assembler *a = b->a;
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    const smear_mesh *mesh = d->mesh;
+    const struct smear_bins *g = a->bins;
+    b->shares = shares_vertices(d, s);
+    b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
+    b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed;
+    b->double_sided = d->material->double_sided;
+    if (d->shading.lit || !d->shading.white)
+        return;
+    if (s->shade == SHADE_FLAT && mesh->color == NULL)
+        b->face_color = mesh->face_color;
+    if (segment_colored(s) && !shading_is_linear(&d->shading) && mesh->face_color == NULL)
+        b->vertex_color = mesh->color;
+}
+
+/* Adds a triangle if it may be seen; its vertices are clockwise on the screen where its front is. Returns false where
+ * there is no room. */
+SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, struct smear_cached_vertex *v1,
+                               struct smear_cached_vertex *v2, uint32_t triangle)
+{
+    const int any = v0->outcode | v1->outcode | v2->outcode;
+    if (any != 0) {
+        if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
+            return true;
+        if ((any & OUT_UNKNOWN) != 0) {
+            b->a->triangles_dropped++;
+            return true;
+        }
+    }
+    if ((any & OUT_CLIP) != 0) {
+        const bool mirrored = b->d->mirrored;       /* clipping takes the mesh's own order */
+        const struct smear_cached_vertex *corner[3] = { v0, mirrored ? v1 : v2, mirrored ? v2 : v1 };
+        return add_clipped(b, corner, triangle);
+    }
+    const int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
+    if (area > 0)
+        return add_whole(b, v0, v1, v2, triangle, false, any != 0 || b->partial);
+    return area == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
+}
+
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
 {
     const smear_mesh *mesh = d->mesh;
-    const struct smear_bins *g = a->bins;
     struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
     if (b.segment == NULL) {
         if (drop)
             a->triangles_dropped += mesh->triangle_count;
         return drop;
     }
-    b.shares = shares_vertices(d, b.segment);
-    b.cut = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b.points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(b.segment)
-            && segment_moves(b.segment) == 0 && !d->fixed;
-    if (b.segment->shade == SHADE_FLAT && !d->shading.lit && d->shading.white && mesh->color == NULL)
-        b.face_color = mesh->face_color;
-    if (segment_colored(b.segment) && !d->shading.lit && d->shading.white && !shading_is_linear(&d->shading)
-        && mesh->face_color == NULL)
-        b.vertex_color = mesh->color;
+    batch_start(&b);
     if (a->serial == 0xffffu || a->cache_has_paths)
         forget_all(a);
     uint32_t tag = ++a->serial << 16;
     struct smear_cached_vertex spare[3];
     struct smear_cached_vertex *const cache = a->cache;
     const uint32_t mask = a->cache_mask;
-    const bool double_sided = d->material->double_sided;
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
     const int second = d->mirrored ? 1 : 2, third = 3 - second;
     const uint16_t *index = mesh->index;
@@ -464,30 +500,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
             v1 = miss(a, d, tag1, v0, NULL, &spare[1]);
         if (v2->tag != tag2)
             v2 = miss(a, d, tag2, v0, v1, &spare[2]);
-        int any = v0->outcode | v1->outcode | v2->outcode;
-        bool added;
-        if (any != 0) {
-            if ((v0->outcode & v1->outcode & v2->outcode & OUT_REJECT) != 0)
-                continue;
-            if ((any & OUT_UNKNOWN) != 0) {
-                a->triangles_dropped++;
-                continue;
-            }
-        }
-        if ((any & OUT_CLIP) != 0) {
-            const struct smear_cached_vertex *corner[3] = { v0, d->mirrored ? v1 : v2,
-                                                            d->mirrored ? v2 : v1 };
-            added = add_clipped(a, d, &b.segment, i, corner);
-        } else {
-            int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
-            if (area > 0)
-                added = add_whole(&b, v0, v1, v2, i, false, any != 0 || b.cut);
-            else if (area == 0 || !double_sided)
-                continue;
-            else
-                added = add_whole(&b, v0, v2, v1, i, true, any != 0 || b.cut);
-        }
-        if (!added) {
+        if (!add_triangle(&b, v0, v1, v2, i)) {
             if (!drop)
                 return false;
             a->triangles_dropped++;

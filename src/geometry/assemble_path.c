@@ -134,12 +134,8 @@ static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex
     store_path(record, s, v->screen);
     if (segment_textured(s))
         store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
-    if (segment_colored(s)) {
-        struct smear_color color;
-        struct smear_face face = smear_face_of(d, triangle, back);
-        smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
-        store_color(record + s->color, color.channel);
-    }
+    if (segment_colored(s))
+        smear_vertex_store_color(record + s->color, d, index, triangle, back);
     if (shares)
         v->stored = word + 1;
     return word;
@@ -253,12 +249,9 @@ static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
 static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
                            const struct cut *cut, const struct smear_viewport *viewport)
 {
-    const int32_t guard = SMEAR_GUARD_PX << 8;
-    int32_t cx = viewport->width << 7, cy = viewport->height << 7;
     for (int key = 0; key < KEYS; key++) {
         smear_project(&screen[key], &cut->projection[key], key == MIDDLE ? &v->now : &v->pose[key], viewport);
-        screen[key].x = clamp_i32(screen[key].x, cx - guard, cx + guard);
-        screen[key].y = clamp_i32(screen[key].y, cy - guard, cy + guard);
+        screen_clamp(&screen[key], viewport);
     }
 }
 
@@ -286,14 +279,7 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     g->vertex_words = word + s->stride;
     p->stored[i] = word + 1;
     store_path(record, s, p->screen[i]);
-    if (segment_textured(s))
-        store_uv(record + s->uv, v->uv[0], v->uv[1]);
-    if (segment_colored(s)) {
-        uint16_t channel[4] = { 0, 0, 0, 0 };
-        for (int c = 0; c < CLIP_COLORS; c++)
-            channel[c] = (uint16_t)v->color[c];
-        store_color(record + s->color, channel);
-    }
+    smear_vertex_store_clipped(record, s, v);
     return word;
 }
 
@@ -562,13 +548,7 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
         placement_transform(&v->now, &d->at, index);
         for (int key = OPEN; key <= CLOSE; key++)
             placement_transform(&v->pose[key], &d->key[key], index);
-        v->uv[0] = d->mesh->uv != NULL ? d->mesh->uv[2 * index] : 0;
-        v->uv[1] = d->mesh->uv != NULL ? d->mesh->uv[2 * index + 1] : 0;
-        struct smear_color color = { { 0, 0, 0, 0 } };
-        if (segment_colored(b->segment))
-            smear_vertex_shade(&color, d, index, face.color, face.cosine, back);
-        for (int c = 0; c < CLIP_COLORS; c++)
-            v->color[c] = color.channel[c];
+        smear_vertex_for_clipping(v, d, b->segment, index, &face);
     }
     int near_codes = 0;
     for (int key = 0; key < KEYS; key++) {

@@ -104,7 +104,15 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
  * borders. All that lies beyond one of them is not seen, also where it reaches in front of the near plane. */
 int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport);
 
-/* The sides a projected vertex lies beyond. */
+/* Brings a place that rounding left outside the guard band back to its border. */
+static inline void screen_clamp(struct smear_screen *s, const struct smear_viewport *viewport)
+{
+    const int32_t guard = SMEAR_GUARD_PX << 8, x = viewport->width << 7, y = viewport->height << 7;
+    s->x = clamp_i32(s->x, x - guard, x + guard);
+    s->y = clamp_i32(s->y, y - guard, y + guard);
+}
+
+/* Returns the sides that a projected vertex lies beyond. */
 static inline int outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport)
 {
     int32_t right = viewport->width << 8, bottom = viewport->height << 8;

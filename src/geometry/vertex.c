@@ -2,6 +2,7 @@
 /* vertex.c - layouts of vertex records, and the colours of vertices and faces. */
 #include "geometry/vertex.h"
 
+#include "geometry/clip.h"
 #include "geometry/path.h"
 #include "base/pixel.h"
 
@@ -129,15 +130,51 @@ static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool f
     return smear_light_normal(&d->shading, flip ? back : n);
 }
 
-void smear_vertex_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
-                         const uint8_t *face_color, uint32_t face_cosine, bool flip)
+/* Light and colour of a vertex of the face. */
+SMEAR_INLINE void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
+                               const struct smear_face *face)
 {
     const smear_mesh *mesh = d->mesh;
-    uint32_t cosine = face_cosine;
+    uint32_t cosine = face->cosine;
     if (SMEAR_WITH_GOURAUD && d->shading.lit && mesh->normal != NULL)
-        cosine = cosine_at(d, index, flip);
-    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face_color,
-                cosine);
+        cosine = cosine_at(d, index, face->back);
+    smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face->color, cosine);
+}
+
+void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle,
+                              bool back)
+{
+    struct smear_color color;
+    const struct smear_face face = smear_face_of(d, triangle, back);
+    shade_vertex(&color, d, index, &face);
+    store_color(out, color.channel);
+}
+
+void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_assembly *d,
+                               const struct smear_segment *s, uint32_t index, const struct smear_face *face)
+{
+    if (segment_textured(s)) {
+        v->uv[0] = d->mesh->uv[2 * index];
+        v->uv[1] = d->mesh->uv[2 * index + 1];
+    }
+    if (segment_colored(s)) {
+        struct smear_color color;
+        shade_vertex(&color, d, index, face);
+        for (int c = 0; c < CLIP_COLORS; c++)
+            v->color[c] = color.channel[c];
+    }
+}
+
+void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v)
+{
+    if (segment_textured(s))
+        store_uv(record + s->uv, v->uv[0], v->uv[1]);
+    if (segment_colored(s)) {
+        uint16_t channel[4] = { 0, 0, 0, 0 };
+        for (int c = 0; c < CLIP_COLORS; c++)
+            channel[c] = (uint16_t)v->color[c];
+        store_color(record + s->color, channel);
+    }
 }
 
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,

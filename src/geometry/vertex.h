@@ -178,9 +178,20 @@ bool smear_vertex_is_level(const smear_mesh *mesh, bool lit);
 /* Starts a segment for more records of this draw; null when the table is full. */
 struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d);
 
-/* Light and colour of a vertex. `flip`: seen from behind. */
-void smear_vertex_shade(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
-                        const uint8_t *face_color, uint32_t face_cosine, bool flip);
+/* Shades vertex `index` of a triangle, seen from behind or not, and stores its colour. */
+void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle,
+                              bool back);
+
+struct smear_clip_vertex;
+struct smear_face;
+
+/* Fills in what is interpolated when a triangle is clipped, but not its places: the uv and colour of vertex `index`
+ * that the segment's records have. */
+void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_assembly *d,
+                               const struct smear_segment *s, uint32_t index, const struct smear_face *face);
+
+/* Stores those attributes. */
+void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v);
 
 /* Whether three stored vertices have one colour, or nearly, and there is no texture. */
 bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
