@@ -34,11 +34,11 @@ include platform/$(TARGET)/target.mk
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
 # with others lies in its root, below them.
-SRC_ROOMS  := $(addprefix src/,base geometry raster filter ports display temporal layers model) src
+SRC_ROOMS  := $(addprefix src/,base kernels geometry raster filter ports display temporal layers model) src
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
-TEST_ROOMS := tests $(addprefix tests/,data ref unit suite fuzz target shell)
+TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite fuzz target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
@@ -199,9 +199,9 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst test_%.c,%,$(notdir $(wildcard tests/unit/test_*.c tests/suite/test_*.c)))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter anim bins clip convert fixed fixmath path raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs light matrix motion path present raster still \
+SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs kernels light matrix motion path present raster still \
               subframes texture tilemax timemask transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
@@ -215,12 +215,18 @@ CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c cha
 TEST_SRC := tests/run.c tests/test.c tests/rig.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
     $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
+# What the suite of kernels calls: a family of kernels in each.
+KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
+TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
+
+$(BUILD)/tests/unit/test_kernels.o: CFLAGS += -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
+$(BUILD)/tests/unit/test_kernels.o: $(KERNEL_TESTS)
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
@@ -236,6 +242,14 @@ print-san-suites:
 ## one suite of `make test`, SUITE=api; `make print-suites` lists them
 run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
+
+.PHONY: check-kernels
+## every variant of an inner loop against its reference, and nanoseconds per pixel of both
+check-kernels: $(BUILD)/check_kernels
+	$<
+
+$(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
+	$(CC) $(LDFLAGS) -o $@ $^
 
 test-headers:
 	@mkdir -p $(BUILD)

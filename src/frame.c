@@ -16,6 +16,7 @@
 #include "display/pixel_format.h"
 #include "base/fixmath.h"
 #include "base/pixel.h"
+#include "kernels/fill.h"
 #include "filter/tilemax.h"
 #include "raster/velocity.h"
 

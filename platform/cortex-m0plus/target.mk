@@ -3,7 +3,7 @@
 # which faults on unaligned access and on ARMv7-M instructions; benchmarks on its M3, which executes
 # the same code and has a 32-bit timer.
 CORE   := -mcpu=cortex-m0plus -mthumb
-BOARD  := -M microbit -global nrf51-soc.flash-size=2097152 -global nrf51-soc.sram-size=262144
+BOARD  := -M microbit -global nrf51-soc.flash-size=2097152 -global nrf51-soc.sram-size=327680
 LAYOUT := m0-large.ld
 include platform/cortexm/cortexm.mk
 

@@ -74,45 +74,7 @@ static inline uint32_t rgb565_nearest(uint32_t p)
     return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
 }
 
+/* Pixels of any width, read or written a word at a time. */
 typedef uint32_t __attribute__((may_alias)) pixel_word;
-
-static inline void eight_words(pixel_word *p, uint32_t value)
-{
-    p[0] = value;
-    p[1] = value;
-    p[2] = value;
-    p[3] = value;
-    p[4] = value;
-    p[5] = value;
-    p[6] = value;
-    p[7] = value;
-}
-
-/* Sets n words. */
-static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
-{
-    int32_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        eight_words(p + i, value);
-    for (; i < n; i++)
-        p[i] = value;
-}
-
-/* Sets n pixels of 16 bits. */
-static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
-{
-    if (n > 0 && ((uintptr_t)p & 2u) != 0) {
-        *p++ = (uint16_t)value;
-        n--;
-    }
-    pixel_word *pairs = (pixel_word *)(void *)p;
-    value |= value << 16;
-    for (; n >= 16; n -= 16, pairs += 8)
-        eight_words(pairs, value);
-    for (; n >= 2; n -= 2)
-        *pairs++ = value;
-    if (n > 0)
-        *(uint16_t *)(void *)pairs = (uint16_t)value;
-}
 
 #endif

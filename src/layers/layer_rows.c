@@ -15,6 +15,7 @@
 #include "layers/layer_gather.h"
 #include "layers/streak.h"
 #include "base/pixel.h"
+#include "kernels/fill.h"
 #include "raster/raster.h"
 
 /* ------------------------------------------------------------------ groups */

@@ -17,6 +17,7 @@
 #include "geometry/shutter.h"
 #include "geometry/transform.h"
 #include "base/vector.h"
+#include "kernels/depth_range.h"
 
 enum {
     LISTED = 128,           /* triangles of the tile that are remembered;
@@ -154,33 +155,9 @@ static void copy_color(const struct subframes *f, const struct box *b)
 static void find_depths(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height, uint32_t *low,
                         uint32_t *high)
 {
-    uint32_t least = UINT16_MAX, most = 0;
-#if SMEAR_VECTORS
-    smear_v8i low8 = v8i_all(INT16_MAX), high8 = v8i_all(INT16_MIN);
-#endif
-    for (int32_t y = 0; y < height; y++, depth += pitch) {
-        int32_t x = 0;
-#if SMEAR_VECTORS
-        for (; x + 8 <= width; x += 8) {
-            /* in the order of signed numbers */
-            const smear_v8i d = v8i_load(depth + x) ^ v8i_all(INT16_MIN);
-            low8 = v8i_min(low8, d);
-            high8 = v8i_max(high8, d);
-        }
-#endif
-        for (; x < width; x++) {
-            least = min_u32(least, depth[x]);
-            most = max_u32(most, depth[x]);
-        }
-    }
-#if SMEAR_VECTORS
-    for (int i = 0; i < 8; i++) {
-        least = min_u32(least, (uint16_t)low8[i] ^ 0x8000u);
-        most = max_u32(most, (uint16_t)high8[i] ^ 0x8000u);
-    }
-#endif
-    *low = least;
-    *high = most;
+    const struct depth_range r = depth_range(depth, pitch, width, height);
+    *low = r.least;
+    *high = r.most;
 }
 
 /* ------------------------------------------------------------------ triangles at an instant */

@@ -11,6 +11,7 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
+#include "kernels/fill.h"
 #include "display/damage.h"
 
 /* ------------------------------------------------------------------ lists */

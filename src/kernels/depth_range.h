@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* depth_range.h - least and greatest depth code of a box of pixels. */
+#ifndef SMEAR_KERNELS_DEPTH_RANGE_H
+#define SMEAR_KERNELS_DEPTH_RANGE_H
+
+#include "kernels/kernels.h"
+
+struct depth_range {
+    uint32_t least, most;       /* codes, 0 .. 65535 */
+};
+
+/* The range of `height` rows of `width` codes, whose starts lie `pitch` codes apart; reads no other codes.
+ * An empty box has the range 65535 .. 0. */
+static inline struct depth_range depth_range_reference(const uint16_t *depth, int32_t pitch, int32_t width,
+                                                       int32_t height)
+{
+    struct depth_range r = { UINT16_MAX, 0 };
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        for (int32_t x = 0; x < width; x++) {
+            r.least = min_u32(r.least, depth[x]);
+            r.most = max_u32(r.most, depth[x]);
+        }
+    }
+    return r;
+}
+
+#if SMEAR_VECTORS
+/* Eight codes at once, in the order of signed numbers: SSE2 has no unsigned minimum of 16 bits. */
+static inline struct depth_range depth_range_vector(const uint16_t *depth, int32_t pitch, int32_t width,
+                                                    int32_t height)
+{
+    const smear_v8i sign = v8i_all(INT16_MIN);
+    smear_v8i least = v8i_all(INT16_MAX), most = sign;
+    struct depth_range r = { UINT16_MAX, 0 };
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        int32_t x = 0;
+        for (; x + 8 <= width; x += 8) {
+            const smear_v8i d = v8i_load(depth + x) ^ sign;
+            least = v8i_min(least, d);
+            most = v8i_max(most, d);
+        }
+        for (; x < width; x++) {
+            r.least = min_u32(r.least, depth[x]);
+            r.most = max_u32(r.most, depth[x]);
+        }
+    }
+    for (int i = 0; i < 8; i++) {
+        r.least = min_u32(r.least, (uint16_t)least[i] ^ 0x8000u);
+        r.most = max_u32(r.most, (uint16_t)most[i] ^ 0x8000u);
+    }
+    return r;
+}
+#endif
+
+static inline struct depth_range depth_range(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
+{
+#if SMEAR_VECTORS
+    return depth_range_vector(depth, pitch, width, height);
+#else
+    return depth_range_reference(depth, pitch, width, height);
+#endif
+}
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* kernels.h - inner loops that have more than one form, and how to add one.
+ *
+ * Every loop that has a vector or assembly form stands in this room. Kernels take pointers, strides, counts
+ * and small structs, never a context, a target or a window; they know nothing of the stages that call them.
+ *
+ * A kernel NAME consists of
+ *   - its contract, the comment above it: shapes, ranges, alignment, what may overlap, rounding;
+ *   - NAME_reference, a short scalar loop that defines the result bit for bit;
+ *   - its variants, beside the reference: NAME_vector where SMEAR_VECTORS is set, NAME_armv6m where SMEAR_ASM_ARMV6M
+ *     is, NAME_unrolled where plain C that compilers turn into better code pays on every core;
+ *   - NAME itself, which the library calls: the best variant of this build, else the reference.
+ *
+ * How to add one
+ *   1. src/kernels/FAMILY.h holds related kernels as `static inline` functions (SMEAR_INLINE where callers pass
+ *      constants). What is long or called from several files is declared there with the prefix smear_ and defined
+ *      in src/kernels/FAMILY.c; what a build does not call, its linker leaves out (--gc-sections).
+ *   2. tests/kernels/FAMILY.c describes each kernel for check_kernels (tests/kernels/kernels.h): the planes of pixels it
+ *      takes, what makes random data fit its contract, and a call of each form. The Makefile finds the file.
+ *   3. `make check-kernels` compares every variant of this machine with its reference, in all lengths up to two
+ *      vectors and three, at all alignments, on random and extreme data with guarded outputs, and prints
+ *      nanoseconds a pixel of each form. `make TARGET=cortex-m0plus target-test` does the comparison for that
+ *      core, and so does every other target that runs unit tests.
+ *   4. A variant stays only if it pays: say in its comment what it gains. */
+#ifndef SMEAR_KERNELS_H
+#define SMEAR_KERNELS_H
+
+#include "base/vector.h"
+
+/* Assembly for ARMv6-M (Cortex-M0 and M0+), whose eight general registers compilers use badly. It keeps all of
+ * them busy, frame pointers included: builds without optimization need those. */
+#ifndef SMEAR_ASM_ARMV6M
+#if defined(__GNUC__) && defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#define SMEAR_ASM_ARMV6M 1
+#else
+#define SMEAR_ASM_ARMV6M 0
+#endif
+#endif
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* kernels.h - kernels as check_kernels tries them: how each is called, and on what data.
+ *
+ * tests/kernels/FAMILY.c defines `const struct kernel kernels_FAMILY[]`, ended by one without a name. Neither libc
+ * nor floating point is there: the suite runs on every target. */
+#ifndef KERNELS_TEST_H
+#define KERNELS_TEST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { KERNEL_PLANES = 5, KERNEL_WORDS = 12, KERNEL_FORMS = 4, KERNEL_BYTES = 1024 };
+
+/* One call. What it writes to planes and words is compared. */
+struct kernel_call {
+    int32_t n;                          /* length: pixels, as a rule */
+    void *plane[KERNEL_PLANES];         /* random or extreme bytes, at any alignment that its pixels may have */
+    int32_t bytes[KERNEL_PLANES];       /* what the kernel may read and write of each */
+    uint32_t word[KERNEL_WORDS];        /* random or extreme numbers */
+};
+
+struct kernel_form {
+    const char *name;                   /* "reference", "vector", "armv6m" ... */
+    void (*call)(struct kernel_call *c);
+};
+
+struct kernel {
+    const char *name;
+    int32_t least, most;                /* lengths to try; most: two vectors and three, or more */
+    uint8_t size[KERNEL_PLANES];        /* bytes per pixel of each plane; 0: no such plane */
+    uint8_t align[KERNEL_PLANES];       /* of their first byte; 0: as their size */
+    void (*prepare)(struct kernel_call *c);     /* makes the data fit the contract; or null */
+    struct kernel_form form[KERNEL_FORMS];      /* the reference first, then what this build has */
+    int32_t timed;                      /* the length that is timed; 0: KERNEL_BYTES / 4 or what fits */
+};
+
+/* The next number of a sequence that is the same in every run; for prepare. */
+uint32_t kernel_random(void);
+
+/* A number from `low` to `high`. */
+static inline int32_t kernel_between(int32_t low, int32_t high)
+{
+    return low + (int32_t)(kernel_random() % (uint32_t)(high - low + 1));
+}
+
+/* Calls `each` for every kernel of every family. */
+void kernels_each(void (*each)(const struct kernel *k));
+
+/* Makes data for calls of length n; kind 0 is random. Planes lie `shift` bytes behind multiples of 16, or as near to
+ * that as the alignment of their pixels allows. */
+enum { KERNEL_KINDS = 4 };
+void kernel_call_make(const struct kernel *k, struct kernel_call *c, int32_t n, int shift, int kind);
+
+/* Gives the planes of a call the data that were made for it. */
+void kernel_call_restore(const struct kernel *k, const struct kernel_call *c);
+
+#endif
