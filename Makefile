@@ -177,7 +177,7 @@ PREFIX ?= /usr/local
 install: $(LIB)
 	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include
 	install -m 644 $(LIB) $(DESTDIR)$(PREFIX)/lib
-	install -m 644 $(wildcard include/*.h) $(DESTDIR)$(PREFIX)/include
+	install -m 644 $(wildcard include/*.h include/*.hpp) $(DESTDIR)$(PREFIX)/include
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e "s|@VERSION@|$$(sh tools/dist/version.sh)|" tools/dist/smear.pc \
 	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/smear.pc
 
@@ -199,10 +199,10 @@ EXR_SUITES := exr
 ALL_SUITES := $(patsubst test_%.c,%,$(notdir $(wildcard tests/unit/test_*.c tests/suite/test_*.c)))
 SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels path raster tables texture tilemax,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs kernels light matrix motion path present raster still \
-              subframes texture tilemax timemask transform view,$(ALL_SUITES))
+SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs kernels light math math_error matrix motion path present raster \
+              still subframes texture tilemax timemask transform view,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -251,8 +251,14 @@ check-kernels: $(BUILD)/check_kernels
 $(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^
 
+# Each public header alone, as C99 and as C++11, and what is used of them.
+STRICT := -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -Iinclude
 test-headers:
 	@mkdir -p $(BUILD)
+	for header in $(notdir $(wildcard include/*.h)); do \
+	    printf '#include <%s>\nextern int used;\n' $$header | $(CC) -std=c99 $(STRICT) -c -o $(BUILD)/header.o -x c - || exit 1; done
+	for header in $(notdir $(wildcard include/*.h include/*.hpp)); do \
+	    printf '#include <%s>\n' $$header | $(CXX) -std=c++11 $(STRICT) -c -o $(BUILD)/header.o -x c++ - || exit 1; done
 	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/unit/header.c
 	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c
 

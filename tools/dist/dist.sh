@@ -33,7 +33,7 @@ d
 # sources of many files: FORM
 tree() {
     mkdir -p "$out/$1/smear/include" "$out/$1/smear/src"
-    cp include/*.h "$out/$1/smear/include"
+    cp include/*.h* "$out/$1/smear/include"
     # shellcheck disable=SC2086
     for file in $headers $sources; do
         mkdir -p "$out/$1/smear/${file%/*}"
