@@ -65,14 +65,12 @@ awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
     FNR == 1 { files[++file_count] = FILENAME }
     match($0, /^#include "[^"]*"/) {
         header = substr($0, 11, RLENGTH - 11)
-        if (header == "context.h")      # which stages still see: until they get rows
-            next
         place = place_of(header, FILENAME)
         if (place == "")
             complain(FILENAME " includes " header ", which is not there")
         else if (place !~ /^include\//) {
             include[FILENAME, ++count[FILENAME]] = place
-            if (floor[room_of(place)] > floor[room_of(FILENAME)])
+            if (floor[room_of(place)] > floor[room_of(FILENAME)] && header != "context.h")    # until stages get rows
                 complain(FILENAME " includes " place ", which is not below it")
         }
     }
