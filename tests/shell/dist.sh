@@ -67,8 +67,9 @@ sketch() {
 claim "sketch of arduino" sketch
 
 example() {
+    # shellcheck disable=SC2046
     ${CC:-cc} -std=gnu11 -O1 -I"$dist/platformio/smear/include" -I"$dist/platformio/smear/src" -o "$base/example" \
-        "$dist"/platformio/smear/src/*.c "$dist/platformio/smear/examples/cube/main.c" && "$base/example" >"$base/example.ppm"
+        $(find "$dist/platformio/smear/src" -name '*.c') "$dist/platformio/smear/examples/cube/main.c" && "$base/example" >"$base/example.ppm"
 }
 claim "example of platformio" example
 
