@@ -2,9 +2,8 @@
 /* smear_math.h - what a program needs to place things and aim a camera, in integers. Header only.
  *
  *     smear_transform pose = smear_compose(smear_move(0, 0, SMEAR_Q16(-6)), smear_rotate_y(angle));
- *     smear_camera camera = smear_perspective(
- *         smear_look_at(smear_vec(0, SMEAR_Q16(2.5), SMEAR_Q16(6)), smear_vec(0, 0, 0), smear_vec(0, 1, 0)),
- *         SMEAR_DEGREES(50), SMEAR_Q16(0.1));
+ *     smear_camera camera = smear_perspective(SMEAR_DEGREES(50), SMEAR_Q16(0.1), 0);
+ *     camera.pose = smear_look_at(smear_vec(0, SMEAR_Q16(2.5), SMEAR_Q16(6)), smear_vec(0, 0, 0), smear_vec(0, 1, 0));
  *
  *     angle += SMEAR_TURNS(1.0 / 90);                 a turn in 90 frames
  *
@@ -428,17 +427,19 @@ static inline int32_t smear_focal_from_fov(uint32_t fov)
     return (int32_t)(focal + (rest << 1 >= sine && focal != INT32_MAX));
 }
 
-/* A camera with a perspective, without a far plane. near_plane is in Q16.16, above 0. */
-static inline smear_camera smear_perspective(smear_transform pose, uint32_t fov, int32_t near_plane)
+/* A camera with a perspective, where nothing is moved or turned: set its pose. Planes are distances in Q16.16, far_plane
+ * 0 for none. */
+static inline smear_camera smear_perspective(uint32_t fov, int32_t near_plane, int32_t far_plane)
 {
 #ifdef __cplusplus
     smear_camera camera = {};
 #else
     smear_camera camera = { 0 };
 #endif
-    camera.pose = pose;
+    camera.pose = smear_move(0, 0, 0);
     camera.focal = smear_focal_from_fov(fov);
     camera.near_plane = near_plane;
+    camera.far_plane = far_plane;
     return camera;
 }
 
