@@ -10,6 +10,7 @@
 #include "base/noise.h"
 #include "base/tables.h"
 #include "raster/window.h"
+#include "smear.h"
 
 struct smear_blur_settings {
     bool linear;                /* average linear light, else codes */
@@ -31,6 +32,14 @@ struct smear_row_table {
     int32_t first;
     int32_t y0, y1;
 };
+
+/* Returns the depth units from the eye to the far plane of an orthographic view, 0 for others. */
+static inline uint32_t blur_far_units(const struct smear_blur_settings *settings)
+{
+    if (!SMEAR_WITH_ORTHOGRAPHIC || !settings->orthographic)
+        return 0;
+    return (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
+}
 
 /* Which tile, counted from the own one, a quarter tile times a sine leads to from `x` in the tile. Pixel
  * centres are at 1/2. */

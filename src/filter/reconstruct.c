@@ -14,14 +14,7 @@
  * from the pixel's velocity, from its depth and from the velocity of the last tap in front. */
 #include "filter/filter.h"
 
-#include "base/fixmath.h"
-#include "base/noise.h"
-#include "base/pixel.h"
-#include "smear.h"
-
-struct vector {
-    int32_t x, y;               /* q8 px */
-};
+#include "filter/gather.h"
 
 /* ------------------------------------------------------------------ lengths */
 
@@ -35,12 +28,6 @@ static int32_t length_of(int32_t x, int32_t y)
     int zeros = count_leading_zeros(root);
     uint32_t quotient = mulh_u32(square, recip_norm(root << zeros)) >> (29 - zeros);
     return (int32_t)((root + quotient + 1u) >> 1);
-}
-
-/* |v| in q8 px. */
-static inline int32_t speed_of(struct smear_pixel_velocity v)
-{
-    return (int32_t)sqrt_q3((uint32_t)(v.x * v.x + v.y * v.y)) << 2;
 }
 
 /* 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4: enough for a
@@ -205,27 +192,9 @@ static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 
 /* ------------------------------------------------------------------ the gather */
 
-/* Running sums; weights q12. The taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
+/* Returns the mean. Weights are q12: the taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
  * its distance), so sums of 16-bit values fit 32 bits. */
-struct sum {
-    uint32_t r, g, b, weight;
-};
-
-SMEAR_INLINE void sum_add(struct sum *s, uint32_t pixel, uint32_t weight, bool linear)
-{
-    if (linear) {
-        s->r += smear_srgb_decode[pixel_red(pixel)] * weight;
-        s->g += smear_srgb_decode[pixel_green(pixel)] * weight;
-        s->b += smear_srgb_decode[pixel_blue(pixel)] * weight;
-    } else {
-        s->r += pixel_red(pixel) * weight;
-        s->g += pixel_green(pixel) * weight;
-        s->b += pixel_blue(pixel) * weight;
-    }
-    s->weight += weight;
-}
-
-SMEAR_INLINE uint32_t sum_pixel(const struct sum *s, bool linear)
+SMEAR_INLINE uint32_t mean_of(const struct weighed_sum *s, bool linear)
 {
     int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm(s->weight << zeros);            /* 2^(61 - zeros) / weight */
@@ -313,7 +282,7 @@ struct tap_frame {
 };
 
 /* x, y and distance in q20 px. */
-SMEAR_INLINE void tap(struct gathering *g, struct sum *sum, const struct tap_frame *f, int32_t x, int32_t y,
+SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct tap_frame *f, int32_t x, int32_t y,
                       int32_t distance, uint32_t shape, bool edge)
 {
     int32_t column = x >> 20;
@@ -338,7 +307,7 @@ SMEAR_INLINE void tap(struct gathering *g, struct sum *sum, const struct tap_fra
         if (f->fence && code < f->own_code)
             weight = weight * (256u - behind_share(g, code)) >> 8;
     }
-    sum_add(sum, g->color[at], weight, g->linear);
+    weighed_add(sum, g->color[at], weight, g->linear, 0);
 }
 
 /* The pixel in column x of the tile and row y of the table. */
@@ -349,7 +318,7 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
     const struct direction *top = m->around;
     const struct tap_frame f = { g->rows->offset, g->depth.code, g->fence && m->slow, -g->x0,
                                  g->w->width - 1 - g->x0 };
-    struct sum sum = { 0, 0, 0, 0 };
+    struct weighed_sum sum = { 0, 0, 0, 0 };
     g->background = m->background;
     g->over = m->over;
 
@@ -372,8 +341,8 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
     if (sum.weight == 0)
         return pixel;
     /* The centre last: 1.2 / (2 B pairs). */
-    sum_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->linear);
-    return sum_pixel(&sum, g->linear);
+    weighed_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->linear, 0);
+    return mean_of(&sum, g->linear);
 }
 
 /* ------------------------------------------------------------------ the tile */
@@ -463,11 +432,9 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
         .w = w, .rows = rows, .linear = settings->linear,
         .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
         .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
-        .wanted = clamp_i32(settings->samples / 2, 1, 64)
+        .far_units = blur_far_units(settings), .wanted = clamp_i32(settings->samples / 2, 1, 64)
     };
     struct choice choice;
-    if (SMEAR_WITH_ORTHOGRAPHIC && settings->orthographic)
-        g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     choice_make(&choice, &g, row, column);
     if (!choice.gathers) {
         smear_blur_copy(out, w, rows, column);

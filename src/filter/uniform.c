@@ -3,8 +3,7 @@
  * along each pixel's own velocity, no depth, no weights; and tiles that nothing moves in: a copy. */
 #include "filter/filter.h"
 
-#include "base/fixmath.h"
-#include "base/pixel.h"
+#include "filter/gather.h"
 
 void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
                      int32_t column)
@@ -30,34 +29,17 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
     int32_t dx = taps->first_x, dy = taps->first_y;
     x = (x << 16) + 0x8000;
     y = (y << 16) + 0x8000;
-    /* Encoded: both sums hold red and blue; the difference is green, 256 times. */
-    uint32_t r = 0, g = 0, b = 0, all = 0, red_blue = 0;
+    struct plain_sum sum = { 0, 0, 0, 0, 0 };
     for (int32_t i = n; i > 0; i -= 2, dx += taps->step_x, dy += taps->step_y) {
         int32_t left = (x - dx) >> 16, other = (x + dx) >> 16;
         if (edge) {
             left = clamp_i32(left, 0, right);
             other = clamp_i32(other, 0, right);
         }
-        uint32_t p = color[row_offset[(y - dy) >> 16] + (uint32_t)left];
-        uint32_t q = color[row_offset[(y + dy) >> 16] + (uint32_t)other];
-        if (linear) {
-            r += (uint32_t)smear_srgb_decode[pixel_red(p)] + smear_srgb_decode[pixel_red(q)];
-            g += (uint32_t)smear_srgb_decode[pixel_green(p)] + smear_srgb_decode[pixel_green(q)];
-            b += (uint32_t)smear_srgb_decode[pixel_blue(p)] + smear_srgb_decode[pixel_blue(q)];
-        } else {
-            all += p + q;
-            red_blue += (p & 0xff00ffu) + (q & 0xff00ffu);
-        }
+        plain_add(&sum, color[row_offset[(y - dy) >> 16] + (uint32_t)left], linear);
+        plain_add(&sum, color[row_offset[(y + dy) >> 16] + (uint32_t)other], linear);
     }
-    /* `over` is 2^24 / n, rounded up: sums stay below 2^24 n, and equal values keep their mean. */
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[mulh_u32(r << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(g << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(b << 8, over) >> 4]);
-    over >>= 8;
-    g = (all - red_blue) >> 8 & 0xffffu;
-    return pixel_make(0, ((red_blue >> 16) * over + 0x8000u) >> 16, (g * over + 0x8000u) >> 16,
-                      ((red_blue & 0xffffu) * over + 0x8000u) >> 16);
+    return plain_mean(&sum, over, linear);
 }
 
 /* The same where things that move with the camera may be in front: a tap that meets one,

@@ -4,23 +4,16 @@
  * stretch it stands for; what is left of the exposure shows the still scene. */
 #include "layers/layer_gather.h"
 
-#include "base/fixmath.h"
-#include "base/pixel.h"
+#include "filter/gather.h"
 
 /* ------------------------------------------------------------------ velocities */
 
-struct vector {
-    int32_t x, y;               /* half the displacement in the exposure, 1/8 px */
-};
-
-static inline struct vector velocity_at(const struct smear_layer_rows *l, int32_t at)
+static inline struct smear_pixel_velocity velocity_at(const struct smear_layer_rows *l, int32_t at)
 {
-    if (l->velocity8 != NULL)
-        return (struct vector){ l->velocity8[2 * at], l->velocity8[2 * at + 1] };
-    return (struct vector){ l->velocity16[2 * at], l->velocity16[2 * at + 1] };
+    return velocity_load(l->velocity8, l->velocity16, (uint32_t)at);
 }
 
-static inline int32_t square_of(struct vector v)
+static inline int32_t square_of(struct smear_pixel_velocity v)
 {
     return v.x * v.x + v.y * v.y;
 }
@@ -31,14 +24,14 @@ void smear_gather_cells(const struct smear_gather_area *a)
     const int32_t count = (l->width >> a->tile_shift) + 1;
     struct smear_layer_cell *own = l->cell, *around = l->cell + count;
     for (int32_t i = 0; i < count; i++) {
-        struct vector longest = { 0, 0 };
+        struct smear_pixel_velocity longest = { 0, 0 };
         bool any = false;
         int32_t x0 = max_i32(i << a->tile_shift, a->x0), x1 = min_i32((i + 1) << a->tile_shift, a->x1);
         for (int32_t y = 0; x0 < x1 && y < a->rows; y++) {
             int32_t x = max_i32(x0, l->row_first[y]), end = min_i32(x1, l->row_end[y]);
             any = any || x < end;
             for (int32_t at = y * l->width + x; x < end; x++, at++) {
-                struct vector v = velocity_at(l, at);
+                struct smear_pixel_velocity v = velocity_at(l, at);
                 if (square_of(v) > square_of(longest))
                     longest = v;
             }
@@ -48,7 +41,7 @@ void smear_gather_cells(const struct smear_gather_area *a)
     for (int32_t i = 0; i < count; i++) {
         around[i] = own[i];
         for (int32_t k = max_i32(i - 1, 0); k <= min_i32(i + 1, count - 1); k++) {
-            struct vector v = { own[k].x, own[k].y }, best = { around[i].x, around[i].y };
+            struct smear_pixel_velocity v = { own[k].x, own[k].y }, best = { around[i].x, around[i].y };
             if (square_of(v) > square_of(best)) {
                 around[i].x = own[k].x;
                 around[i].y = own[k].y;
@@ -60,29 +53,15 @@ void smear_gather_cells(const struct smear_gather_area *a)
 
 /* ------------------------------------------------------------------ a pixel */
 
-/* Sums of channels (codes, or light in 12 bits) by weight; 4096 is the whole exposure. */
-struct sum {
-    uint32_t r, g, b, weight;
-};
+enum { WHOLE = 4096 };          /* weight of the whole exposure */
 
-static inline void sum_add(struct sum *s, uint32_t p, uint32_t weight, bool linear)
+/* Light is summed in 12 bits. */
+static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, bool linear)
 {
-    if (linear) {
-        s->r += (smear_srgb_decode[pixel_red(p)] >> 4) * weight;
-        s->g += (smear_srgb_decode[pixel_green(p)] >> 4) * weight;
-        s->b += (smear_srgb_decode[pixel_blue(p)] >> 4) * weight;
-    } else {
-        s->r += pixel_red(p) * weight;
-        s->g += pixel_green(p) * weight;
-        s->b += pixel_blue(p) * weight;
-    }
-    s->weight += weight;
+    weighed_add(s, p, weight, linear, 4);
 }
 
-enum { WHOLE = 4096 };
-
-/* The mean. */
-static uint32_t sum_mean(const struct sum *s, bool linear)
+static uint32_t sum_mean(const struct weighed_sum *s, bool linear)
 {
     int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
@@ -95,7 +74,7 @@ static uint32_t sum_mean(const struct sum *s, bool linear)
 }
 
 /* What is missing is still; what is too much is shared. */
-static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
+static uint32_t sum_pixel(struct weighed_sum *s, uint32_t still, bool linear)
 {
     if (s->weight < WHOLE)
         sum_add(s, still, WHOLE - s->weight, linear);
@@ -104,7 +83,7 @@ static uint32_t sum_pixel(struct sum *s, uint32_t still, bool linear)
 
 /* Taps along a direction, and what the velocities they meet are worth. */
 struct taps {
-    struct vector d;
+    struct smear_pixel_velocity d;
     int32_t length;             /* q6 px */
     int32_t count, over;        /* over: 16384 / count */
     struct {
@@ -116,7 +95,7 @@ struct taps {
     uint32_t weight;            /* of a tap with it */
 };
 
-static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t word, int32_t width)
+static SMEAR_NOINLINE void taps_start(struct taps *t, struct smear_pixel_velocity d, uint32_t word, int32_t width)
 {
     const int32_t n = t->count;
     t->d = d;
@@ -134,7 +113,7 @@ static SMEAR_NOINLINE void taps_start(struct taps *t, struct vector d, uint32_t 
     t->weight = (uint32_t)((WHOLE + n - 1) / n);
 }
 
-static SMEAR_NOINLINE void taps_meet(struct taps *t, struct vector v, uint32_t word)
+static SMEAR_NOINLINE void taps_meet(struct taps *t, struct smear_pixel_velocity v, uint32_t word)
 {
     int32_t dot = v.x * t->d.x + v.y * t->d.y, cross = abs_i32(v.x * t->d.y - v.y * t->d.x);
     int32_t speed = (int32_t)sqrt_q3((uint32_t)square_of(v));
@@ -159,14 +138,14 @@ struct gathering {
     struct taps taps;
     /* Where a surface may come from: places along the longest velocity
      * around, in both senses, and how fast it must be. */
-    struct vector top;
+    struct smear_pixel_velocity top;
     struct {
         int32_t offset;
         int32_t least;          /* square of 1/8 px */
     } probe[PROBES];
 };
 
-static SMEAR_NOINLINE void probes_start(struct gathering *g, struct vector top)
+static SMEAR_NOINLINE void probes_start(struct gathering *g, struct smear_pixel_velocity top)
 {
     g->top = top;
     for (int32_t i = 0; i < PROBES; i++) {
@@ -189,27 +168,20 @@ static inline int32_t find_direction(const struct gathering *g, int32_t here, ui
     return -1;
 }
 
-/* As velocity_at, in one word that is only good for comparing. */
+/* Loads a velocity as one word that is only good for comparing. */
 SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
 {
-    if (l->velocity8 != NULL) {
-        uint16_t word;
-        __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity8 + 2 * at, 2), sizeof word);
-        return word;
-    }
-    uint32_t word;
-    __builtin_memcpy(&word, __builtin_assume_aligned(l->velocity16 + 2 * at, 4), sizeof word);
-    return word;
+    return velocity_word(l->velocity8, l->velocity16, (uint32_t)at);
 }
 
 /* What a pixel sees of the layer: all of it, or what lies behind a group
  * that was merged before, and what before it. */
 struct seen {
-    struct sum sum, behind;
+    struct weighed_sum sum, behind;
     uint32_t passed_depth;      /* of that group; 0: there is none */
 };
 
-static inline struct sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
+static inline struct weighed_sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
 {
     return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
 }
@@ -244,7 +216,7 @@ SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, 
 {
     int32_t of = -1;
     const bool drawn = g->depth[here] > still_depth;
-    struct vector d = { 0, 0 };
+    struct smear_pixel_velocity d = { 0, 0 };
     if (drawn) {
         d = velocity_at(g->a->layer, here);
         if (square_of(d) >= 16)             /* half a pixel */
@@ -380,7 +352,7 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
         reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
-            const struct vector top = { cell->x, cell->y };
+            const struct smear_pixel_velocity top = { cell->x, cell->y };
             uint32_t still_depth = a->over ? 0 : depth[x];
             if (top.x != g.top.x || top.y != g.top.y)
                 probes_start(&g, top);
@@ -409,7 +381,7 @@ uint32_t smear_plain_merge(const struct smear_gather_area *a, int32_t vx, int32_
         for (int32_t x = left; x < right; x++) {
             uint32_t *still = a->still + y * a->still_stride + x;
             uint32_t still_depth = a->over ? 0 : a->still_depth[y * a->still_stride + x];
-            struct sum sum = { 0, 0, 0, 0 };
+            struct weighed_sum sum = { 0, 0, 0, 0 };
             for (int32_t k = 0; k < n; k++) {
                 int32_t part = (2 * k + 1 - n) * 128 / n;           /* q8, -1/2 .. 1/2 */
                 int32_t at = (y + a->top + ((vy * part + 0x8000) >> 16)) * l->width + x + l->margin

@@ -32,13 +32,7 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
 static inline void keep(const struct smear_window *w, const struct smear_camera_store *store, int32_t at,
                         struct kept k)
 {
-    if (w->velocity8 != NULL) {
-        w->velocity8[2 * at] = (int8_t)k.x;
-        w->velocity8[2 * at + 1] = (int8_t)k.y;
-    } else {
-        w->velocity16[2 * at] = (int16_t)k.x;
-        w->velocity16[2 * at + 1] = (int16_t)k.y;
-    }
+    window_velocity_store(w, at, k.x, k.y);
     if (SMEAR_WITH_INSPECT && store->inspect != NULL) {
         store->inspect[2 * at] = k.wide_x;
         store->inspect[2 * at + 1] = k.wide_y;

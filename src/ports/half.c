@@ -29,17 +29,6 @@ static inline int32_t half_of(int32_t v)
     return v < 0 ? -((1 - v) >> 1) : (v + 1) >> 1;
 }
 
-static void keep_velocity(const struct smear_window *w, int32_t at, int32_t x, int32_t y)
-{
-    if (w->velocity8 != NULL) {
-        w->velocity8[2 * at] = (int8_t)x;
-        w->velocity8[2 * at + 1] = (int8_t)y;
-    } else {
-        w->velocity16[2 * at] = (int16_t)x;
-        w->velocity16[2 * at + 1] = (int16_t)y;
-    }
-}
-
 void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row,
                        int32_t column, bool linear)
 {
@@ -62,8 +51,8 @@ void smear_half_reduce(const struct smear_window *half, const struct smear_windo
                                           full->color[at[3]], linear);
             half->depth[to + x] = full->depth[nearest];
             /* Rounding up may leave the reach by a part of a step. */
-            keep_velocity(half, to + x, clamp_i32(half_of(v.x), -limit, limit),
-                          clamp_i32(half_of(v.y), -limit, limit));
+            window_velocity_store(half, to + x, clamp_i32(half_of(v.x), -limit, limit),
+                                  clamp_i32(half_of(v.y), -limit, limit));
         }
     }
 }

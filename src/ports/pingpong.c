@@ -2,9 +2,7 @@
 /* pingpong.c - see pingpong.h. */
 #include "ports/pingpong.h"
 
-#include "base/fixmath.h"
-#include "base/noise.h"
-#include "base/pixel.h"
+#include "filter/gather.h"
 
 /* ------------------------------------------------------------------ passes */
 
@@ -51,7 +49,7 @@ int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear
 
 /* ------------------------------------------------------------------ means */
 
-/* 2^24 / n, rounded up: equal values keep their mean (uniform.c). */
+/* 2^24 / n, rounded up. */
 static const uint32_t share[65] = {
     0, 16777216, 8388608, 5592406, 4194304, 3355444, 2796203, 2396746, 2097152, 1864136, 1677722, 1525202,
     1398102, 1290556, 1198373, 1118482, 1048576, 986896, 932068, 883012, 838861, 798916, 762601, 729445,
@@ -64,40 +62,8 @@ static const uint32_t share[65] = {
 /* Columns before the frame where positions are not negative: more than any reach. */
 enum { EDGE = 256 };
 
-struct sums {
-    uint32_t r, g, b;           /* linear */
-    uint32_t all, red_blue;     /* encoded: red and blue side by side; the difference is green, 256 times */
-    uint32_t count;
-};
-
-SMEAR_INLINE void sums_add(struct sums *s, uint32_t p, bool linear)
-{
-    if (linear) {
-        s->r += smear_srgb_decode[pixel_red(p)];
-        s->g += smear_srgb_decode[pixel_green(p)];
-        s->b += smear_srgb_decode[pixel_blue(p)];
-    } else {
-        s->all += p;
-        s->red_blue += p & 0xff00ffu;
-    }
-    s->count++;
-}
-
-SMEAR_INLINE uint32_t sums_mean(const struct sums *s, bool linear)
-{
-    uint32_t over = share[s->count];
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[mulh_u32(s->r << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->g << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->b << 8, over) >> 4]);
-    over >>= 8;
-    uint32_t g = (s->all - s->red_blue) >> 8 & 0xffffu;
-    return pixel_make(0, ((s->red_blue >> 16) * over + 0x8000u) >> 16, (g * over + 0x8000u) >> 16,
-                      ((s->red_blue & 0xffffu) * over + 0x8000u) >> 16);
-}
-
-/* The same of 2^shift taps, where `all` began with 0x010101 halves of that, `red_blue` with 0x010001. */
-SMEAR_INLINE uint32_t sums_mean_shift(const struct sums *s, int shift, bool linear)
+/* Returns the mean of 2^shift taps, where `all` began with 0x010101 halves of that, `red_blue` with 0x010001. */
+SMEAR_INLINE uint32_t mean_shift(const struct plain_sum *s, int shift, bool linear)
 {
     if (linear)
         return pixel_make(0, smear_srgb_encode[s->r >> (shift + 4)], smear_srgb_encode[s->g >> (shift + 4)],
@@ -180,11 +146,12 @@ static SMEAR_NOINLINE void limit_choose(struct passing *p, uint32_t code)
 }
 
 /* Not all taps, or not 2^n of them. */
-static SMEAR_NOINLINE uint32_t mean_of_some(struct sums *s, const struct taps *t, uint32_t own, bool linear)
+static SMEAR_NOINLINE uint32_t mean_of_some(struct plain_sum *s, uint32_t count, const struct taps *t, uint32_t own,
+                                            bool linear)
 {
     s->all -= t->all;
     s->red_blue -= t->red_blue;
-    return s->count != 0 ? sums_mean(s, linear) : own;
+    return count != 0 ? plain_mean(s, share[count], linear) : own;
 }
 
 /* The mean of a pixel's taps, those in front of it left out.
@@ -196,21 +163,24 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
     const uint16_t *depth = p->depth;
     const int32_t right = p->w->width - 1;
     const uint64_t step = t->step;
-    struct sums s = { 0, 0, 0, t->all, t->red_blue, 0 };
+    struct plain_sum s = { 0, 0, 0, t->all, t->red_blue };
+    uint32_t count = 0;
     int32_t i = t->count;
     do {
         uint32_t column = (uint32_t)place >> 16;
         if (edge)
             column = (uint32_t)clamp_i32((int32_t)column - EDGE, 0, right);
         uint32_t tap = row[place >> 48] + column;
-        if (depth[tap] <= limit)
-            sums_add(&s, in[tap], linear);
+        if (depth[tap] <= limit) {
+            plain_add(&s, in[tap], linear);
+            count++;
+        }
         place += step;
     } while (--i != 0);
-    if (s.count == (uint32_t)t->count && t->shift >= 0)
-        return sums_mean_shift(&s, t->shift, linear);
-    struct sums some = s;
-    return mean_of_some(&some, t, in[at], linear);
+    if (count == (uint32_t)t->count && t->shift >= 0)
+        return mean_shift(&s, t->shift, linear);
+    struct plain_sum some = s;
+    return mean_of_some(&some, count, t, in[at], linear);
 }
 
 /* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something
@@ -227,7 +197,7 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
     int32_t code = w->depth[at], limit = (int32_t)p->limit, behind = max_i32(2 * code - limit, 0);
     int32_t own_square = own.x * own.x + own.y * own.y;
     int32_t tx = (x << 16) + 0x8000 - half * step_x, ty = (y << 16) + 0x8000 - half * step_y;
-    struct sums s = { 0, 0, 0, 0, 0, 0 };
+    struct plain_sum s = { 0, 0, 0, 0, 0 };
     for (int32_t i = -half; i <= half; i += 2, tx += 2 * step_x, ty += 2 * step_y) {
         uint32_t tap = p->row[ty >> 16] + (uint32_t)clamp_i32(tx >> 16, 0, right);
         struct smear_pixel_velocity v = window_velocity(w, tap);
@@ -237,9 +207,9 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
         int32_t square = dx * dx + dy * dy;
         bool comes = w->depth[tap] >= behind && v.x * v.x + v.y * v.y >= square;
         bool goes = w->depth[tap] <= limit && own_square >= square;
-        sums_add(&s, p->in[comes || goes ? tap : at], linear);
+        plain_add(&s, p->in[comes || goes ? tap : at], linear);
     }
-    return sums_mean(&s, linear);
+    return plain_mean(&s, share[p->pass->taps], linear);
 }
 
 /* ------------------------------------------------------------------ a tile */
@@ -368,15 +338,13 @@ uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, 
                              const struct smear_blur_settings *settings)
 {
     struct passing p = { .w = w, .pass = pass, .settings = settings, .in = in, .depth = w->depth,
-                         .row = rows->offset };
+                         .row = rows->offset, .far_units = blur_far_units(settings) };
     const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
     const struct smear_pixel_velocity top = { around->x >> 5, around->y >> 5 };
     const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
     const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < pass->reach + 1
                   || x1 + pass->reach + 1 > w->width;
     uint32_t taken = 0;
-    if (settings->orthographic)
-        p.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     p.limit = nearest_allowed(&p, 0);
     for (int32_t y = y0; y < y1; y++) {
         const int32_t table_y = y - rows->first;

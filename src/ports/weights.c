@@ -8,20 +8,18 @@
  * twentieth of the distance, where theirs is a length that each scene has to choose. */
 #include "filter/filter.h"
 
-#include "base/fixmath.h"
-#include "base/noise.h"
-#include "base/pixel.h"
-#include "smear.h"
+#include "filter/gather.h"
 
 /* ------------------------------------------------------------------ sums */
 
-/* Weights q8; colours 16 bits (linear light) or 8. */
-struct sum {
+/* As struct weighed_sum, for weights that are larger (q8, and up to 4 of each tap): colours have 16 bits (linear light)
+ * or 8. */
+struct wide_sum {
     uint64_t r, g, b;
     uint32_t weight;
 };
 
-static void sum_add(struct sum *s, uint32_t pixel, uint32_t weight, bool linear)
+static void wide_add(struct wide_sum *s, uint32_t pixel, uint32_t weight, bool linear)
 {
     uint32_t r = pixel_red(pixel), g = pixel_green(pixel), b = pixel_blue(pixel);
     s->r += (uint64_t)(linear ? smear_srgb_decode[r] : r) * weight;
@@ -38,7 +36,7 @@ static uint32_t quotient(uint64_t a, uint32_t weight)
     return (mulh_u32(top, recip_norm_precise(weight << zeros)) + (1u << 12)) >> 13;
 }
 
-static uint32_t sum_pixel(const struct sum *s, bool linear)
+static uint32_t wide_mean(const struct wide_sum *s, bool linear)
 {
     uint32_t r = quotient(s->r, s->weight), g = quotient(s->g, s->weight), b = quotient(s->b, s->weight);
     if (linear)
@@ -49,10 +47,6 @@ static uint32_t sum_pixel(const struct sum *s, bool linear)
 }
 
 /* ------------------------------------------------------------------ vectors */
-
-struct vector {
-    int32_t x, y;               /* q8 px */
-};
 
 static int32_t length_of(struct vector v)
 {
@@ -94,7 +88,7 @@ static struct sample sample_at(const struct gathering *g, uint32_t at)
 {
     struct smear_pixel_velocity v = window_velocity(g->w, at);
     struct sample s = { at, smear_depth_units(g->w->depth[at]), { v.x * 32, v.y * 32 }, 0 };
-    s.speed = (int32_t)sqrt_q3((uint32_t)(v.x * v.x + v.y * v.y)) << 2;
+    s.speed = speed_of(v);
     return s;
 }
 
@@ -143,9 +137,9 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
                                struct vector top, int32_t length, int32_t noise)
 {
     struct sample here = sample_at(g, at);
-    struct sum sum = { 0, 0, 0, 0 };
+    struct wide_sum sum = { 0, 0, 0, 0 };
     int32_t taps = g->taps | 1;         /* one of them is the pixel itself */
-    sum_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1),
+    wide_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1),
             g->settings->linear);
     for (int32_t i = 0; i < taps; i++) {
         if (2 * i == taps - 1)
@@ -157,9 +151,9 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
         int32_t weight = (front * cone(d, max_i32(tap.speed, 128)) + back * cone(d, max_i32(here.speed, 128))
                           + 2 * cylinder(d, max_i32(tap.speed, 128)) * cylinder(d, max_i32(here.speed, 128)))
                       >> 8;
-        sum_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
+        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
     }
-    return sum_pixel(&sum, g->settings->linear);
+    return wide_mean(&sum, g->settings->linear);
 }
 
 /* The second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity
@@ -182,9 +176,9 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
     struct sample here = sample_at(g, at);
     struct vector second = second_direction(&here, top, length);
     int32_t own_alike[2] = { 0, 256 }, speed = max_i32(here.speed, 128);
-    struct sum sum = { 0, 0, 0, 0 };
+    struct wide_sum sum = { 0, 0, 0, 0 };
     own_alike[0] = alike(top, length, second, length);
-    sum_add(&sum, g->w->color[at], (uint32_t)max_i32(g->taps * 65536 / (40 * speed), 1), g->settings->linear);
+    wide_add(&sum, g->w->color[at], (uint32_t)max_i32(g->taps * 65536 / (40 * speed), 1), g->settings->linear);
     for (int32_t i = 0; i < g->taps; i++) {
         /* 0.95 of a tap to either side */
         int32_t t = ((i + 1) * 8192 + (noise * 243 >> 10)) / (g->taps + 1) - 4096;
@@ -198,9 +192,9 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
                           + 2 * cylinder(distance, min_i32(tap_speed, speed))
                                 * max_i32(tap_alike, here_alike))
                       >> 8;
-        sum_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
+        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
     }
-    return sum_pixel(&sum, g->settings->linear);
+    return wide_mean(&sum, g->settings->linear);
 }
 
 /* How much a tap counts by its depth and its smear or the pixel's, q8. */
@@ -219,7 +213,7 @@ static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x
                                struct vector top, int32_t length, int32_t noise)
 {
     struct sample here = sample_at(g, at);
-    struct sum sum = { 0, 0, 0, 0 };
+    struct wide_sum sum = { 0, 0, 0, 0 };
     int32_t pairs = max_i32(g->taps / 2, 1);
     for (int32_t i = 0; i < pairs; i++) {
         int32_t t = ((2 * i + 1) * 2048 + (noise >> 4)) / pairs;
@@ -231,26 +225,24 @@ static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x
         bool is_behind = one.units < other.units, is_slower = other.speed > one.speed;
         int32_t first = is_behind && is_slower ? other_weight : one_weight;
         int32_t second = is_behind || is_slower ? other_weight : one_weight;
-        sum_add(&sum, g->w->color[one.at], (uint32_t)first, g->settings->linear);
-        sum_add(&sum, g->w->color[other.at], (uint32_t)second, g->settings->linear);
+        wide_add(&sum, g->w->color[one.at], (uint32_t)first, g->settings->linear);
+        wide_add(&sum, g->w->color[other.at], (uint32_t)second, g->settings->linear);
     }
     /* The weights are an alpha: what they leave is the pixel's own. */
     int32_t rest = pairs * 512 - (int32_t)sum.weight;
     if (rest > 0)
-        sum_add(&sum, g->w->color[at], (uint32_t)rest, g->settings->linear);
-    return sum_pixel(&sum, g->settings->linear);
+        wide_add(&sum, g->w->color[at], (uint32_t)rest, g->settings->linear);
+    return wide_mean(&sum, g->settings->linear);
 }
 
 uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
                             int32_t row, int32_t column, const struct smear_blur_settings *settings)
 {
-    struct gathering g = { .w = w, .row = rows->offset, .settings = settings,
+    struct gathering g = { .w = w, .row = rows->offset, .settings = settings, .far_units = blur_far_units(settings),
                            .taps = clamp_i32(settings->samples, 2, 64) };
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
     int32_t tile_top = row << w->tile_shift;
     uint32_t taken = 0;
-    if (SMEAR_WITH_ORTHOGRAPHIC && settings->orthographic)
-        g.far_units = (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
     for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
         uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0;
         for (int32_t x = x0; x < x1; x++, at++) {

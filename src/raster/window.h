@@ -62,29 +62,51 @@ static inline struct smear_tile_neighborhood *window_around(const struct smear_w
     return w->around + (uint32_t)row % (2u * (uint32_t)w->lag + 1u) * (uint32_t)w->columns;
 }
 
-/* Velocity of a pixel in 1/8 px. */
+/* Velocity of a pixel in 1/8 px: half its displacement during the exposure. */
 struct smear_pixel_velocity {
     int32_t x, y;
 };
 
-static inline struct smear_pixel_velocity window_velocity(const struct smear_window *w, uint32_t at)
+/* Loads entry `at` of a plane of velocities, which is `narrow` or, where that is null, `wide`. */
+static inline struct smear_pixel_velocity velocity_load(const int8_t *narrow, const int16_t *wide, size_t at)
 {
-    if (w->velocity8 != NULL)
-        return (struct smear_pixel_velocity){ w->velocity8[2 * at], w->velocity8[2 * at + 1] };
-    return (struct smear_pixel_velocity){ w->velocity16[2 * at], w->velocity16[2 * at + 1] };
+    if (narrow != NULL)
+        return (struct smear_pixel_velocity){ narrow[2 * at], narrow[2 * at + 1] };
+    return (struct smear_pixel_velocity){ wide[2 * at], wide[2 * at + 1] };
 }
 
-/* The same in one word that is only good for comparing: most pixels move like the one before. */
-static inline uint32_t window_velocity_word(const struct smear_window *w, uint32_t at)
+/* Loads the entry as one word that is only good for comparing: most pixels move like the one before. */
+static inline uint32_t velocity_word(const int8_t *narrow, const int16_t *wide, size_t at)
 {
-    if (w->velocity8 != NULL) {
+    if (narrow != NULL) {
         uint16_t word;
-        __builtin_memcpy(&word, __builtin_assume_aligned(w->velocity8 + 2 * at, 2), sizeof word);
+        __builtin_memcpy(&word, __builtin_assume_aligned(narrow + 2 * at, 2), sizeof word);
         return word;
     }
     uint32_t word;
-    __builtin_memcpy(&word, __builtin_assume_aligned(w->velocity16 + 2 * at, 4), sizeof word);
+    __builtin_memcpy(&word, __builtin_assume_aligned(wide + 2 * at, 4), sizeof word);
     return word;
+}
+
+static inline struct smear_pixel_velocity window_velocity(const struct smear_window *w, uint32_t at)
+{
+    return velocity_load(w->velocity8, w->velocity16, at);
+}
+
+static inline uint32_t window_velocity_word(const struct smear_window *w, uint32_t at)
+{
+    return velocity_word(w->velocity8, w->velocity16, at);
+}
+
+static inline void window_velocity_store(const struct smear_window *w, int32_t at, int32_t x, int32_t y)
+{
+    if (w->velocity8 != NULL) {
+        w->velocity8[2 * at] = (int8_t)x;
+        w->velocity8[2 * at + 1] = (int8_t)y;
+    } else {
+        w->velocity16[2 * at] = (int16_t)x;
+        w->velocity16[2 * at + 1] = (int16_t)y;
+    }
 }
 
 #endif
