@@ -42,6 +42,12 @@
 #define SMEAR_RARE SMEAR_NOINLINE
 #endif
 
+/* Hints to the optimizer without an instruction of their own. What stands behind SMEAR_KEEP_BRANCH stays there: it is
+ * neither computed in advance nor made of conditional stores. SMEAR_KEEP_VALUE has x computed as it is
+ * written, in a register: the compiler doesn't know afterwards where its value came from. */
+#define SMEAR_KEEP_BRANCH() __asm__ volatile ("")
+#define SMEAR_KEEP_VALUE(x) __asm__("" : "+r"(x))
+
 #if defined(__cplusplus)
 #define SMEAR_STATIC_ASSERT(condition, text) static_assert(condition, text)
 #elif __STDC_VERSION__ >= 201112L

@@ -74,6 +74,12 @@ static inline uint32_t rgb565_nearest(uint32_t p)
     return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
 }
 
+/* The pixel `n` further on: narrow ones have 16 bits, others 32. */
+static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
+{
+    return narrow ? (void *)((uint16_t *)pixel + n) : (void *)((uint32_t *)pixel + n);
+}
+
 /* Pixels of any width, read or written a word at a time. */
 typedef uint32_t __attribute__((may_alias)) pixel_word;
 

@@ -32,7 +32,7 @@ SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z
     do {
         const uint32_t code = z >> 16;
         if (code > *depth) {
-            __asm__ volatile ("");      /* nothing of this in advance */
+            SMEAR_KEEP_BRANCH();
             *depth = (uint16_t)code;
             if (narrow)
                 *thin = (uint16_t)shade_pixel(r, g, b, linear, true);

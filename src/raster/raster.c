@@ -12,7 +12,7 @@
 #include "raster/setup.h"
 #include "raster/span.h"
 #include "geometry/tiny.h"
-#include "base/vector.h"
+#include "kernels/flat_run.h"
 
 /* Nothing else was compiled in. */
 #define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA)
@@ -352,96 +352,14 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     }
 }
 
-/* Depth test and write for pixel i of a run. */
-SMEAR_INLINE void put_flat(void *pixel, uint16_t *depth, int32_t i, uint32_t z, uint32_t color, bool narrow)
-{
-    uint16_t code = (uint16_t)(z >> 16);
-    if (code > depth[i]) {
-        /* One branch: cores that predicate pay for both stores even when hidden. */
-        __asm__ volatile ("");
-        if (narrow)
-            ((uint16_t *)pixel)[i] = (uint16_t)color;
-        else
-            ((uint32_t *)pixel)[i] = color;
-        depth[i] = code;
-    }
-}
-
-SMEAR_INLINE void put_four(void *pixel, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
-{
-    put_flat(pixel, depth, 0, z, color, narrow);
-    put_flat(pixel, depth, 1, z += dz, color, narrow);
-    put_flat(pixel, depth, 2, z += dz, color, narrow);
-    put_flat(pixel, depth, 3, z + dz, color, narrow);
-}
-
-#if SMEAR_VECTORS
-/* Eight; z: depths of the first four, step: how much farther the others are. */
-SMEAR_INLINE void put_eight(void *pixel, uint16_t *depth, smear_v4u z, smear_v4u step, uint32_t color, bool narrow)
-{
-    /* in the order of signed numbers */
-    const smear_v8i sign = v8i_all(INT16_MIN), old = v8i_load(depth) ^ sign,
-                    code = v8i_upper(z, z + step) ^ sign, nearer = (smear_v8i)(code > old);
-    v8i_store(depth, v8i_max(code, old) ^ sign);
-    if (narrow) {
-        uint16_t *out = (uint16_t *)pixel;
-        v8i_store(out, v8i_choose(nearer, v8i_all((int16_t)color), v8i_load(out)));
-        return;
-    }
-    uint32_t *out = (uint32_t *)pixel;
-    const smear_v4u all = { color, color, color, color };
-    v4u_store(out, v4u_choose(v4i_twice_low(nearer), all, v4u_load(out)));
-    v4u_store(out + 4, v4u_choose(v4i_twice_high(nearer), all, v4u_load(out + 4)));
-}
-#endif
-
-/* n pixels of one colour, depth codes from z on in 16.16: the odd ones, then eights. */
-SMEAR_INLINE void run_flat(void *pixel, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color,
-                           bool narrow)
-{
-    if (n & 1) {
-        put_flat(pixel, depth, 0, z, color, narrow);
-        pixel = pixel_after(pixel, 1, narrow);
-        depth++;
-        z += dz;
-    }
-    if (n & 2) {
-        put_flat(pixel, depth, 0, z, color, narrow);
-        put_flat(pixel, depth, 1, z + dz, color, narrow);
-        pixel = pixel_after(pixel, 2, narrow);
-        depth += 2;
-        z += 2 * dz;
-    }
-    if (n & 4) {
-        put_four(pixel, depth, z, dz, color, narrow);
-        pixel = pixel_after(pixel, 4, narrow);
-        depth += 4;
-        z += 4 * dz;
-    }
-    n >>= 3;
-#if SMEAR_VECTORS
-    if (n == 0)
-        return;
-    smear_v4u z4 = { z, z + dz, z + 2 * dz, z + 3 * dz };
-    const smear_v4u step = { 4 * dz, 4 * dz, 4 * dz, 4 * dz };
-    for (; n > 0; n--, pixel = pixel_after(pixel, 8, narrow), depth += 8, z4 += 2 * step)
-        put_eight(pixel, depth, z4, step, color, narrow);
-#else
-    for (; n > 0; n--, pixel = pixel_after(pixel, 8, narrow), depth += 8, z += 8 * dz) {
-        put_four(pixel, depth, z, dz, color, narrow);
-        put_four(pixel_after(pixel, 4, narrow), depth + 4, z + 4 * dz, dz, color, narrow);
-    }
-#endif
-}
-
-/* The same from index `at` on; of the colour as the target has it. */
+/* n pixels from index `at` on, of the colour as the target has it. */
 SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
                               uint32_t dz, uint32_t color)
 {
     if (target_is_direct(t))
-        run_flat(t->direct + at, t->depth + at, n, z, dz, color, true);
+        flat_run(t->direct + at, t->depth + at, n, z, dz, color, true);
     else
-        run_flat(t->color + at, t->depth + at, n, z, dz, color, false);
+        flat_run(t->color + at, t->depth + at, n, z, dz, color, false);
 }
 
 /* Pixels [a, b) of row y, of which some may lie in the other slope of the depth

@@ -4,6 +4,7 @@
 
 #include "raster/texcoord.h"
 #include "base/pixel.h"
+#include "kernels/flat_run.h"
 
 /* Loops of their own for what is common. */
 #ifdef __OPTIMIZE_SIZE__
@@ -14,30 +15,11 @@
 
 void smear_span_flat(const struct setup *s, const struct span *p)
 {
-    uint32_t *color = (uint32_t *)p->color;
-    uint16_t *depth = p->depth;
-    uint32_t z = p->z, c = target_pixel(s->target, s->color), dz = (uint32_t)p->dz;
-    int32_t n = p->b - p->a, i = 0;
-    if (target_is_direct(s->target)) {
-        uint16_t *narrow = (uint16_t *)p->color;
-        do {
-            uint32_t code = z >> 16;
-            if (code > depth[i]) {
-                depth[i] = (uint16_t)code;
-                narrow[i] = (uint16_t)c;
-            }
-            z += dz;
-        } while (++i < n);
-        return;
-    }
-    do {
-        uint32_t code = z >> 16;
-        if (code > depth[i]) {
-            depth[i] = (uint16_t)code;
-            color[i] = c;
-        }
-        z += dz;
-    } while (++i < n);
+    const uint32_t color = target_pixel(s->target, s->color);
+    if (target_is_direct(s->target))
+        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, true);
+    else
+        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, false);
 }
 
 /* ------------------------------------------------------------------ blocks */

@@ -83,12 +83,6 @@ static inline void target_put(const struct smear_raster_target *t, int32_t at, u
         t->color[at] = color & 0xffffffu;
 }
 
-/* `n` pixels further on, of 16 bits or of 32. */
-static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
-{
-    return narrow ? (void *)((uint16_t *)pixel + n) : (void *)((uint32_t *)pixel + n);
-}
-
 /* Index of column 0 of the frame in row y of a plane. */
 static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t,
                                  int32_t y)

@@ -440,7 +440,7 @@ SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, i
     do { \
         ALL_IN_REGISTERS; \
         if (z >> 16 > depth[I]) { \
-            __asm__ volatile ("");      /* nothing of this in advance */ \
+            SMEAR_KEEP_BRANCH(); \
             depth[I] = (uint16_t)(z >> 16); \
             put_texel(color, I, texels, lit, \
                       v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), kind); \

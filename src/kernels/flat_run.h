@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT */
+/* flat_run.h - depth-tested pixels of one colour in a row. */
+#ifndef SMEAR_KERNELS_FLAT_RUN_H
+#define SMEAR_KERNELS_FLAT_RUN_H
+
+#include "base/pixel.h"
+#include "kernels/kernels.h"
+
+/* Pixel i: where its depth code is greater, that is nearer. */
+SMEAR_INLINE void flat_pixel(void *pixels, uint16_t *depth, int32_t i, uint32_t z, uint32_t color, bool narrow)
+{
+    uint16_t code = (uint16_t)(z >> 16);
+    if (code > depth[i]) {
+        /* Cores that predicate pay for both stores even where the pixel is hidden. */
+        SMEAR_KEEP_BRANCH();
+        if (narrow)
+            ((uint16_t *)pixels)[i] = (uint16_t)color;
+        else
+            ((uint32_t *)pixels)[i] = color;
+        depth[i] = code;
+    }
+}
+
+/* Draws n > 0 pixels of the colour `color`, RGB565 where they are narrow. Pixel i has the depth code (z + i dz) >> 16,
+ * modulo 2^16; where it is greater than depth[i] both are written. Pixels and depth are aligned to their
+ * size and don't overlap. */
+SMEAR_INLINE void flat_run_reference(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
+                                     uint32_t color, bool narrow)
+{
+    int32_t i = 0;
+    do {
+        flat_pixel(pixels, depth, i, z, color, narrow);
+        z += dz;
+    } while (++i < n);
+}
+
+SMEAR_INLINE void flat_four(void *pixels, uint16_t *depth, uint32_t z, uint32_t dz, uint32_t color, bool narrow)
+{
+    flat_pixel(pixels, depth, 0, z, color, narrow);
+    flat_pixel(pixels, depth, 1, z += dz, color, narrow);
+    flat_pixel(pixels, depth, 2, z += dz, color, narrow);
+    flat_pixel(pixels, depth, 3, z + dz, color, narrow);
+}
+
+/* A run, and where it has come to. */
+struct flat_walk {
+    void *pixels;
+    uint16_t *depth;
+    uint32_t z;
+};
+
+/* Draws up to seven pixels, so that a multiple of eight is left. */
+SMEAR_INLINE void flat_odd(struct flat_walk *w, int32_t n, uint32_t dz, uint32_t color, bool narrow)
+{
+    if (n & 1) {
+        flat_pixel(w->pixels, w->depth, 0, w->z, color, narrow);
+        w->pixels = pixel_after(w->pixels, 1, narrow);
+        w->depth++;
+        w->z += dz;
+    }
+    if (n & 2) {
+        flat_pixel(w->pixels, w->depth, 0, w->z, color, narrow);
+        flat_pixel(w->pixels, w->depth, 1, w->z + dz, color, narrow);
+        w->pixels = pixel_after(w->pixels, 2, narrow);
+        w->depth += 2;
+        w->z += 2 * dz;
+    }
+    if (n & 4) {
+        flat_four(w->pixels, w->depth, w->z, dz, color, narrow);
+        w->pixels = pixel_after(w->pixels, 4, narrow);
+        w->depth += 4;
+        w->z += 4 * dz;
+    }
+}
+
+/* Eight pixels a round, whose addresses are constants away from each other. */
+SMEAR_INLINE void flat_run_unrolled(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
+                                    uint32_t color, bool narrow)
+{
+    struct flat_walk w = { pixels, depth, z };
+    flat_odd(&w, n, dz, color, narrow);
+    for (n >>= 3; n > 0; n--) {
+        flat_four(w.pixels, w.depth, w.z, dz, color, narrow);
+        flat_four(pixel_after(w.pixels, 4, narrow), w.depth + 4, w.z + 4 * dz, dz, color, narrow);
+        w.pixels = pixel_after(w.pixels, 8, narrow);
+        w.depth += 8;
+        w.z += 8 * dz;
+    }
+}
+
+#if SMEAR_VECTORS
+/* Eight pixels; z: depths of the first four, step: how much farther the others are. Codes are compared in the order
+ * of signed numbers. */
+SMEAR_INLINE void flat_eight(void *pixels, uint16_t *depth, smear_v4u z, smear_v4u step, uint32_t color, bool narrow)
+{
+    const smear_v8i sign = v8i_all(INT16_MIN), old = v8i_load(depth) ^ sign,
+                    code = v8i_upper(z, z + step) ^ sign, nearer = (smear_v8i)(code > old);
+    v8i_store(depth, v8i_max(code, old) ^ sign);
+    if (narrow) {
+        uint16_t *out = (uint16_t *)pixels;
+        v8i_store(out, v8i_choose(nearer, v8i_all((int16_t)color), v8i_load(out)));
+        return;
+    }
+    uint32_t *out = (uint32_t *)pixels;
+    const smear_v4u all = { color, color, color, color };
+    v4u_store(out, v4u_choose(v4i_twice_low(nearer), all, v4u_load(out)));
+    v4u_store(out + 4, v4u_choose(v4i_twice_high(nearer), all, v4u_load(out + 4)));
+}
+
+SMEAR_INLINE void flat_run_vector(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
+                                  uint32_t color, bool narrow)
+{
+    struct flat_walk w = { pixels, depth, z };
+    flat_odd(&w, n, dz, color, narrow);
+    n >>= 3;
+    if (n == 0)
+        return;
+    smear_v4u z4 = { w.z, w.z + dz, w.z + 2 * dz, w.z + 3 * dz };
+    const smear_v4u step = { 4 * dz, 4 * dz, 4 * dz, 4 * dz };
+    for (; n > 0; n--, z4 += 2 * step) {
+        flat_eight(w.pixels, w.depth, z4, step, color, narrow);
+        w.pixels = pixel_after(w.pixels, 8, narrow);
+        w.depth += 8;
+    }
+}
+#endif
+
+SMEAR_INLINE void flat_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color,
+                           bool narrow)
+{
+#if SMEAR_VECTORS
+    flat_run_vector(pixels, depth, n, z, dz, color, narrow);
+#else
+    flat_run_unrolled(pixels, depth, n, z, dz, color, narrow);
+#endif
+}
+
+#endif
