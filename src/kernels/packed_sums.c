@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT */
+/* packed_sums.c - sums of pixels over instants, and the means of them. */
+#include "kernels/packed_sums.h"
+
+#include "base/fixmath.h"
+
+/* ------------------------------------------------------------------ sums */
+
+void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
+{
+    for (int32_t i = 0; i < n; i++) {
+        const uint32_t c = color[i];
+        if (c == background[i] && !all)
+            continue;
+        struct packed_sum s = packed_sum_at(&sums, i);
+        s.rb += c & 0xff00ffu;
+        s.gn += (c >> 8 & 0xffu) + 0x10000u;
+        packed_sum_put(&sums, i, s);
+        color[i] = background[i];
+    }
+}
+
+#if SMEAR_VECTORS
+/* Without a branch per pixel: what looks like the background adds nothing. */
+static void add_vector(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, int32_t n, bool all)
+{
+    int32_t i = 0;
+    const smear_v4u every = { 0u - all, 0u - all, 0u - all, 0u - all };
+    for (; i + 4 <= n; i += 4) {
+        smear_v4u c = v4u_load(color + i), behind = v4u_load(background + i),
+                  counts = (smear_v4u)(c != behind) | every;
+        v4u_store(color + i, behind);
+        c &= counts;
+        v4u_store(rb + i, v4u_load(rb + i) + (c & 0xff00ffu));
+        v4u_store(gn + i, v4u_load(gn + i) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
+    }
+    for (; i < n; i++) {
+        const uint32_t c = color[i], behind = background[i];
+        if (c != behind || all) {
+            color[i] = behind;
+            rb[i] += c & 0xff00ffu;
+            gn[i] += (c >> 8 & 0xffu) + 0x10000u;
+        }
+    }
+}
+
+#elif PACKED_ASM_ARMV6M
+/* 17 instructions a pixel; compilers, which keep half of what the loop needs on the stack, take 24. */
+static void add_armv6m(uint32_t *color, const uint32_t *background, struct packed_sum *sum, int32_t n)
+{
+    const uint32_t *end = background + n;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "movs r4, #255\n\t"
+        "lsls r5, r4, #16\n\t"
+        "orrs r4, r5\n\t"
+        "mov r8, r4\n\t"                /* 0xff00ff */
+        "movs r4, #1\n\t"
+        "lsls r4, r4, #16\n\t"
+        "mov r9, r4\n"                  /* an instant */
+        "1:\n\t"
+        "ldr r4, [%[color]]\n\t"
+        "ldm %[background]!, {r5}\n\t"
+        "stm %[color]!, {r5}\n\t"
+        "cmp r4, r5\n\t"
+        "beq 2f\n\t"
+        "mov r5, r8\n\t"
+        "ands r5, r4\n\t"
+        "lsrs r4, r4, #8\n\t"
+        "uxtb r4, r4\n\t"
+        "ldr r6, [%[sum]]\n\t"
+        "ldr r7, [%[sum], #4]\n\t"
+        "adds r6, r6, r5\n\t"           /* rb += c & 0xff00ff */
+        "adds r7, r7, r4\n\t"           /* gn += (c >> 8 & 0xff) + 0x10000 */
+        "add r7, r9\n\t"
+        "stm %[sum]!, {r6, r7}\n\t"
+        "cmp %[background], %[end]\n\t"
+        "bne 1b\n\t"
+        "b 3f\n"
+        "2:\n\t"
+        "adds %[sum], #8\n\t"
+        "cmp %[background], %[end]\n\t"
+        "bne 1b\n"
+        "3:"
+        : [color] "+l"(color), [background] "+l"(background), [sum] "+l"(sum)
+        : [end] "r"(end)
+        : "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
+}
+#endif
+
+#if !SMEAR_VECTORS
+/* Reads and writes the sums of those pixels only that add to them: the barrier keeps compilers from reading ahead. */
+static void add_lazy(uint32_t *color, const uint32_t *background, struct packed_sum *sum, int32_t n, bool all)
+{
+    const uint32_t mask = all ? UINT32_MAX : 0;
+    for (const uint32_t *end = background + n; background != end; color++, sum++) {
+        const uint32_t c = *color, behind = *background++;
+        if (((c ^ behind) | mask) != 0) {
+            __asm__ volatile ("");
+            struct packed_sum s = *sum;
+            *color = behind;
+            s.rb += c & 0xff00ffu;
+            s.gn += (c >> 8 & 0xffu) + 0x10000u;
+            *sum = s;
+        }
+    }
+}
+#endif
+
+void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
+{
+#if SMEAR_VECTORS
+    add_vector(color, background, sums.rb, sums.gn, n, all);
+#else
+#if PACKED_ASM_ARMV6M
+    if (!all) {
+        add_armv6m(color, background, sums.pair, n);
+        return;
+    }
+#endif
+    add_lazy(color, background, sums.pair, n, all);
+#endif
+}
+
+#if PACKED_SETS
+void smear_packed_set(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
+{
+    struct packed_sum *sum = sums.pair;
+    for (const uint32_t *end = background + n; background != end; color++, sum++) {
+        const uint32_t c = *color, behind = *background++;
+        struct packed_sum s = { 0, 0 };
+        if (c != behind) {
+            *color = behind;
+            s = (struct packed_sum){ c & 0xff00ffu, (c >> 8 & 0xffu) + 0x10000u };
+        }
+        *sum = s;
+    }
+}
+#endif
+
+/* ------------------------------------------------------------------ means */
+
+struct packed_mean smear_packed_mean(uint32_t n)
+{
+    int shift = 31 - count_leading_zeros(n - 1);
+    uint32_t factor = ((1u << (16 + shift)) + n - 1) / n;
+    return (struct packed_mean){ n, (n >> 1) * 0x10001u, factor, shift, factor << (8 - shift) };
+}
+
+void smear_packed_means_reference(uint32_t *color, const struct packed_sum *sum, int32_t n, const struct packed_mean *m)
+{
+    const struct packed_mean mean = *m;
+    for (const struct packed_sum *end = sum + n; sum != end; sum++, color++)
+        if (sum->gn >> 16 != 0)
+            *color = packed_mean_of(&mean, *sum, *color);
+}
+
+#if PACKED_ASM_ARMV6M
+/* 27 instructions a pixel. */
+void smear_packed_means(uint32_t *color, const struct packed_sum *sum, int32_t n, const struct packed_mean *m)
+{
+    const struct packed_sum *end = sum + n;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "movs r4, #255\n\t"
+        "lsls r5, r4, #16\n\t"
+        "orrs r4, r5\n\t"
+        "mov r8, r4\n"                  /* 0xff00ff */
+        "1:\n\t"
+        "ldm %[sum]!, {r4, r5}\n\t"
+        "lsrs r6, r5, #16\n\t"
+        "beq 2f\n\t"
+        "ldr r3, [%[color]]\n\t"
+        "rsbs r6, r6, #0\n\t"           /* rest = n - instants */
+        "add r6, %[n]\n\t"
+        "mov r7, r8\n\t"
+        "ands r7, r3\n\t"
+        "muls r7, r6\n\t"
+        "adds r4, r4, r7\n\t"
+        "add r4, %[halves]\n\t"         /* rb + (c & 0xff00ff) rest + halves */
+        "lsrs r3, r3, #8\n\t"
+        "uxtb r3, r3\n\t"
+        "muls r3, r6\n\t"
+        "adds r5, r5, r3\n\t"
+        "add r5, %[halves]\n\t"
+        "uxth r5, r5\n\t"               /* g + (c >> 8 & 0xff) rest + halves */
+        "mov r6, %[factor]\n\t"
+        "muls r5, r6\n\t"
+        "lsrs r5, r5, #24\n\t"
+        "lsls r5, r5, #8\n\t"
+        "uxth r7, r4\n\t"
+        "muls r7, r6\n\t"
+        "lsrs r7, r7, #24\n\t"
+        "orrs r5, r7\n\t"
+        "lsrs r4, r4, #16\n\t"
+        "muls r4, r6\n\t"
+        "lsrs r4, r4, #24\n\t"
+        "lsls r4, r4, #16\n\t"
+        "orrs r5, r4\n\t"
+        "str r5, [%[color]]\n"
+        "2:\n\t"
+        "adds %[color], #4\n\t"
+        "cmp %[sum], %[end]\n\t"
+        "bne 1b"
+        : [color] "+l"(color), [sum] "+l"(sum)
+        : [end] "r"(end), [n] "r"(m->n), [halves] "r"(m->halves), [factor] "r"(m->factor24)
+        : "r3", "r4", "r5", "r6", "r7", "r8", "cc", "memory");
+}
+#endif

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* subframe_gap.h - means of some tiles' sums, over the gap between one instant and the next. */
+#ifndef SMEAR_SUBFRAME_GAP_H
+#define SMEAR_SUBFRAME_GAP_H
+
+#include "temporal/subframe_tile.h"
+#include "temporal/subframes.h"
+
+/* Puts means in place of the background where anything was summed, which is within `all`. `step`, one per tile, or
+ * null, as for smear_subframes_tiles. */
+void smear_subframe_average(const struct subframes *f, const struct pixel_box *all, const struct smear_step *step);
+
+#endif

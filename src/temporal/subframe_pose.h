@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* subframe_pose.h - a triangle of some tiles at an instant. */
+#ifndef SMEAR_SUBFRAME_POSE_H
+#define SMEAR_SUBFRAME_POSE_H
+
+#include "temporal/subframe_tile.h"
+
+enum { RECORD_WORDS = VERTEX_BASE_WORDS + 3 };      /* of a vertex, without its path, which comes last */
+
+/* A triangle with its vertices at an instant. */
+struct posed {
+    const struct smear_segment *segment;
+    uint32_t color;
+    const int32_t *v[3];        /* `record`, or the vertices themselves where they do not move */
+    struct bounds bounds;       /* of the vertices */
+    struct pixel_box box;       /* within the tiles */
+    int32_t record[3][RECORD_WORDS];
+};
+
+/* False where the triangle is not seen in the tiles at this time, 0 .. SHUTTER_CLOSE: elsewhere, or turned away. */
+bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time);
+
+#endif

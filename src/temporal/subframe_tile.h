@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/* subframe_tile.h - some tiles while they are drawn at several instants: what the parts of subframes.c share. */
+#ifndef SMEAR_SUBFRAME_TILE_H
+#define SMEAR_SUBFRAME_TILE_H
+
+#include "kernels/packed_sums.h"
+#include "temporal/moving.h"
+
+/* Pixels [x0, x1) x [y0, y1). */
+struct pixel_box {
+    int32_t x0, y0, x1, y1;
+};
+
+static const struct pixel_box no_box = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
+
+static inline void box_add(struct pixel_box *b, const struct pixel_box *add)
+{
+    b->x0 = min_i32(b->x0, add->x0);
+    b->y0 = min_i32(b->y0, add->y0);
+    b->x1 = max_i32(b->x1, add->x1);
+    b->y1 = max_i32(b->y1, add->y1);
+}
+
+static inline bool box_is_empty(const struct pixel_box *b)
+{
+    return b->x0 >= b->x1 || b->y0 >= b->y1;
+}
+
+struct subframes {
+    const struct smear_moving_tile *t;
+    struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
+    /* Planes of sums of what is not background: red, green, blue and the number of instants; or packed sums in
+     * the memory of the first two. */
+    uint32_t *sum[3];
+    uint32_t *times;
+    struct packed_sums sums;
+    bool packed;
+    bool blends;                /* blended draws change the background, too */
+    uint32_t instants;
+
+    /* What may be seen in the tile. Triangles beyond those listed are found by walking on from here. */
+    uint32_t *listed;           /* moving triangles, then blended triangles */
+    uint32_t moving_listed, all_listed;
+    uint32_t moving_rest, blend_rest;
+    uint32_t lowest, highest;   /* depth codes of the background */
+    uint32_t nearest;           /* nothing that moves or is blended comes nearer */
+    struct pixel_box area;      /* and nothing of it is seen elsewhere */
+};
+
+/* Index of the first of the box's pixels in row y of the work planes. */
+static inline int32_t work_row(const struct subframes *f, const struct pixel_box *b, int32_t y)
+{
+    return (y - f->t->still.y0) * f->t->pitch + (b->x0 - f->t->still.x0);
+}
+
+/* Without linear light all sums are packed. */
+static inline bool is_packed(const struct subframes *f) { return !SMEAR_WITH_LINEAR || f->packed; }
+
+/* A code as it is summed. */
+static inline uint32_t light_of(uint32_t code, bool linear)
+{
+    return linear ? smear_srgb_decode[code] : code;
+}
+
+#endif
