@@ -10,6 +10,9 @@
 #include "kernels/gap_means.h"
 #include "temporal/subframe_background.h"
 
+/* Instants of light, 16 bits each, whose mean a word per channel allows: wide_mean_of. */
+enum { WIDE_INSTANTS_MAX = 2048 };
+
 /* A tile's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
  * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is
  * shifted. */
@@ -41,13 +44,14 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
 {
     const int32_t x = step->x, y = step->y;     /* 1/16 px */
     const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * GAP_PAIRS_MAX + 1));
+    const uint32_t most = is_packed(f) ? (uint32_t)PACKED_INSTANTS_MAX : (uint32_t)WIDE_INSTANTS_MAX;
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
         /* what is left is the same on both sides */
         whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);
         if (gap->unit == 1)
             whole |= 1u;
-        if (gap->unit == 1 || !is_packed(f) || whole * f->instants <= PACKED_INSTANTS_MAX)
+        if (gap->unit == 1 || whole * f->instants <= most)
             break;
     }
     if (is_packed(f) && whole * f->instants > PACKED_INSTANTS_MAX)

@@ -601,6 +601,29 @@ static void test_a_step_closes_the_gap_between_instants(void)
     }
 }
 
+static void test_wide_gaps_of_many_instants_keep_white(void)
+{
+    /* White all over: sums of linear light are the largest there are. */
+    const struct smear_step step[4] = { { 256, 0 }, { 256, 0 }, { 256, 0 }, { 256, 0 } };
+    const struct corners all = { { { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } },
+                                   { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } },
+                                   { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } } } };
+    for (int linear = 0; linear < 2; linear++)
+        for (int32_t n = 1; n <= 64; n++) {
+            scene_begin(linear);
+            set_layout(3, false, false, true, SHADE_FLAT);
+            add_mover(3, &all, 0xffffffu);
+            mover[0].first = 0;
+            mover[0].last = 3;
+            draw_still();
+            const struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+            smear_subframes_tiles(&t, n, step);
+            for (int32_t i = 0; i < 64 * 16; i++)
+                if (!CHECK_EQ(memory.out[i] & 0xffffffu, 0xffffffu))
+                    return;
+        }
+}
+
 static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
 {
     const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
@@ -890,6 +913,7 @@ void suite_subframes(void)
     RUN(test_a_moving_edge_is_a_ramp);
     RUN(test_tiles_together_are_what_they_are_alone);
     RUN(test_a_step_closes_the_gap_between_instants);
+    RUN(test_wide_gaps_of_many_instants_keep_white);
     RUN(test_gaps_at_a_border_close_with_what_lies_beyond_it);
     RUN(test_what_hides_movers_stays_as_it_is_beside_closed_gaps);
     RUN(test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps);
