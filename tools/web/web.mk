@@ -16,7 +16,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
-WEB_FAST := $(filter src/filter/% src/ports/% src/layers/% src/raster/% src/temporal/subframes.c src/temporal/timemask% \
+WEB_FAST := $(filter src/kernels/% src/filter/% src/ports/% src/layers/% src/raster/% src/temporal/subframes.c src/temporal/timemask% \
     src/temporal/temporal_rows.c src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
