@@ -34,7 +34,7 @@ include platform/$(TARGET)/target.mk
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
 # with others lies in its root, below them.
-SRC_ROOMS  := $(addprefix src/,base kernels geometry raster filter ports display temporal layers model) src
+SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports temporal layers methods model) src
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template

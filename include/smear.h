@@ -207,6 +207,12 @@ static inline uint8_t smear_method_is_filter(int method)
     return method == SMEAR_RECONSTRUCT || (method >= SMEAR_CAMERA && method <= SMEAR_HALF);
 }
 
+/* Methods that blur layers and merge them over the static scene. */
+static inline uint8_t smear_method_has_layers(int method)
+{
+    return method == SMEAR_OBJECT || method == SMEAR_LAYERED;
+}
+
 /* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
 typedef enum smear_filter {
     SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
@@ -538,7 +544,7 @@ static inline uint32_t smear_depth_units(uint16_t code)
 #define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
-#define SMEAR_DRAW_BYTES 304u               /* a draw, its texture's sampler and its kept pose, at most */
+#define SMEAR_DRAW_BYTES 336u               /* a draw, its texture's sampler and its kept pose, at most */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes
                                              * each, 4 more with a texture, 8 with vertex colours or
                                              * normals, 12 or 24 when moving */

@@ -76,76 +76,61 @@ static void mix_material(uint32_t h[2], const smear_material *m)
     mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
-/* As much of a draw as its picture depends on. */
-static void mix_draw(uint32_t h[2], const smear_draw *d)
-{
-    const int32_t look = (int32_t)d->billboard << 1 | (d->material != NULL);
-    mix_mesh(h, d->mesh);
-    mix_transform(h, d->now != NULL ? d->now : &smear_identity);
-    mix(h, &look, 1);
-    if (d->material != NULL)
-        mix_material(h, d->material);
-}
-
-/* And of a frame. */
-static void mix_frame(uint32_t h[2], const struct smear_context *c)
-{
-    const smear_camera *camera = &c->camera;
-    const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane,
-                             (int32_t)(c->frame.clear << 8 | c->frame.light) };
-    mix_transform(h, &camera->pose);
-    mix(h, word, (int)(sizeof word / sizeof *word));
-}
-
 /* ------------------------------------------------------------------ frames */
 
-void smear_damage_begin(struct smear_context *c)
+void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light)
 {
-    struct smear_damage *s = c->still;
-    if (s == NULL)
-        return;
-    uint32_t scene[2] = { 0, 0 };
-    mix_frame(scene, c);
-    for (uint32_t i = 0; i < c->draw_count; i++)
-        if (!c->raster_draw[i].moves)
-            mix_draw(scene, &c->submitted[i].draw);
-    s->is_same = s->is_whole && !c->frame.refresh && scene[0] == s->scene[0] && scene[1] == s->scene[1];
-    s->is_whole = false;
-    s->scene[0] = scene[0];
-    s->scene[1] = scene[1];
-    c->assembler.path_static_count = 0;
-    if (s->due.tile == NULL)
-        return;
-    c->assembler.due = &s->due;
-    for (uint32_t i = 0; !s->is_same && i < c->desc.max_draws; i++)
-        s->seen[i] = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
-    if (!s->is_same)
-        for (int32_t i = 0; i < c->window.columns * c->window.rows; i++)
-            s->due.tile[i] = c->desc.buffer_age;
+    const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane,
+                             (int32_t)(clear << 8 | light) };
+    d->next[0] = d->next[1] = 0;
+    mix_transform(d->next, &camera->pose);
+    mix(d->next, word, (int)(sizeof word / sizeof *word));
 }
 
-void smear_damage_end(struct smear_context *c)
+/* Takes in as much of a draw as its picture depends on. */
+void smear_damage_add(struct smear_damage *d, const smear_draw *draw)
 {
-    struct smear_damage *s = c->still;
-    if (s == NULL)
+    const int32_t look = (int32_t)draw->billboard << 1 | (draw->material != NULL);
+    mix_mesh(d->next, draw->mesh);
+    mix_transform(d->next, draw->now);
+    mix(d->next, &look, 1);
+    if (draw->material != NULL)
+        mix_material(d->next, draw->material);
+}
+
+void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh)
+{
+    d->is_same = d->is_whole && !refresh && d->next[0] == d->scene[0] && d->next[1] == d->scene[1];
+    d->is_whole = false;
+    d->scene[0] = d->next[0];
+    d->scene[1] = d->next[1];
+    if (!damage_has_tiles(d) || d->is_same)
         return;
-    c->stats.static_cached = static_is_cached(c);
-    /* triangles with paths of no length were drawn among what stands still */
-    s->is_whole = !s->keeps || c->assembler.path_static_count == 0;
+    for (uint32_t i = 0; i < rows->desc->max_draws; i++)
+        d->seen[i] = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
+    for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
+        d->tiles.tile[i] = rows->desc->buffer_age;
+}
+
+void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed)
+{
+    rows->stats->static_cached = static_is_cached(d);
+    d->is_whole = !d->caches || !disturbed;
 }
 
 /* ------------------------------------------------------------------ tiles that the display keeps */
 
-bool smear_damage_next_run(const struct smear_context *c, int row, struct smear_damage_run *run)
+bool smear_damage_next_run(const struct smear_damage *d, const struct smear_rows *rows, int row,
+                           struct smear_damage_run *run)
 {
-    const int columns = (int)c->window.columns;
+    const int columns = (int)rows->window.columns;
     int first = run->end;
     run->end = columns;
-    if (c->still != NULL && c->still->due.tile != NULL) {
-        const uint8_t *due = &c->still->due.tile[row * columns];
-        while (first < columns && due[first] == 0)
+    if (damage_has_tiles(d)) {
+        const uint8_t *tile = &d->tiles.tile[row * columns];
+        while (first < columns && tile[first] == 0)
             first++;
-        for (run->end = first; run->end < columns && due[run->end] != 0;)
+        for (run->end = first; run->end < columns && tile[run->end] != 0;)
             run->end++;
     }
     run->first = first;
@@ -153,14 +138,15 @@ bool smear_damage_next_run(const struct smear_context *c, int row, struct smear_
 }
 
 /* What a tile with moving triangles shows is right for none of the buffers later. */
-void smear_damage_row_sent(struct smear_context *c, int row)
+void smear_damage_row_sent(struct smear_damage *d, const struct smear_rows *rows, int row)
 {
-    if (c->still == NULL || c->still->due.tile == NULL)
+    if (!damage_has_tiles(d))
         return;
-    uint8_t *due = &c->still->due.tile[row * c->window.columns];
-    for (int32_t i = 0; i < c->window.columns; i++) {
-        c->stats.tiles_kept += due[i] == 0;
-        due[i] = (due[i] & TILE_DAMAGED_NOW) != 0 ? c->desc.buffer_age : due[i] != 0 ? (uint8_t)(due[i] - 1) : 0;
+    uint8_t *tile = &d->tiles.tile[row * rows->window.columns];
+    for (int32_t i = 0; i < rows->window.columns; i++) {
+        rows->stats->tiles_kept += tile[i] == 0;
+        tile[i] = (tile[i] & TILE_DAMAGED_NOW) != 0 ? rows->desc->buffer_age
+                : tile[i] != 0 ? (uint8_t)(tile[i] - 1) : 0;
     }
 }
 

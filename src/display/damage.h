@@ -1,29 +1,52 @@
 /* SPDX-License-Identifier: MIT */
-/* damage.h - what stands still from frame to frame: kept in the window (smear_desc.cache_static), or by the display
- * (smear_desc.buffer_age). */
+/* damage.h - what is static from frame to frame, and what shows it already: the window (desc.cache_static), or the
+ * display (desc.buffer_age). Only what differs, the damage, is drawn. */
 #ifndef SMEAR_DAMAGE_H
 #define SMEAR_DAMAGE_H
 
-#include "context.h"
+#include "display/row.h"
+#include "geometry/vertex.h"
 
-/* The draw is among what stands still in a frame of a timed method. */
-static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
+struct smear_damage {
+    uint32_t scene[2];              /* hash of all that a picture of what is static depends on */
+    uint32_t next[2];               /* hash of this frame's, so far */
+    bool caches;                    /* desc.cache_static: the window has all rows of the frame */
+    bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
+    bool is_same;                   /* and it is what this frame wants */
+    /* desc.buffer_age, else null: */
+    struct smear_damaged_tiles tiles;   /* for how many frames each tile must still be drawn, this one included, or
+                                         * TILE_DAMAGED_NOW */
+    struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
+};
+
+/* What is static need not be drawn: the window shows it. */
+static inline bool static_is_cached(const struct smear_damage *d)
 {
-    return !c->raster_draw[i].moves && c->raster_draw[i].alpha != SMEAR_BLEND;
+    return SMEAR_WITH_DAMAGE && d != NULL && d->caches && d->is_same;
 }
 
-/* Before anything is drawn: whether it is the last frame's scene that stands still (is_same). */
-void smear_damage_begin(struct smear_context *c);
+/* Only damaged tiles are drawn and sent. */
+static inline bool damage_has_tiles(const struct smear_damage *d)
+{
+    return SMEAR_WITH_DAMAGE && d != NULL && d->tiles.tile != NULL;
+}
 
 /* Nothing shows it any longer: something else is drawn. */
-static inline void damage_forget(struct smear_context *c)
+static inline void damage_forget(struct smear_damage *d)
 {
-    if (c->still != NULL)
-        c->still->is_same = c->still->is_whole = false;
+    if (SMEAR_WITH_DAMAGE && d != NULL)
+        d->is_same = d->is_whole = false;
 }
 
-/* All rows have been drawn, or held. */
-void smear_damage_end(struct smear_context *c);
+/* Before anything is drawn: takes in the camera and what else a frame's picture of static draws depends on, then each
+ * static draw, in order, then finds out whether it is the last frame's scene (is_same). */
+void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light);
+void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
+void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
+
+/* All rows have been drawn, or held. `disturbed`: triangles that move by less than a step of their vertices were drawn
+ * among what is static. */
+void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed);
 
 /* The next tiles beside each other that must be drawn and sent, of a row whose moving triangles are listed: from tile
  * `end` of the run before, or 0, on. False when there are no more. */
@@ -31,9 +54,10 @@ struct smear_damage_run {
     int first, end;                 /* [first, end) */
 };
 
-bool smear_damage_next_run(const struct smear_context *c, int row, struct smear_damage_run *run);
+bool smear_damage_next_run(const struct smear_damage *d, const struct smear_rows *rows, int row,
+                           struct smear_damage_run *run);
 
 /* They have all been sent. */
-void smear_damage_row_sent(struct smear_context *c, int row);
+void smear_damage_row_sent(struct smear_damage *d, const struct smear_rows *rows, int row);
 
 #endif

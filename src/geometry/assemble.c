@@ -73,14 +73,14 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
 }
 
 /* The display has not all tiles that it reaches into. */
-static inline bool is_due(const struct smear_assembler *a, const struct box *box)
+static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
 {
-    if (!SMEAR_WITH_DAMAGE || a->due == NULL)
+    if (!assembler_has_damage(a))
         return true;
-    const struct smear_tile_box tiles = tile_box_of(a->due, box->x0, box->x1, box->y0, box->y1);
-    if (a->due->seen != NULL)
-        tile_box_add(a->due->seen, tiles);
-    return !a->due->only || tile_box_is_damaged(a->due, tiles);
+    const struct smear_tile_box tiles = tile_box_of(a->damaged, box->x0, box->x1, box->y0, box->y1);
+    if (a->damaged->seen != NULL)
+        tile_box_add(a->damaged->seen, tiles);
+    return !a->damaged->only || tile_box_is_damaged(a->damaged, tiles);
 }
 
 /* What the loop over a draw's triangles needs for each of them. */
@@ -160,7 +160,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i)
         return true;
     struct box box = box_of(place[0], place[1], place[2]);
     box_cut(&box, b->a);
-    if (box_is_empty(&box) || !is_due(b->a, &box))
+    if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
     struct smear_segment *s = make_room(b->a, b->d, b->segment, 1);
     if (s == NULL)
@@ -337,7 +337,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
     if (cut)
         box_cut(&box, b->a);
-    if (box_is_empty(&box) || !is_due(b->a, &box))
+    if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
     struct covered covered[POINTS_MAX];
     int count = POINTS_MAX + 1;

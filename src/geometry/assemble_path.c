@@ -164,12 +164,12 @@ static bool has_room(struct path_batch *b)
 }
 
 /* Tiles in which it is seen at some time. */
-static void mark_tiles(const struct smear_damaged_tiles *due, const struct smear_path_bounds *b)
+static void mark_tiles(const struct smear_damaged_tiles *d, const struct smear_path_bounds *b)
 {
-    const struct smear_tile_box box = tile_box_of(due, b->x0, b->x1, b->y0, b->y1);
+    const struct smear_tile_box box = tile_box_of(d, b->x0, b->x1, b->y0, b->y1);
     for (int row = box.y0; row <= box.y1; row++)
         for (int column = box.x0; column <= box.x1; column++)
-            due->tile[row * (due->columns + 1) + column] |= TILE_DAMAGED_NOW;
+            d->tile[row * (d->columns + 1) + column] |= TILE_DAMAGED_NOW;
 }
 
 /* There must be room. */
@@ -190,8 +190,8 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     t->color = color;
     b->a->path_count++;
     b->a->path_static_count += is_still(bounds);
-    if (SMEAR_WITH_DAMAGE && b->a->due != NULL)
-        mark_tiles(b->a->due, bounds);
+    if (assembler_has_damage(b->a))
+        mark_tiles(b->a->damaged, bounds);
     b->a->triangles_drawn++;
 }
 

@@ -30,7 +30,7 @@ struct smear_tile_box {
 struct smear_damaged_tiles {
     uint8_t *tile;
     uint8_t columns, shift;         /* tiles of a row, less one; log2 of their size */
-    bool only;                      /* triangles beyond tiles that are due are left out */
+    bool only;                      /* triangles beyond damaged tiles are left out */
     struct smear_tile_box *seen;    /* grows by where triangles are seen, or null */
 };
 
@@ -72,7 +72,7 @@ struct smear_assembler {
     uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
     uint32_t triangles_drawn, triangles_dropped;
     uint32_t path_static_count;      /* triangles with paths of no length: listed among those that stand still */
-    const struct smear_damaged_tiles *due;    /* with smear_desc.buffer_age, else null: where moving triangles mark their tiles */
+    const struct smear_damaged_tiles *damaged;    /* with smear_desc.buffer_age, else null: where moving triangles mark their tiles */
 };
 
 /* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)
@@ -105,6 +105,12 @@ struct smear_assembly {
     struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
+
+/* As they are, where the methods and surfaces that need them were compiled in. */
+static inline bool assembler_keeps_motion(const struct smear_assembler *a) { return SMEAR_WITH_RECONSTRUCT && a->keep_motion; }
+static inline bool assembler_keeps_paths(const struct smear_assembler *a) { return SMEAR_WITH_SUBFRAMES && a->keep_paths; }
+static inline bool assembler_has_damage(const struct smear_assembler *a) { return SMEAR_WITH_DAMAGE && a->damaged != NULL; }
+static inline bool assembly_has_path(const struct smear_assembly *d) { return SMEAR_WITH_SUBFRAMES && d->path; }
 
 /* Adds the further terms. */
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
@@ -150,6 +156,11 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
 /* The bounds of the mesh lie beyond one side of the view wherever the assembly has it. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
 
+static inline bool assembly_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
+{
+    return SMEAR_WITH_BOUNDS && smear_vertex_is_beside(d, viewport);
+}
+
 /* ------------------------------------------------------------------ records */
 
 static inline uint32_t *store_place(uint32_t *record, const struct smear_screen *screen)
@@ -174,6 +185,15 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
 /* Whether what vertices have of their own (normals where it is lit, colours) is the same within every
  * triangle: as faces that are flat come out of modelling programs. */
 bool smear_vertex_is_level(const smear_mesh *mesh, bool lit);
+
+/* Finds out whether the draw's triangles have one colour each. In linear light, colours that are interpolated may round
+ * to other codes. */
+static inline void assembly_find_level(struct smear_assembly *d)
+{
+    if (SMEAR_LEVELS)
+        d->level = d->material->alpha == SMEAR_OPAQUE && !shading_is_linear(&d->shading)
+                && smear_vertex_is_level(d->mesh, d->shading.lit);
+}
 
 /* Starts a segment for more records of this draw; null when the table is full. */
 struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* accuracy.c - see accuracy.h. Reads the library's own window (src/context.h), so that a filter can
+/* accuracy.c - see accuracy.h. Reads the library's own window (src/probe.h), so that a filter can
  * be compared on the very velocities it read. */
 #include "tests/ref/accuracy.h"
 
 #include "tests/test.h"
 
-#include "context.h"
+#include "probe.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -333,7 +333,7 @@ static void look_at_row(void *user, int y, const uint32_t *color, const uint16_t
 {
     struct taking *taking = user;
     struct shot *shot = taking->shot;
-    const struct smear_window *w = &taking->ctx->window;
+    const struct smear_window *w = &smear_probe(taking->ctx).rows->window;
     size_t row = (size_t)y * (size_t)shot->width, slot = (size_t)(window_ring_row(w, y) * w->width);
     for (size_t x = 0; x < (size_t)shot->width; x++) {
         store_rgb(shot->sharp + 3 * (row + x), color[x]);

@@ -84,7 +84,8 @@ static void test_the_memory_macros_of_timed_contexts_are_never_below_the_memory_
                         .format = SMEAR_RGB565, .sharp = 1, .timed = 1, .strip = 8, .flush = take_band };
     size_t room = SMEAR_MEMORY_SIZE_TIMED(240, 240, 600, 8, 8, 8), need = smear_memory_size(&desc);
     CHECK(room - need < need / 16);
-    CHECK(need <= 72u * 1024u);
+    /* Of small machines, where pointers have 4 bytes: a context has some 71, a draw 12. */
+    CHECK(need - (sizeof(void *) - 4) * (71 + 8 * 12) <= 72u * 1024u);
 }
 
 static void test_the_memory_macro_wastes_less_than_an_eighth(void)

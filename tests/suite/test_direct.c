@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_direct.c - sharp frames drawn as the display's pixels are those that were drawn as working
  * pixels and converted. A context with a window never draws directly. */
-#include "context.h"
+#include "probe.h"
 #include "base/pixel.h"
 #include "raster/texture.h"
 #include "tools/scenes/present.h"
@@ -39,7 +39,7 @@ static int draw(uint16_t *out, const struct presented *frame, const smear_desc *
     int result = -1;
     if (CHECK_EQ(smear_init(&ctx, &desc, memory, smear_memory_size(&desc)), SMEAR_OK)
         && CHECK_EQ(presented_submit(frame, ctx), SMEAR_OK) && CHECK_EQ(smear_render(ctx), SMEAR_OK))
-        result = ctx->direct;
+        result = smear_probe(ctx).direct;
     free(memory);
     return result;
 }

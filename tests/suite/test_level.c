@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_level.c - meshes whose vertices have normals or colours that are the same within every triangle: they are found, and
  * drawn as flat ones are (smear_segment.level), to the bit as by their vertices. Host only. */
-#include "context.h"
+#include "probe.h"
 #include "geometry/vertex.h"
 
 #include "tests/rig.h"
@@ -160,8 +160,8 @@ static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, 
         }
         smear_stats stats;
         smear_get_stats(r.ctx, &stats);
-        t.level = r.ctx->bins.segment[0].level != 0;
-        t.words = r.ctx->bins.vertex_words;
+        t.level = smear_probe(r.ctx).rows->bins.segment[0].level != 0;
+        t.words = smear_probe(r.ctx).rows->bins.vertex_words;
         t.drawn = stats.triangles_drawn;
         t.split = stats.triangles_split;
     }

@@ -4,7 +4,7 @@
 #include "tests/rig.h"
 #include "tests/test.h"
 
-#include "context.h"
+#include "probe.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -612,7 +612,7 @@ static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
             s.frame.shutter_degrees = (uint16_t)degrees;
             stage_draw(&r, &s);
             CHECK(of_square(&r)[0] > 0);
-            CHECK_CLOSE(r.ctx->half_exposure / 16777216.0 * 2 / rate[i], degrees / 360.0 / 30, 1e-6 + degrees * 1e-7);
+            CHECK_CLOSE(smear_probe(r.ctx).half_exposure / 16777216.0 * 2 / rate[i], degrees / 360.0 / 30, 1e-6 + degrees * 1e-7);
         }
     rig_end(&r);
 }

@@ -3,7 +3,8 @@
  * count tiles, but do not say where they are. */
 #include "tools/view/tiles.h"
 
-#include "context.h"
+#include "layers/layer.h"
+#include "probe.h"
 
 #include <stdlib.h>
 
@@ -26,12 +27,12 @@ void tiles_close(struct tiles *t)
 static const struct tile_note still = { TILES_NONE, TILES_STILL, 1 };
 
 /* The chooser is asked again for what it has said of this tile. */
-static struct tile_note timed_tile(const smear_context *c, const struct smear_tile_load *load)
+static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_load *load)
 {
     struct smear_tile_choice choice;
     if (load_method(load) == TILE_COPY)
         return still;
-    smear_tile_method_choose(&choice, &c->chooser, load);
+    smear_tile_method_choose(&choice, &c->temporal->chooser, load);
     if (load_method(load) == TILE_SUBFRAMES)
         return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
     if (load_method(load) == TILE_SMOOTH)
@@ -40,36 +41,36 @@ static struct tile_note timed_tile(const smear_context *c, const struct smear_ti
 }
 
 /* The window that the method filters knows which tiles motion reaches. */
-static struct tile_note filtered_tile(const smear_context *c, int row, int column)
+static struct tile_note filtered_tile(const struct smear_probe *c, int row, int column)
 {
-    const uint8_t kind = window_around(c->filtered, row)[column].kind;
-    uint8_t method = c->frame.method == SMEAR_CAMERA     ? TILES_CAMERA
-                     : c->frame.method == SMEAR_PINGPONG ? TILES_PINGPONG
-                     : c->frame.method == SMEAR_HALF     ? TILES_HALF
+    const uint8_t kind = window_around(c->filtered->window, row)[column].kind;
+    uint8_t method = c->method == SMEAR_CAMERA     ? TILES_CAMERA
+                     : c->method == SMEAR_PINGPONG ? TILES_PINGPONG
+                     : c->method == SMEAR_HALF     ? TILES_HALF
                                                          : TILES_RECONSTRUCT;
     if (kind == TILE_STATIC)
         return still;
     return (struct tile_note){ method, kind == TILE_UNIFORM ? TILES_UNIFORM : TILES_COMPLEX,
-                               c->frame.samples > 1 ? c->frame.samples : 2 };
+                               (uint16_t)(c->samples > 1 ? c->samples : 2) };
 }
 
 /* Running sums take one pixel in and one out, however long the streak. */
-static struct tile_note layers_tile(const smear_context *c, int column)
+static struct tile_note layers_tile(const struct smear_probe *c, int column)
 {
-    const uint8_t reached = c->window.moving[column];
+    const uint8_t reached = c->rows->window.moving[column];
     if (reached == 0)
         return still;
     if ((reached & TILE_LAYERED) == 0)
         return (struct tile_note){ TILES_OBJECT, TILES_UNIFORM, 2 };
-    return (struct tile_note){ TILES_LAYERED, TILES_COMPLEX, c->frame.samples > 1 ? c->frame.samples : 2 };
+    return (struct tile_note){ TILES_LAYERED, TILES_COMPLEX, (uint16_t)(c->samples > 1 ? c->samples : 2) };
 }
 
-static struct tile_note tile_of(const smear_context *c, int row, int column)
+static struct tile_note tile_of(const struct smear_probe *c, int row, int column)
 {
-    switch (c->frame.method) {
+    switch (c->method) {
     case SMEAR_ACCUMULATE:
         return (struct tile_note){ TILES_ACCUMULATE, TILES_COMPLEX,
-                                   c->frame.samples > 0 ? c->frame.samples : 8 };
+                                   (uint16_t)(c->samples > 0 ? c->samples : 8) };
     case SMEAR_RECONSTRUCT:
     case SMEAR_CAMERA:
     case SMEAR_PINGPONG:
@@ -78,7 +79,7 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO:
-        return timed_tile(c, &c->row_moving.load[column]);
+        return temporal_tile(c, &c->temporal->moving.load[column]);
     case SMEAR_OBJECT:
     case SMEAR_LAYERED:
         return layers_tile(c, column);
@@ -87,13 +88,14 @@ static struct tile_note tile_of(const smear_context *c, int row, int column)
     }
 }
 
-void tiles_note(struct tiles *t, const smear_context *c, const smear_band *band)
+void tiles_note(struct tiles *t, const smear_context *ctx, const smear_band *band)
 {
-    const int edge = c->window.tile;
+    const struct smear_probe c = smear_probe(ctx);
+    const int edge = c.rows->window.tile;
     t->edge = edge;
     t->columns = (band->width + edge - 1) / edge;
-    t->rows = (c->desc.height + edge - 1) / edge;
+    t->rows = (c.rows->window.height + edge - 1) / edge;
     for (int row = band->y / edge; row * edge < band->y + band->height; row++)
         for (int column = 0; column < t->columns; column++)
-            t->note[row * t->columns + column] = tile_of(c, row, column);
+            t->note[row * t->columns + column] = tile_of(&c, row, column);
 }

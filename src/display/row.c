@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/* row.c - see row.h. */
+#include "display/row.h"
+
+#include "kernels/fill.h"
+
+void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, struct smear_raster_target *t)
+{
+    const struct smear_window *w = &rows->window;
+    struct smear_plane_rows plane = { w->width, window_ring_row(w, y0), w->ring, 0 };
+    *t = (struct smear_raster_target){
+        .x0 = 0, .y0 = y0, .x1 = w->width, .y1 = y1,
+        .color = w->color, .color_rows = plane, .depth = w->depth, .window_rows = plane,
+        .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
+    };
+}
+
+void smear_row_target(const struct smear_rows *rows, int row, struct smear_raster_target *t)
+{
+    smear_window_target(rows, row_top(rows, row), row_bottom(rows, row), t);
+}
+
+void smear_job_columns(const struct smear_rows *rows, int job, int32_t *x0, int32_t *x1)
+{
+    int32_t unit = max_i32(rows->window.tile, 16), n = rows->jobs.workers;
+    int32_t units = (rows->window.width + unit - 1) / unit;
+    *x0 = min_i32(units * job / n * unit, rows->window.width);
+    *x1 = min_i32(units * (job + 1) / n * unit, rows->window.width);
+}
+
+/* Where tiles of a method are counted. */
+static uint32_t *count_of(smear_stats *s, smear_method method)
+{
+    switch (method) {
+    case SMEAR_ACCUMULATE: return &s->tiles_accumulate;
+    case SMEAR_SUBFRAMES: return &s->tiles_subframes;
+    case SMEAR_TIMEMASK: return &s->tiles_timemask;
+    case SMEAR_AUTO: return &s->tiles_smooth;
+    case SMEAR_CAMERA: return &s->tiles_camera;
+    case SMEAR_PINGPONG: return &s->tiles_pingpong;
+    case SMEAR_HALF: return &s->tiles_half;
+    case SMEAR_OBJECT: return &s->tiles_object;
+    case SMEAR_LAYERED: return &s->tiles_layered;
+    default: return &s->tiles_reconstruct;
+    }
+}
+
+void smear_row_count(const struct smear_rows *rows, int kind, smear_method method)
+{
+    smear_stats *s = rows->stats;
+    if (kind == TILE_STATIC) {
+        s->tiles_still++;
+        s->tiles_none++;
+        return;
+    }
+    ++*count_of(s, method);
+    if (kind == TILE_UNIFORM)
+        s->tiles_uniform++;
+    else
+        s->tiles_complex++;
+}
+
+void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity)
+{
+    const int32_t n = t->x1 - t->x0;
+    for (int32_t y = t->y0; y < t->y1; y++) {
+        const int32_t at = target_row(&t->window_rows, t, y) + t->x0;
+        pixels_fill(t->color + at, color, n);
+        __builtin_memset(t->depth + at, 0, (size_t)n * 2);
+        if (t->velocity8 != NULL)
+            __builtin_memset(t->velocity8 + 2 * at, velocity, (size_t)n * 2);
+        if (t->velocity16 != NULL)
+            __builtin_memset(t->velocity16 + 2 * at, velocity, (size_t)n * 4);
+        if (target_is_inspected(t))
+            __builtin_memset(t->inspect + 2 * at, 0, (size_t)n * 8);
+    }
+}
+
+bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster_target *t, int velocity)
+{
+    const struct smear_rows *rows = r->rows;
+    smear_job_columns(rows, job, &t->x0, &t->x1);
+    t->x0 = max_i32(t->x0, job_left(r));
+    t->x1 = min_i32(t->x1, job_right(r));
+    if (t->x0 >= t->x1)
+        return false;
+    smear_row_clear(t, rows->clear, velocity);
+    t->cache = smear_raster_cache_of(&rows->cache, job);
+    smear_raster_list(&rows->raster, t, rows->opaque);
+    return true;
+}
+
+static void blend_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = (const struct row_job *)argument;
+    struct smear_raster_target t;
+    (void)worker;
+    smear_row_target(r->rows, r->row, &t);
+    smear_job_columns(r->rows, job, &t.x0, &t.x1);
+    if (t.x0 < t.x1)
+        smear_raster_list(&r->rows->raster, &t, r->rows->blend);
+}
+
+void smear_row_blend(struct smear_rows *rows, int row)
+{
+    if (!SMEAR_WITH_ALPHA || !rows->blends)
+        return;
+    struct row_job job = { .rows = rows, .row = row };
+    rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+    smear_jobs_run(&rows->jobs, blend_job, &job, rows->jobs.workers);
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT */
+/* row.h - what the tile rows of a frame share: the window they are drawn in, their lists of triangles, jobs, bands.
+ *
+ * Methods get this and what they keep for themselves, never the context. */
+#ifndef SMEAR_ROW_H
+#define SMEAR_ROW_H
+
+#include "smear.h"
+
+#include "base/jobs.h"
+#include "raster/raster.h"
+#include "raster/window.h"
+
+/* Finished pixels on their way to the display. */
+struct smear_bands {
+    uint8_t *buffer[2];
+    uint32_t bytes;             /* of a buffer */
+    uint32_t handed;            /* bands handed to flush so far */
+    unsigned sent;              /* of them reported by smear_band_done */
+};
+
+struct smear_rows {
+    const smear_desc *desc;     /* defaults filled in */
+    smear_stats *stats;
+    struct smear_window window;
+    struct smear_bins bins;
+    struct smear_raster_frame raster;
+    struct smear_raster_cache cache;    /* of the first raster job */
+    struct smear_jobs jobs;
+    struct smear_bands bands;
+    /* lists of the row that is drawn and of the row that is finished; SMEAR_NO_TRIANGLE before the first */
+    uint32_t opaque, blend, moving;
+    bool blends;                /* some draw is blended */
+    bool keeps_motion;          /* triangles that move write velocities into the window */
+    uint32_t clear;             /* 0x00RRGGBB */
+    uint32_t *scratch;          /* finished pixels of a tile or strip per worker */
+    int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
+    uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */
+};
+
+/* ------------------------------------------------------------------ time */
+
+static inline uint32_t stage_start(const struct smear_rows *rows)
+{
+    return rows->desc->clock != NULL ? rows->desc->clock(rows->desc->user) : 0;
+}
+
+static inline void stage_end(const struct smear_rows *rows, uint32_t *stage, uint32_t start)
+{
+    *stage += stage_start(rows) - start;
+}
+
+/* ------------------------------------------------------------------ places */
+
+/* Pixel rows of a tile row. */
+static inline int32_t row_top(const struct smear_rows *rows, int row)
+{
+    return row * rows->bins.row_px;
+}
+
+static inline int32_t row_bottom(const struct smear_rows *rows, int row)
+{
+    return min_i32(row_top(rows, row) + rows->bins.row_px, rows->window.height);
+}
+
+/* Pixel columns of a tile. */
+static inline int32_t tile_left(const struct smear_rows *rows, int column)
+{
+    return column << rows->window.tile_shift;
+}
+
+static inline int32_t tile_right(const struct smear_rows *rows, int column)
+{
+    return min_i32(tile_left(rows, column) + rows->window.tile, rows->window.width);
+}
+
+/* Points `t` at the window's rows [y0, y1): colour and depth. */
+void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, struct smear_raster_target *t);
+
+/* Points `t` at the window's rows of a tile row. */
+void smear_row_target(const struct smear_rows *rows, int row, struct smear_raster_target *t);
+
+/* Finds the columns of a raster job: the frame's width in as many equal cuts as there are workers. */
+void smear_job_columns(const struct smear_rows *rows, int job, int32_t *x0, int32_t *x1);
+
+/* ------------------------------------------------------------------ jobs of a row */
+
+/* What the jobs of a tile row share. A band may be a part of the row: pixel rows [y0, y1) and columns [x0, x1);
+ * where an end is 0, all. */
+struct row_job {
+    struct smear_rows *rows;
+    int row;
+    uint8_t *band;              /* finished pixels: each tile's place is that of the same tile of a whole row
+                                 * whose tiles lie one after the other */
+    int32_t y0, y1;
+    int32_t x0, x1;             /* of a temporal method */
+};
+
+static inline int32_t job_left(const struct row_job *r) { return SMEAR_WITH_SUBFRAMES && r->x1 != 0 ? r->x0 : 0; }
+
+static inline int32_t job_right(const struct row_job *r)
+{
+    return SMEAR_WITH_SUBFRAMES && r->x1 != 0 ? r->x1 : r->rows->window.width;
+}
+
+static inline int32_t job_top(const struct row_job *r) { return r->y1 != 0 ? r->y0 : row_top(r->rows, r->row); }
+
+static inline int32_t job_bottom(const struct row_job *r)
+{
+    return r->y1 != 0 ? r->y1 : row_bottom(r->rows, r->row);
+}
+
+/* ------------------------------------------------------------------ steps of a row */
+
+/* Counts a tile: the kind of motion in it (smear_tile_class), and the method it got where that is not TILE_STATIC. */
+void smear_row_count(const struct smear_rows *rows, int kind, smear_method method);
+
+/* Fills the target's columns with the clear colour and depth 0, and with `velocity` bytes where it has velocities. */
+void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity);
+
+/* Moves a list of triangles on to the row. */
+static inline uint32_t row_advance(const struct smear_rows *rows, const uint32_t *last, uint32_t head, int row)
+{
+    return smear_bins_advance(&rows->bins, last, head, row);
+}
+
+/* Draws the job's share of the row's opaque triangles over cleared rows of the target, whose x0 and x1 it sets. False
+ * where the share is empty. */
+bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster_target *t, int velocity);
+
+/* Draws blended triangles of the row straight over its rows in the window: where no filter will read them. */
+void smear_row_blend(struct smear_rows *rows, int row);
+
+#endif

@@ -1,0 +1,348 @@
+/* SPDX-License-Identifier: MIT */
+/* draws.c - see draws.h. */
+#include "draws.h"
+
+#include "geometry/assemble_path.h"
+#include "layers/groups.h"
+
+/* The frame has blurred layers. */
+static inline bool has_layers(const struct smear_context *c)
+{
+    return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
+}
+
+/* ------------------------------------------------------------------ what draws are */
+
+/* Returns the three cameras of a draw's layer, if it has its own. */
+static const smear_camera *layer_camera(const struct smear_context *c, uint32_t i)
+{
+    const uint32_t layer = has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
+    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? c->layers->setting[layer].camera : NULL;
+}
+
+static void poses_of(struct smear_draw_poses *p, const struct smear_context *c, uint32_t i)
+{
+    smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, layer_camera(c, i));
+}
+
+/* Where velocities come from depth: whether a draw has one of its own, or stays where it is before the camera. */
+static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw_poses *p, uint8_t motion)
+{
+    bool own = false, attached = true;
+    for (int i = 1; i < 3; i++) {
+        const bool deforms = p->position[i] != p->position[0];
+        own = own || deforms || !smear_transform_is_same(p->object[i], p->object[0]);
+        attached = attached && !deforms
+                && smear_is_attached(p->object[i], p->camera[i], p->object[0], p->camera[0]);
+    }
+    r->fixed = motion == SMEAR_MOTION_NONE || (own && attached);
+    r->moves = own && !attached;
+}
+
+/* Finds where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
+static void classify_draw(struct smear_context *c, uint32_t i)
+{
+    struct smear_raster_draw *r = &c->raster_draw[i];
+    struct smear_draw_poses p;
+    poses_of(&p, c, i);
+    r->moves = poses_differ(&p);
+    r->fixed = false;
+    if (frame_has_depth_velocity(&c->rows.raster))
+        find_own_motion(r, &p, c->submitted[i].draw.motion);
+    c->filtered.blur.held = c->filtered.blur.held || r->fixed;
+    if (c->frame.method == SMEAR_CAMERA)
+        r->moves = false;
+    c->stats.draws_moved += r->moves;
+}
+
+static void look_up_material(struct smear_context *c, uint32_t i)
+{
+    const smear_draw *d = &c->submitted[i].draw;
+    const smear_material *m = d->material;
+    struct smear_raster_draw *r = &c->raster_draw[i];
+    r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
+    r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
+    if (m != NULL && m->texture != NULL)
+        smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
+                           frame_is_linear(&c->rows.raster));
+    c->rows.blends = c->rows.blends || draw_is_blended(r);
+    /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
+    c->direct = c->direct && !c->rows.blends
+             && (m == NULL || m->texture == NULL || m->texture->format == SMEAR_TEXEL_565);
+}
+
+void smear_draws_prepare(struct smear_context *c)
+{
+    c->rows.blends = false;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        classify_draw(c, i);
+        look_up_material(c, i);
+        c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
+    }
+}
+
+/* ------------------------------------------------------------------ layers */
+
+SMEAR_NOINLINE void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle)
+{
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
+    const struct smear_instant open = smear_instant_at(&c->shot, -65536), close = smear_instant_at(&c->shot, 65536);
+    struct smear_layers *l = c->layers;
+    smear_groups_begin(l);
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        smear_groups_find_layer(l, i, &c->submitted[i].draw);
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        const smear_draw *draw = &c->submitted[i].draw;
+        struct smear_draw_poses poses;
+        struct smear_placement key[2], at;
+        if (l->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
+            continue;
+        const struct smear_layer_setting *setting = &l->setting[l->layer_of[i]];
+        poses_of(&poses, c, i);
+        const bool moves = setting->layer.method != SMEAR_NONE && poses_differ(&poses);
+        if (!moves && !setting->has_camera && !setting->layer.over)
+            continue;
+        smear_draw_poses_place(&key[0], &poses, &c->shot, draw->mesh, moves ? &open : &smear_instant_now);
+        smear_draw_poses_place(&key[1], &poses, &c->shot, draw->mesh, moves ? &close : &smear_instant_now);
+        smear_draw_poses_place(&at, &poses, &c->shot, draw->mesh, moves ? middle : &smear_instant_now);
+        smear_groups_add(l, i, draw, key, &at, &c->assembler.viewport, moves);
+    }
+    smear_groups_end(l, c->draw_count);
+}
+
+/* ------------------------------------------------------------------ an assembly */
+
+/* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
+ * itself, one further pose is enough. */
+static void add_motion(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p,
+                       const struct smear_instant *instant)
+{
+    smear_draw_poses_add(a, p, &c->shot, 1);
+    if (c->shot.shutter_poses || instant->weight[0] != 1 << 24)
+        smear_draw_poses_add(a, p, &c->shot, c->shot.shutter_poses ? 2 : 0);
+}
+
+/* Finds where a draw is, at an instant and along its path. */
+static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves,
+                  const struct smear_instant *instant)
+{
+    smear_draw_poses_place(&a->at, p, &c->shot, a->mesh, moves ? instant : &smear_instant_now);
+    if (!moves || !assembler_keeps_paths(&c->assembler))
+        return;
+    const struct smear_instant open = smear_instant_at(&c->shot, -65536), close = smear_instant_at(&c->shot, 65536);
+    a->path = true;
+    smear_draw_poses_place(&a->key[0], p, &c->shot, a->mesh, &open);
+    smear_draw_poses_place(&a->key[1], p, &c->shot, a->mesh, &close);
+}
+
+/* Makes everything the assembler needs of draw `i` at an instant. False where nothing of it is in view. */
+static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
+                                         struct smear_assembly *a)
+{
+    static const smear_material white = { 0 };
+    const smear_draw *draw = &c->submitted[i].draw;
+    struct smear_draw_poses poses;
+    poses_of(&poses, c, i);
+    a->mesh = draw->mesh;
+    a->material = draw->material != NULL ? draw->material : &white;
+    a->draw = (uint16_t)i;
+    a->mirrored = smear_transform_is_mirrored(poses.object[0]);
+    a->moves = 0;
+    a->path = a->fixed = a->has_rest = false;
+    const bool moves = poses_differ(&poses);
+    place(a, c, &poses, moves, instant);
+    /* Layers reach beyond the frame. */
+    if (!has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
+        return false;
+    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
+                       frame_is_linear(&c->rows.raster));
+    assembly_find_level(a);
+    if (!moves)
+        return true;
+    a->fixed = c->raster_draw[i].fixed;
+    if (assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)
+        add_motion(a, c, &poses, instant);
+    return true;
+}
+
+/* ------------------------------------------------------------------ static draws */
+
+/* A draw is static in a frame of a temporal method. */
+static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
+{
+    return !c->raster_draw[i].moves && c->raster_draw[i].alpha != SMEAR_BLEND;
+}
+
+void smear_draws_find_damage(struct smear_context *c)
+{
+    struct smear_damage *d = c->damage;
+    if (d == NULL)
+        return;
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, c->frame.light);
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (!c->raster_draw[i].moves)
+            smear_damage_add(d, &c->submitted[i].draw);
+    smear_damage_find(d, &c->rows, c->frame.refresh);
+    c->assembler.path_static_count = 0;
+    if (damage_has_tiles(d))
+        c->assembler.damaged = &d->tiles;
+}
+
+/* Whether static draw `i` must be drawn: the tiles in which it was seen say so where the display keeps them. *seen is the
+ * box of the static draw before, or null. */
+static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen)
+{
+    *seen = *seen == NULL ? d->seen : *seen + 1;
+    if (d->is_same && !tile_box_is_damaged(&d->tiles, **seen))
+        return false;
+    d->tiles.only = d->is_same;
+    d->tiles.seen = d->is_same ? NULL : *seen;
+    return true;
+}
+
+/* What moves by less than a step of its vertices is drawn among what is static, and in order with it. */
+static bool static_is_disturbed(const struct smear_context *c)
+{
+    return static_is_cached(c->damage) && c->assembler.path_static_count != 0;
+}
+
+/* ------------------------------------------------------------------ assembling */
+
+/* Draws of a kind. */
+enum draws { DRAWS_ALL, DRAWS_MOVING, DRAWS_STATIC };
+
+static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
+{
+    return (kind == DRAWS_ALL || draw_is_static(c, i) == (kind == DRAWS_STATIC))
+        && !(static_is_cached(c->damage) && draw_is_static(c, i));
+}
+
+static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, uint32_t i,
+                          const struct smear_instant *instant, bool drop)
+{
+    struct smear_assembly a;
+    const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
+                                    ? &c->layers->group[c->layers->group_of[i]] : NULL;
+    if (has_layers(c))
+        c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
+    const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
+    if (!make_assembly(c, i, is_sharp ? &smear_instant_now : instant, &a)) {
+        c->stats.draws_beside++;
+        return true;
+    }
+    if (group != NULL)
+        return smear_groups_assemble(c->layers, &c->assembler, &a, drop);
+    return assembly_has_path(&a) ? smear_assemble_path(as, &a, drop) : smear_assemble(as, &a, drop);
+}
+
+/* Assembles draws into what `as` names. False when the store is full. */
+static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
+                          bool drop, enum draws kind)
+{
+    struct smear_tile_box *seen = NULL;
+    for (uint32_t k = 0; k < c->draw_count; k++) {
+        const uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
+        if (!is_of_kind(c, i, kind) || (kind == DRAWS_STATIC && !is_damaged(c->damage, &seen)))
+            continue;
+        if (!assemble_draw(c, as, i, instant, drop))
+            return false;
+    }
+    return true;
+}
+
+/* Assembles all draws. Where the display keeps tiles, what moves comes first: it says in which of them something must
+ * be drawn. */
+static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
+                           bool drop)
+{
+    if (!assembler_has_damage(as))
+        return assemble_kind(c, as, instant, drop, DRAWS_ALL);
+    c->damage->tiles.only = false;
+    c->damage->tiles.seen = NULL;
+    return assemble_kind(c, as, instant, drop, DRAWS_MOVING)
+        && assemble_kind(c, as, instant, drop, DRAWS_STATIC);
+}
+
+#if SMEAR_FAST_STACK
+/* Assembles with what is worked on brought to the stack. */
+static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant, bool drop)
+{
+    enum { VERTICES = 64 };
+    struct smear_cached_vertex cache[VERTICES];
+    struct smear_bins bins = c->rows.bins;
+    struct smear_assembler as = c->assembler;
+    as.bins = &bins;
+    as.cache = cache;
+    as.cache_mask = VERTICES - 1;
+    as.serial = 0;
+    smear_assembler_reset(&as);
+    const bool done = assemble_draws(c, &as, instant, drop);
+    c->rows.bins = bins;
+    c->assembler.path_count = as.path_count;
+    c->assembler.path_static_count = as.path_static_count;
+    c->assembler.triangles_drawn = as.triangles_drawn;
+    c->assembler.triangles_dropped = as.triangles_dropped;
+    return done;
+}
+#endif
+
+/* Assembles all draws for the tile rows [first, end). False when the store is full. */
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
+                                         const struct smear_instant *instant, bool drop)
+{
+    smear_bins_reset(&c->rows.bins, first, end);
+#if SMEAR_FAST_STACK
+    if (!has_layers(c))
+        return assemble_fast(c, instant, drop);
+#endif
+    smear_assembler_reset(&c->assembler);
+    return assemble_draws(c, &c->assembler, instant, drop);
+}
+
+/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
+static void cache_free_pool(struct smear_rows *rows)
+{
+    const struct smear_bins *g = &rows->bins;
+    uint32_t first = (g->vertex_words + 1u) & ~1u;
+    uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+    size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
+    rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers);
+}
+
+/* Begins the lists of rows [top, first), which have been drawn already, and of `first`. */
+static void begin_lists(struct smear_rows *rows, int top, int first)
+{
+    rows->opaque = rows->blend = rows->moving = SMEAR_NO_TRIANGLE;
+    if (SMEAR_RASTER_CACHE)
+        cache_free_pool(rows);
+    for (int row = top; row < first; row++)
+        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+}
+
+int smear_draws_assemble(struct smear_context *c, int *top, int least, int first, int end,
+                         const struct smear_instant *instant)
+{
+    const uint32_t start = stage_start(&c->rows);
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
+    for (;;) {
+        const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
+        const bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, last);
+        if (done && !static_is_disturbed(c))
+            break;
+        c->assembler.triangles_drawn = drawn;
+        c->assembler.triangles_dropped = dropped;
+        if (done) {
+            damage_forget(c->damage);
+            continue;
+        }
+        if (end - first > 1)
+            end = first + (end - first) / 2;
+        else
+            ++*top;
+        c->stats.triangles_split++;
+    }
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
+    begin_lists(&c->rows, *top, first);
+    stage_end(&c->rows, &c->stats.time_submit, start);
+    return end;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* draws.h - from submitted draws to the lists of triangles that tile rows are drawn from. */
+#ifndef SMEAR_DRAWS_H
+#define SMEAR_DRAWS_H
+
+#include "context.h"
+
+/* Looks at all draws of the frame: what moves, what is blended, whose velocity comes from where. */
+void smear_draws_prepare(struct smear_context *c);
+
+/* Finds which draws are blurred as layers, and how they move. */
+void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);
+
+/* Finds out whether what is static is the last frame's. */
+void smear_draws_find_damage(struct smear_context *c);
+
+/* Assembles as many tile rows of [first, end) as find room, at an instant; returns their end. Rows above are included
+ * for what is finished a row late: from *top on, at most from `least` on where room is short. When that is too much,
+ * triangles are dropped and counted. */
+int smear_draws_assemble(struct smear_context *c, int *top, int least, int first, int end,
+                         const struct smear_instant *instant);
+
+#endif

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+/* pose.c - see pose.h. */
+#include "geometry/pose.h"
+
+#include "base/fixmath.h"
+
+/* ------------------------------------------------------------------ instants */
+
+const struct smear_instant smear_instant_now = { { 1 << 24, 0, 0 } };
+
+struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u)
+{
+    struct smear_instant i;
+    if (shot->shutter_poses) {
+        const int64_t square = (int64_t)u * u >> 16;
+        i.weight[1] = (int32_t)((square - u) * 128);
+        i.weight[2] = (int32_t)((square + u) * 128);
+    } else {
+        /* Frames from now: the exposure's centre plus u half exposures. */
+        const int64_t half = shot->half_exposure;
+        const int64_t centre = shot->exposure == SMEAR_TRAILING ? -half : shot->exposure == SMEAR_LEADING ? half : 0;
+        i.weight[1] = (int32_t)-(centre + (half * u >> 16));
+        i.weight[2] = 0;
+    }
+    i.weight[0] = (1 << 24) - i.weight[1] - i.weight[2];
+    return i;
+}
+
+struct smear_instant smear_instant_middle(const struct smear_shot *shot)
+{
+    return shot->shutter_poses ? smear_instant_now : smear_instant_at(shot, 0);
+}
+
+/* ------------------------------------------------------------------ poses */
+
+bool smear_transform_is_mirrored(const smear_transform *t)
+{
+    int64_t b[9];       /* entries in 20 bits */
+    for (int i = 0; i < 9; i++)
+        b[i] = t->basis[i] >> 11;
+    int64_t d = b[0] * (b[4] * b[8] - b[5] * b[7]) - b[1] * (b[3] * b[8] - b[5] * b[6])
+              + b[2] * (b[3] * b[7] - b[4] * b[6]);
+    return d < 0;
+}
+
+bool smear_transform_is_same(const smear_transform *a, const smear_transform *b)
+{
+    if (a == b)
+        return true;
+    for (int i = 0; i < 9; i++)
+        if (a->basis[i] != b->basis[i])
+            return false;
+    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] && a->origin[2] == b->origin[2];
+}
+
+bool smear_camera_is_same(const smear_camera *a, const smear_camera *b)
+{
+    return a == b || (smear_transform_is_same(&a->pose, &b->pose) && a->focal == b->focal
+                      && a->half_height == b->half_height);
+}
+
+static uint32_t magnitude_of(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
+{
+    return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
+}
+
+/* Deformation is not scaled further: weights of ten frames by it have eight bits. */
+enum { DEFORM_MOST = 8 << 8 };
+
+/* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
+static void scale_object(struct smear_draw_poses *p, uint32_t scale)
+{
+    for (int i = 1; i < 3; i++) {
+        const smear_transform *other = p->object[i], *now = p->object[0];
+        smear_transform *made = &p->made[i];
+        for (int k = 0; k < 9; k++)
+            made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
+        for (int k = 0; k < 3; k++)
+            made->origin[k] = scaled(now->origin[k], other->origin[k], scale);
+        p->object[i] = made;
+        if (scale == 0)
+            p->position[i] = p->position[0];
+    }
+    p->deform = min_i32((int32_t)scale, DEFORM_MOST);
+}
+
+/* The camera's x axis, without its y, as a rotation about the world's y. Looking straight up or down it stays as it is. */
+static void upright_basis(int32_t turn[9], const int32_t camera[9])
+{
+    const uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
+    int32_t x = 1 << 24, z = 0;
+    if (length > 1u << 16) {
+        x = ratio_q30((int64_t)min_u32(magnitude_of(camera[0]), length), length) >> 6;
+        z = ratio_q30((int64_t)min_u32(magnitude_of(camera[6]), length), length) >> 6;
+        x = camera[0] < 0 ? -x : x;
+        z = camera[6] < 0 ? -z : z;
+    }
+    const int32_t about_y[9] = { x, 0, -z, 0, 1 << 24, 0, z, 0, x };
+    for (int i = 0; i < 9; i++)
+        turn[i] = about_y[i];
+}
+
+/* Turns a billboard with the camera of each pose. */
+static void turn_billboard(struct smear_draw_poses *p, bool upright)
+{
+    for (int pose = 0; pose < 3; pose++) {
+        const int32_t *camera = p->camera[pose]->pose.basis;
+        int32_t turn[9], made[9];
+        for (int i = 0; i < 9; i++)
+            turn[i] = camera[i];
+        if (upright)
+            upright_basis(turn, camera);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                int64_t sum = 0;
+                for (int k = 0; k < 3; k++)
+                    sum += (int64_t)turn[3 * i + k] * p->object[pose]->basis[3 * k + j];
+                made[3 * i + j] = narrow_sat(sum >> 24);
+            }
+        for (int i = 0; i < 3; i++)
+            p->made[pose].origin[i] = p->object[pose]->origin[i];
+        for (int i = 0; i < 9; i++)
+            p->made[pose].basis[i] = made[i];
+        p->object[pose] = &p->made[pose];
+    }
+}
+
+/* Poses of the object alone. */
+static void object_poses(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d)
+{
+    if (shot->cut || d->cut || d->motion != SMEAR_MOTION_FULL)
+        return;
+    if (d->open_position != NULL && (d->open_count == 0 || d->open_count == d->mesh->vertex_count))
+        p->position[1] = d->open_position;
+    if (d->open != NULL)
+        p->object[1] = d->open;
+    if (shot->shutter_poses) {
+        if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
+            p->position[2] = d->close_position;
+        if (d->close != NULL)
+            p->object[2] = d->close;
+    }
+    if (SMEAR_WITH_SCALES && shot->object_scale != 256)
+        scale_object(p, shot->object_scale);
+}
+
+void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d,
+                           const smear_camera *camera)
+{
+    const bool moves = !shot->cut && d->motion != SMEAR_MOTION_NONE && (camera != NULL || shot->camera_moves);
+    if (camera == NULL)
+        camera = shot->camera;
+    for (int i = 0; i < 3; i++) {
+        p->object[i] = d->now;
+        p->camera[i] = camera;
+        p->position[i] = d->mesh->position;
+        p->projected[i] = false;
+    }
+    p->deform = 256;
+    if (moves) {
+        p->camera[1] = &camera[1];
+        if (shot->shutter_poses)
+            p->camera[2] = &camera[2];
+    }
+    object_poses(p, shot, d);
+    if (SMEAR_WITH_BILLBOARDS && d->billboard != SMEAR_BILLBOARD_NONE)
+        turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
+}
+
+/* ------------------------------------------------------------------ places */
+
+/* Returns a pose's projection, computed on first use. */
+static const struct smear_projection *project_pose(struct smear_draw_poses *p, const struct smear_shot *shot, int i,
+                                                   const smear_mesh *mesh)
+{
+    if (!p->projected[i]) {
+        struct smear_view view;
+        smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
+        smear_projection_make(&p->projection[i], &view, p->camera[i], shot->height);
+        p->projected[i] = true;
+    }
+    return &p->projection[i];
+}
+
+static bool deformation_is_scaled(const struct smear_draw_poses *p, int k)
+{
+    return SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && p->deform != 256 && p->position[k] != p->position[0];
+}
+
+void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,
+                            const smear_mesh *mesh, const struct smear_instant *instant)
+{
+    enum { TERMS = SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM ? 5 : 3 };
+    struct smear_projection sum[TERMS];
+    const int16_t *position[TERMS];
+    int32_t weight[TERMS];
+    int count = 0;
+    out->extra_count = 0;
+    for (int k = 0; k < 3; k++) {
+        if (instant->weight[k] == 0)
+            continue;
+        sum[count] = *project_pose(p, shot, k, mesh);
+        position[count] = p->position[k];
+        weight[count++] = instant->weight[k];
+        if (deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
+            sum[count] = sum[count - 1];
+            position[count] = p->position[0];
+            weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);
+            weight[count] = instant->weight[k] - weight[count - 1];
+            count++;
+        }
+    }
+    if (count > 1)
+        smear_projection_weigh(sum, weight, count, p->camera[0]);
+    out->now = sum[0];
+    out->position = position[0];
+    for (int k = 1; k < count; k++) {
+        if (!SMEAR_WITH_DEFORM || position[k] == out->position) {
+            smear_projection_add(&out->now, &sum[k]);
+        } else {
+            SMEAR_ASSERT(out->extra_count < 2);         /* that of now is the first, or there is one more */
+            out->extra[out->extra_count] = sum[k];
+            out->extra_position[out->extra_count++] = position[k];
+        }
+    }
+}
+
+void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, const struct smear_shot *shot, int k)
+{
+    const int i = a->moves++;
+    a->pose[i] = *project_pose(p, shot, k, a->mesh);
+    a->pose_position[i] = p->position[k];
+    if (!SMEAR_WITH_SCALES || !SMEAR_WITH_DEFORM)
+        return;
+    struct smear_projection both[2] = { a->pose[i], a->pose[i] };
+    int32_t deform = deformation_is_scaled(p, k) ? p->deform : 256;
+    const int32_t weight[2] = { deform * 65536, (256 - deform) * 65536 };
+    a->has_rest = a->has_rest || deform != 256;
+    if (p->deform != 256)
+        smear_projection_weigh(both, weight, 2, p->camera[0]);
+    a->pose[i] = both[0];
+    a->rest[i] = both[1];
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* pose.h - where cameras and draws are at an instant of the exposure: sums of the poses that are known of them.
+ *
+ * Known are a pose now and one a frame ago, or those at shutter open, in the middle and at shutter close
+ * (smear_frame.shutter_poses). Index 0 is now, 1 open (or a frame ago), 2 close. */
+#ifndef SMEAR_POSE_H
+#define SMEAR_POSE_H
+
+#include "geometry/vertex.h"
+
+/* What a frame knows of its cameras and its exposure. */
+struct smear_shot {
+    smear_camera camera[3];
+    bool camera_moves;              /* an earlier camera is known, and another */
+    bool shutter_poses;             /* open and close are poses at the shutter's */
+    bool cut;                       /* nothing has motion */
+    uint8_t exposure;               /* smear_exposure */
+    int32_t half_exposure;          /* q24 frames */
+    uint32_t object_scale;          /* smear_frame.object_scale as it is used */
+    int32_t height;                 /* of the frame, px */
+};
+
+/* Weights of the poses for an instant, q24; they add up to one. */
+struct smear_instant {
+    int32_t weight[3];
+};
+
+extern const struct smear_instant smear_instant_now;
+
+/* Returns the instant at `u`, q16 from -1 at shutter open to 1 at shutter close. Through poses at shutter open, centre
+ * and close it follows a parabola; a pose a frame ago gives a straight line through it and now, inside and beyond. */
+struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u);
+
+/* Returns the middle of the exposure: the instant whose sharp picture is blurred both ways. */
+struct smear_instant smear_instant_middle(const struct smear_shot *shot);
+
+/* Where a draw is in each known pose; equal poses mean it does not move. */
+struct smear_draw_poses {
+    const smear_transform *object[3];
+    const smear_camera *camera[3];
+    const int16_t *position[3];
+    int32_t deform;                 /* of the displacement between their vertices, q8 */
+    bool projected[3];              /* `projection` holds */
+    struct smear_projection projection[3];
+    /* poses that are not the application's */
+    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];
+};
+
+/* Finds the poses of a draw, whose `now` is given and whose `open`, if it is not null, is its earlier pose. `camera`: three
+ * of its layer's own, or null for the shot's. */
+void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *draw,
+                           const smear_camera *camera);
+
+/* Whether the determinant is negative. */
+bool smear_transform_is_mirrored(const smear_transform *t);
+
+bool smear_transform_is_same(const smear_transform *a, const smear_transform *b);
+bool smear_camera_is_same(const smear_camera *a, const smear_camera *b);
+
+/* Whether the draw is elsewhere, or of another shape, in pose i than now. */
+static inline bool pose_differs(const struct smear_draw_poses *p, int i)
+{
+    return (SMEAR_WITH_DEFORM && p->position[i] != p->position[0])
+        || !smear_transform_is_same(p->object[i], p->object[0]) || !smear_camera_is_same(p->camera[i], p->camera[0]);
+}
+
+static inline bool poses_differ(const struct smear_draw_poses *p) { return pose_differs(p, 1) || pose_differs(p, 2); }
+
+/* Finds where the vertices are at an instant: a sum of poses, linear in clip space. */
+void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,
+                            const smear_mesh *mesh, const struct smear_instant *instant);
+
+/* Adds pose k to those between which the assembly measures velocity. */
+void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, const struct smear_shot *shot, int k);
+
+#endif

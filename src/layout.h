@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* layout.h - cuts a context's memory. */
+#ifndef SMEAR_LAYOUT_H
+#define SMEAR_LAYOUT_H
+
+#include "base/arena.h"
+#include "context.h"
+
+/* Measures or cuts all that a context needs beside itself; `c` receives the pieces, or addresses without meaning while
+ * measuring. d is valid, its defaults filled in. */
+void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
+
+#endif

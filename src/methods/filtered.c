@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: MIT */
+/* filtered.c - see filtered.h.
+ *
+ *     reduce      finds the longest velocity of each tile of the row that was drawn
+ *     finish      the row above: neighbourhoods, then per tile: filter, blended draws, conversion; then flush */
+#include "methods/filtered.h"
+
+#include "base/fixmath.h"
+#include "display/band.h"
+#include "filter/tilemax.h"
+#include "ports/half.h"
+
+#if SMEAR_WITH_RECONSTRUCT
+
+/* A tile row, or a part of it, on its way. */
+struct filter_job {
+    struct row_job row;
+    struct smear_filtered *filtered;
+};
+
+/* ------------------------------------------------------------------ rows of the window that is read */
+
+static int32_t filtered_top(const struct smear_filtered *f, int row)
+{
+    return row << f->window->tile_shift;
+}
+
+static int32_t filtered_bottom(const struct smear_filtered *f, int row)
+{
+    return min_i32(filtered_top(f, row + 1), f->window->height);
+}
+
+/* Fills in the offsets of rows that a filter of tile row `row` may read; those from row `end` on stand for
+ * row end - 1. */
+static void fill_row_table(const struct smear_filtered *f, int row, int32_t end)
+{
+    const struct smear_window *w = f->window;
+    const int32_t first = filtered_top(f, row) - w->reach;
+    for (int32_t i = 0; i < w->tile + 2 * w->reach; i++)
+        f->row_offset[i] = (uint32_t)(window_ring_row(w, clamp_i32(first + i, 0, end - 1)) * w->width);
+}
+
+static struct smear_row_table row_table(const struct smear_filtered *f, int row, int32_t y0, int32_t y1)
+{
+    return (struct smear_row_table){ f->row_offset, filtered_top(f, row) - f->window->reach, y0, y1 };
+}
+
+static bool is_static(const struct smear_window *w, int row, int column)
+{
+    return window_around(w, row)[column].kind == TILE_STATIC;
+}
+
+/* ------------------------------------------------------------------ reduce */
+
+static void half_job(void *argument, int column, int worker)
+{
+    const struct filter_job *r = (const struct filter_job *)argument;
+    (void)worker;
+    smear_half_reduce(r->filtered->half, &r->row.rows->window, r->row.row, column, r->filtered->blur.linear);
+}
+
+static void reduce_job(void *argument, int column, int worker)
+{
+    const struct filter_job *r = (const struct filter_job *)argument;
+    const struct smear_window *w = r->filtered->window;
+    (void)worker;
+    if (r->row.rows->window.moving[column])
+        smear_tilemax(w, r->row.row, column);
+    else
+        window_motion(w, r->row.row)[column] = (struct smear_tile_motion){ 0, 0, 0, 0, 0, 0 };
+}
+
+static void reduce_row(struct smear_filtered *f, struct smear_rows *rows, int row)
+{
+    struct filter_job job = { .row = { .rows = rows, .row = row }, .filtered = f };
+    const uint32_t start = stage_start(rows);
+    if (SMEAR_WITH_FILTERS && f->window == f->half)
+        smear_jobs_run(&rows->jobs, half_job, &job, rows->window.columns);
+    smear_jobs_run(&rows->jobs, reduce_job, &job, rows->window.columns);
+    stage_end(rows, &rows->stats->time_reduce, start);
+}
+
+/* ------------------------------------------------------------------ tiles */
+
+/* Static tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
+static void convert_static(const struct filter_job *r, int column)
+{
+    const struct smear_window *w = r->filtered->window;
+    const int row = r->row.row;
+    if (column > 0 && is_static(w, row, column - 1))
+        return;
+    int end = column + 1;
+    while (end < w->columns && is_static(w, row, end))
+        end++;
+    smear_band_convert_window(&r->row, tile_left(r->row.rows, column), tile_right(r->row.rows, end - 1));
+}
+
+/* Returns what a pass reads: what the one before it left, or the picture. */
+static const uint32_t *pass_input(const struct smear_filtered *f, int pass)
+{
+    return pass == 0 ? f->window->color : f->ports->pass_plane[pass - 1];
+}
+
+/* Filters rows [y0, y1) of a tile of the window that is read; rows of `tile` are that window's tile apart. Returns the
+ * samples taken. */
+static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int row, int column, int32_t y0, int32_t y1)
+{
+    const struct smear_window *w = f->window;
+    const struct smear_row_table rows = row_table(f, row, y0, y1);
+    const uint8_t kind = window_around(w, row)[column].kind;
+    if (kind == TILE_STATIC) {
+        smear_blur_copy(tile, w, &rows, column);
+        return 0;
+    }
+    if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG) {
+        const int last = f->ports->passes - 1;
+        return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->ports->pass[last], row, column, y0, y1,
+                                   &f->blur);
+    }
+    if ((SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_MEAN) || (kind == TILE_UNIFORM && (f->blur.flags & SMEAR_UNIFORM)))
+        return smear_blur_uniform(tile, w, &rows, row, column, &f->blur);
+    if (SMEAR_WITH_FILTERS && f->blur.weights != SMEAR_WEIGHTS_STACK)
+        return smear_blur_weights(tile, w, &rows, row, column, &f->blur);
+    return smear_blur_reconstruct(tile, w, &rows, row, column, &f->blur);
+}
+
+/* The tile at half the size, blended with the whole frame's. */
+static uint32_t filter_half(const struct filter_job *r, uint32_t *tile, int column, int worker)
+{
+    const struct smear_filtered *f = r->filtered;
+    const struct smear_window *w = f->window;
+    const int row = r->row.row;
+    if (is_static(w, row, column)) {
+        const struct smear_row_table rows = row_table(f, row, r->row.y0, r->row.y1);
+        smear_blur_copy(tile, &r->row.rows->window, &rows, column);
+        return 0;
+    }
+    uint32_t *blurred = f->half_scratch + worker * w->tile * w->tile;
+    const uint32_t samples = filter_tile(f, blurred, row, column, filtered_top(f, row), filtered_bottom(f, row));
+    smear_half_blend(tile, blurred, w, &r->row.rows->window, row, column);
+    return samples;
+}
+
+static void tile_job(void *argument, int column, int worker)
+{
+    const struct filter_job *r = (const struct filter_job *)argument;
+    const struct smear_filtered *f = r->filtered;
+    struct smear_rows *rows = r->row.rows;
+    if (is_static(f->window, r->row.row, column) && rows->blend == SMEAR_NO_TRIANGLE) {
+        convert_static(r, column);
+        return;
+    }
+    uint32_t *tile = rows->scratch + worker * rows->window.tile * rows->desc->band_rows;
+    rows->samples[worker] += SMEAR_WITH_FILTERS && f->window == f->half
+                           ? filter_half(r, tile, column, worker)
+                           : filter_tile(f, tile, r->row.row, column, r->row.y0, r->row.y1);
+    if (rows->blend != SMEAR_NO_TRIANGLE)
+        smear_band_blend_tile(&r->row, column, tile);
+    smear_band_convert_tile(&r->row, column, tile);
+}
+
+/* ------------------------------------------------------------------ passes before the last */
+
+/* A part of tile row `row` in pass `pass`: pixel rows [y0, y1). */
+struct pass_job {
+    struct smear_filtered *filtered;
+    struct smear_rows *rows;
+    int pass, row;
+    int32_t y0, y1;
+};
+
+static void pass_tile_job(void *argument, int column, int worker)
+{
+    const struct pass_job *r = (const struct pass_job *)argument;
+    const struct smear_filtered *f = r->filtered;
+    const struct smear_row_table table = row_table(f, r->row, r->y0, r->y1);
+    r->rows->samples[worker] += smear_pingpong_pass(f->ports->pass_plane[r->pass], 0, pass_input(f, r->pass), f->window,
+                                                    &table, &f->ports->pass[r->pass], r->row, column, r->y0, r->y1,
+                                                    &f->blur);
+}
+
+/* Carries every pass but the last on, as far down as the rows drawn up to tile row `known` allow: each stays as far
+ * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
+static int32_t run_passes(struct smear_filtered *f, struct smear_rows *rows, int known)
+{
+    struct smear_ports *ports = f->ports;
+    int32_t end = filtered_bottom(f, known);
+    for (int i = 0; i < ports->passes - 1; i++) {
+        const int32_t input_end = end;
+        if (known != rows->window.rows - 1)
+            end = max_i32(end - ports->pass[i].reach, 0);
+        for (int32_t y = ports->pass_end[i]; y < end;) {
+            const int row = y >> f->window->tile_shift;
+            struct pass_job job = { f, rows, i, row, y, min_i32(end, filtered_bottom(f, row)) };
+            fill_row_table(f, row, input_end);
+            smear_jobs_run(&rows->jobs, pass_tile_job, &job, rows->window.columns);
+            y = job.y1;
+        }
+        ports->pass_end[i] = max_i32(ports->pass_end[i], end);
+    }
+    return end;
+}
+
+/* ------------------------------------------------------------------ finish */
+
+static void count_tiles(const struct smear_filtered *f, const struct smear_rows *rows, int row)
+{
+    const struct smear_tile_neighborhood *around = window_around(f->window, row);
+    for (int32_t i = 0; i < rows->window.columns; i++)
+        smear_row_count(rows, around[i].kind, (smear_method)f->method);
+}
+
+/* Finishes tile row `row`; rows up to `known` are in the window. */
+static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row, int known)
+{
+    const struct smear_window *w = f->window;
+    const bool corner = f->blur.flags & SMEAR_CORNER;
+    smear_neighbormax_row(w, row, known, corner);
+    if (known > row)        /* looked at by the pixels of this row, and by passes that are ahead */
+        smear_neighbormax_row(w, row + 1, known, corner);
+    count_tiles(f, rows, row);
+    int32_t end = w->height;
+    if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG && f->ports->passes > 1)
+        end = run_passes(f, rows, known);
+    fill_row_table(f, row, end);
+    if (rows->blends)
+        rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+
+    struct filter_job job = { .row = { .rows = rows, .row = row }, .filtered = f };
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && smear_band_next(&job.row)) {
+        const uint32_t start = stage_start(rows);
+        smear_jobs_run(&rows->jobs, tile_job, &job, w->columns);
+        stage_end(rows, &rows->stats->time_blur, start);
+        result = smear_band_flush(&job.row);
+    }
+    return result;
+}
+
+int smear_filtered_roll(struct smear_filtered *f, struct smear_rows *rows, int row)
+{
+    reduce_row(f, rows, row);
+    const int lag = SMEAR_WITH_FILTERS ? f->window->lag : 1;
+    int result = SMEAR_OK;
+    if (row >= lag)
+        result = finish_row(f, rows, row - lag, row);
+    if (row == rows->window.rows - 1)
+        for (int last = max_i32(row - lag + 1, 0); last <= row && result == SMEAR_OK; last++)
+            result = finish_row(f, rows, last, row);
+    return result;
+}
+
+int smear_filtered_rows(struct smear_filtered *f, struct smear_rows *rows, int first, int end)
+{
+    const bool by_depth = frame_has_depth_velocity(&rows->raster);
+    int result = SMEAR_OK;
+    for (int row = first; row < end && result == SMEAR_OK; row++) {
+        smear_sharp_draw_row(rows, row, by_depth ? &f->ports->by_depth : NULL);
+        result = smear_filtered_roll(f, rows, row);
+    }
+    return result;
+}
+
+/* ------------------------------------------------------------------ a frame */
+
+/* Returns far over range of an orthographic camera, in q16: where "5 % nearer" is. */
+static uint32_t far_over_range(const smear_camera *camera)
+{
+    const uint32_t range = (uint32_t)(camera->far_plane - camera->near_plane);
+    const int zeros = count_leading_zeros(range);
+    const uint64_t over = (uint64_t)recip_norm_precise(range << zeros) * (uint32_t)camera->far_plane >> (45 - zeros);
+    return over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
+}
+
+void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *rows, const smear_frame *frame,
+                          const smear_camera *camera)
+{
+    f->method = frame->method;
+    f->kind = frame->filter;
+    f->blur = (struct smear_blur_settings){
+        .linear = frame_is_linear(&rows->raster),
+        .orthographic = SMEAR_WITH_ORTHOGRAPHIC && camera->half_height > 0,
+        .samples = frame->samples, .dense = frame->method == SMEAR_HALF,
+        .flags = frame->reconstruct, .weights = frame->weights
+    };
+    if (f->blur.orthographic)
+        f->blur.far_over_range = far_over_range(camera);
+    f->window = frame->method == SMEAR_HALF ? f->half : &rows->window;
+    if (!SMEAR_WITH_FILTERS)
+        return;
+    f->ports->by_depth.step = frame->camera_step;
+    f->ports->passes = smear_pingpong_plan(f->ports->pass, &frame->pingpong, f->window->reach);
+    for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
+        f->ports->pass_end[i] = 0;
+}
+
+/* ------------------------------------------------------------------ pixels of another renderer */
+
+#if SMEAR_WITH_FILTER_ALONE
+
+/* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
+static uint16_t depth_code(uint32_t distance, int32_t near_plane)
+{
+    if (distance == 0)
+        return 0;
+    if (distance <= (uint32_t)near_plane)
+        return 65535;
+    int zeros = count_leading_zeros(distance);
+    uint64_t near_units = (uint64_t)(uint32_t)near_plane * SMEAR_DEPTH_NEAR;        /* 51 bits */
+    uint32_t r = recip_norm(distance << zeros);                                     /* 2^(61 - zeros) / d */
+    uint64_t units = ((near_units >> 20) * r) >> (41 - zeros);
+    if (units < 32768u)
+        return (uint16_t)max_u32((uint32_t)units, 2);
+    return (uint16_t)min_u32(32768u + (((uint32_t)units - 32768u + 8u) >> 4), 65535u);
+}
+
+/* Makes half the exposure's displacement in 1/8 px, no longer than the reach, from 1/16 px per frame. */
+static void pack_velocity(const struct smear_rows *rows, const int16_t in[2], int32_t out[2])
+{
+    int32_t scale = rows->raster.velocity_scale;       /* q16 */
+    int32_t x = (int32_t)((int64_t)in[0] * scale >> 9), y = (int32_t)((int64_t)in[1] * scale >> 9);  /* q11 */
+    uint64_t square = (uint64_t)((int64_t)x * x) + (uint64_t)((int64_t)y * y);
+    uint32_t reach = (uint32_t)rows->window.reach << 11;
+    if (square > (uint64_t)reach * reach) {
+        uint32_t length = sqrt_floor_64(square);
+        int32_t factor = ratio_q30(reach, length);
+        x = (int32_t)((int64_t)x * factor >> 30);
+        y = (int32_t)((int64_t)y * factor >> 30);
+    }
+    out[0] = (x + 128) >> 8;
+    out[1] = (y + 128) >> 8;
+}
+
+void smear_filtered_take_row(struct smear_rows *rows, int32_t y, const uint32_t *color, const uint32_t *depth,
+                             const int16_t *velocity, int32_t near_plane)
+{
+    struct smear_window *w = &rows->window;
+    const int32_t at = window_ring_row(w, y) * w->width;
+    if ((y & (w->tile - 1)) == 0)
+        for (int32_t i = 0; i < w->columns; i++)
+            w->moving[i] = 0;
+    for (int32_t x = 0; x < w->width; x++) {
+        int32_t v[2] = { 0, 0 };
+        if ((velocity[2 * x] | velocity[2 * x + 1]) != 0)
+            pack_velocity(rows, velocity + 2 * x, v);
+        if ((v[0] | v[1]) != 0)
+            w->moving[x >> w->tile_shift] = 1;
+        w->color[at + x] = color[x] & 0xffffffu;
+        w->depth[at + x] = depth_code(depth[x], near_plane);
+        if (w->velocity8 != NULL) {
+            w->velocity8[2 * (at + x)] = (int8_t)v[0];
+            w->velocity8[2 * (at + x) + 1] = (int8_t)v[1];
+        } else {
+            w->velocity16[2 * (at + x)] = (int16_t)v[0];
+            w->velocity16[2 * (at + x) + 1] = (int16_t)v[1];
+        }
+    }
+}
+
+#endif
+
+#endif

@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: MIT */
+/* layered.c - see layered.h.
+ *
+ *     static      triangles of no group, into the row
+ *     list        where each group lies in the row and around it
+ *     for each group, from the farthest to the nearest:
+ *         draw    as it is in the middle of the exposure, into rows of its own
+ *         merge   blurred, by coverage and depth, over the row
+ *     finish      blended draws, conversion; flush
+ *
+ * A group that does not reach the row costs nothing there. */
+#include "methods/layered.h"
+
+#include "kernels/fill.h"
+#include "display/band.h"
+#include "layers/layer_gather.h"
+#include "layers/streak.h"
+
+#if SMEAR_WITH_LAYERS
+
+/* A tile row on its way. */
+struct layers_row {
+    struct row_job row;
+    struct smear_layers *layers;
+    int32_t samples;
+    struct smear_raster_target background;      /* what is static, and what was merged over it */
+    bool mixes;                 /* groups pass through each other */
+    /* the group that is being merged */
+    struct smear_group *group;
+    struct smear_streak streak;
+    struct smear_streak_area area;
+    struct smear_gather_area gather;
+    int32_t vx, vy;             /* of taps: no farther than there are pixels */
+    struct smear_raster_target target;      /* rows that are drawn: */
+    int32_t kept, down;         /* as many before them are there, so many rows further down */
+    struct smear_raster_frame frame;
+};
+
+/* Few taps along one displacement. */
+static inline bool is_two_camera(const struct layers_row *r)
+{
+    return r->group->method == SMEAR_OBJECT && r->layers->setting[r->group->layer].layer.plain;
+}
+
+/* Taps over a background, not sums along streaks. */
+static inline bool gathers(const struct layers_row *r)
+{
+    return r->group->method == SMEAR_LAYERED || is_two_camera(r);
+}
+
+/* ------------------------------------------------------------------ draw */
+
+static void background_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = (const struct layers_row *)argument;
+    struct smear_raster_target t = r->background;
+    (void)worker;
+    if (!smear_row_draw_opaque(&r->row, job, &t, 0))
+        return;
+    for (int32_t y = t.y0; r->mixes && y < t.y1; y++)
+        pixels_fill(r->layers->rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
+}
+
+/* Clears columns [x0, x1) of a row of the target's planes. */
+static void clear_columns(const struct smear_raster_target *t, int32_t row, int32_t x0, int32_t x1)
+{
+    int32_t at = row * t->window_rows.stride + x0, n = x1 - x0;
+    if (n <= 0)
+        return;
+    pixels_fill(t->color + at, SMEAR_UNCOVERED, n);
+    __builtin_memset(t->depth + at, 0, (size_t)n * 2);
+    if (t->velocity8 != NULL)
+        __builtin_memset(t->velocity8 + 2 * at, 0, (size_t)n * 2);
+    if (t->velocity16 != NULL)
+        __builtin_memset(t->velocity16 + 2 * at, 0, (size_t)n * 4);
+}
+
+/* Copies the target's columns of a row from `down` rows further down, where the planes have columns [had0, had1) drawn;
+ * clears the others. */
+static void copy_columns(const struct smear_raster_target *t, int32_t row, int32_t down, int32_t had0, int32_t had1)
+{
+    const int32_t x0 = clamp_i32(had0, t->x0, t->x1), x1 = clamp_i32(had1, x0, t->x1),
+                  stride = t->window_rows.stride;
+    const size_t n = (size_t)(x1 - x0), to = (size_t)(row * stride + x0), from = to + (size_t)(down * stride);
+    clear_columns(t, row, t->x0, x0);
+    clear_columns(t, row, x1, t->x1);
+    __builtin_memcpy(t->color + to, t->color + from, n * 4);
+    __builtin_memcpy(t->depth + to, t->depth + from, n * 2);
+    if (t->velocity8 != NULL)
+        __builtin_memcpy(t->velocity8 + 2 * to, t->velocity8 + 2 * from, n * 2);
+    if (t->velocity16 != NULL)
+        __builtin_memcpy(t->velocity16 + 2 * to, t->velocity16 + 2 * from, n * 4);
+}
+
+/* Draws the group's rows, in as many cuts of columns as there are workers. */
+static void draw_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = (const struct layers_row *)argument;
+    struct smear_raster_target t = r->target;
+    int32_t units = (t.x1 - t.x0 + 15) >> 4, n = r->row.rows->jobs.workers, x0 = t.x0;
+    (void)worker;
+    t.x1 = min_i32(x0 + units * (job + 1) / n * 16, t.x1);
+    t.x0 = x0 + units * job / n * 16;
+    if (t.x0 >= t.x1)
+        return;
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    for (int32_t row = 0; row < r->kept; row++)
+        copy_columns(&t, row, r->down, rows->held.x0, rows->held.x1);
+    for (int32_t row = r->kept; row < r->area.rows; row++)
+        clear_columns(&t, row, t.x0, t.x1);
+    smear_raster_list(&r->frame, &t, r->group->head);
+}
+
+/* Makes pixels of rows [y0, y1) say whether they are covered by what is on top: texels have written something else
+ * there. */
+static void clear_tops(const struct smear_layer_rows *rows, int32_t y0, int32_t y1)
+{
+    for (int32_t y = y0; y < y1; y++)
+        for (int32_t x = rows->row_first[y], at = y * rows->width + x; x < rows->row_end[y]; x++, at++)
+            rows->color[at] = rows->depth[at] != 0 ? rows->color[at] & 0xffffffu : SMEAR_UNCOVERED;
+}
+
+/* Finds what is drawn in row y, within columns [x0, x1). */
+static void find_drawn(const struct smear_layer_rows *rows, int32_t y, int32_t x0, int32_t x1)
+{
+    const uint16_t *depth = rows->depth + y * rows->width;
+    int32_t first = x0, end = x1;
+    uint64_t four = 0;
+    while (end - first >= 4 && (__builtin_memcpy(&four, depth + first, 8), four == 0))
+        first += 4;
+    while (end - first >= 4 && (__builtin_memcpy(&four, depth + end - 4, 8), four == 0))
+        end -= 4;
+    while (first < end && depth[first] == 0)
+        first++;
+    while (end > first && depth[end - 1] == 0)
+        end--;
+    rows->row_first[y] = (int16_t)first;
+    rows->row_end[y] = (int16_t)end;
+}
+
+static void find_extents(const struct layers_row *r)
+{
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    for (int32_t y = 0; y < r->kept; y++) {
+        bool any = rows->row_first[y + r->down] < rows->row_end[y + r->down];
+        rows->row_first[y] = any ? rows->row_first[y + r->down] : (int16_t)r->target.x1;
+        rows->row_end[y] = any ? rows->row_end[y + r->down] : (int16_t)r->target.x1;
+    }
+    for (int32_t y = r->kept; y < r->area.rows; y++)
+        find_drawn(rows, y, r->target.x0, r->target.x1);
+    if (r->group->textured)
+        clear_tops(rows, r->kept, r->area.rows);
+}
+
+/* Draws the group's triangles: its part of the list of moving ones. */
+static void draw_group(struct layers_row *r)
+{
+    struct smear_jobs *jobs = &r->row.rows->jobs;
+    struct smear_triangle *tail = bins_triangle(&r->row.rows->bins, r->group->tail);
+    const uint32_t after = tail->next;
+    tail->next = SMEAR_NO_TRIANGLE;
+    smear_jobs_run(jobs, draw_job, r, jobs->workers);
+    tail->next = after;
+    find_extents(r);
+}
+
+/* ------------------------------------------------------------------ merge */
+
+static void merge_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = (const struct layers_row *)argument;
+    struct smear_rows *rows = r->row.rows;
+    uint32_t samples;
+    if (gathers(r)) {
+        struct smear_gather_area area = r->gather;
+        smear_job_columns(rows, job, &area.left, &area.right);
+        samples = is_two_camera(r) ? smear_plain_merge(&area, r->vx, r->vy) : smear_gather_merge(&area);
+    } else {
+        struct smear_streak_area area = r->area;
+        smear_job_columns(rows, job, &area.left, &area.right);
+        area.work = (uint8_t *)area.work + (uint32_t)worker * r->layers->rows.work_bytes;
+        samples = smear_streak_merge(&r->streak, &area);
+    }
+    rows->samples[worker] += samples;
+}
+
+/* Blended draws are drawn sharp: what moves hides them where it is in the middle of the exposure. */
+static void keep_depths(const struct layers_row *r)
+{
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    for (int32_t y = 0; y < r->area.height; y++) {
+        const uint16_t *depth = rows->depth + (y + r->area.top) * rows->width + rows->margin;
+        uint16_t *under = r->area.still_depth + y * r->area.still_stride;
+        for (int32_t x = max_i32(r->target.x0 - rows->margin, 0);
+             x < min_i32(r->target.x1 - rows->margin, r->row.rows->window.width); x++)
+            under[x] = (uint16_t)max_u32(under[x], depth[x]);
+    }
+}
+
+/* Marks the tile columns that the group's streaks reach. */
+static void mark_tiles(const struct layers_row *r)
+{
+    const struct smear_window *w = &r->row.rows->window;
+    int32_t x0 = r->group->x0 - r->streak.reach_x - r->area.margin,
+            x1 = r->group->x1 + r->streak.reach_x - r->area.margin;
+    for (int32_t i = max_i32(x0, 0) >> w->tile_shift; i <= (min_i32(x1, w->width) - 1) >> w->tile_shift; i++)
+        w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
+}
+
+/* How far and along what the group is blurred. */
+static void set_streak(struct layers_row *r)
+{
+    const struct smear_window *w = &r->row.rows->window;
+    struct smear_streak *s = &r->streak;
+    smear_streak_make(s, r->group->vx, r->group->vy, streak_half_max(w->width), w->reach);
+    if (!gathers(r))
+        return;
+    const int32_t most = 2 * w->reach << 8;
+    r->vx = clamp_i32(r->group->vx, -most, most);
+    r->vy = clamp_i32(r->group->vy, -most, most);
+    s->upright = false;
+    s->reach_x = s->reach_y = w->reach;
+}
+
+/* Where the group's rows lie, and the frame's that they are merged over. */
+static void set_area(struct layers_row *r)
+{
+    const struct smear_rows *frame = r->row.rows;
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    const struct smear_group *group = r->group;
+    const struct smear_streak *s = &r->streak;
+    const int32_t height = r->background.y1 - r->background.y0;
+    r->area = (struct smear_streak_area){
+        .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
+        .rows = height + 2 * s->reach_y, .tile = frame->window.tile,
+        .row_first = rows->row_first, .row_end = rows->row_end, .top = s->reach_y, .margin = rows->margin,
+        .still = r->background.color, .still_depth = r->background.depth, .still_stride = frame->window.width,
+        .over = rows->over, .over_depth = rows->over_depth, .mixed0 = group->mixed0, .mixed1 = group->mixed1,
+        .marks = group->marks, .marked_from = group->marked_from, .height = height,
+        .nearest = group->rank != 0 ? 65536u : group->nearest,
+        .farthest = group->rank != 0 ? 65536u : group->farthest,
+        .edge = rows->edge, .work = rows->work, .linear = frame->raster.linear
+    };
+}
+
+/* What of the group's rows is drawn: without those that the tile row above has left, if the group was the last that was
+ * merged there. Lines that go down, and taps, look beyond the group's columns. */
+static void set_target(struct layers_row *r, int32_t y0, int32_t y1)
+{
+    const struct smear_rows *frame = r->row.rows;
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    const struct smear_group *group = r->group;
+    const int32_t beside = r->streak.upright || gathers(r) ? (2 * r->streak.reach_x + 15) & ~15 : 0;
+    r->kept = rows->held.group == group ? clamp_i32(rows->held.y1 - y0, 0, y1 - y0) : 0;
+    r->down = y0 - rows->held.y0;
+    r->target = (struct smear_raster_target){
+        .x0 = max_i32(group->x0 - beside, 0), .y0 = y0 + r->kept,
+        .x1 = min_i32(group->x1 + beside, rows->width), .y1 = y1,
+        .color = rows->color, .depth = rows->depth,
+        .tile_shift = (uint8_t)frame->window.tile_shift
+    };
+    r->target.color_rows = r->target.window_rows = (struct smear_plane_rows){ rows->width, r->kept, rows->rows, 0 };
+    r->frame = frame->raster;
+    r->frame.width = rows->width;
+    r->frame.height = rows->height;
+    if (group->method != SMEAR_LAYERED)
+        return;
+    r->target.velocity8 = rows->velocity8;
+    r->target.velocity16 = rows->velocity16;
+    r->target.moving = rows->moving;
+    r->frame.velocity_scale = (int32_t)((int64_t)r->frame.velocity_scale * r->layers->setting[group->layer].shutter >> 16);
+}
+
+static void set_gather(struct layers_row *r)
+{
+    const struct smear_rows *frame = r->row.rows;
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    const struct smear_group *group = r->group;
+    r->gather = (struct smear_gather_area){
+        .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
+        .still = r->background.color, .still_depth = r->background.depth, .still_stride = frame->window.width,
+        .passed = rows->over, .passed_depth = rows->over_depth,
+        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks,
+        .height = r->area.height, .tile_shift = frame->window.tile_shift,
+        .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .linear = frame->raster.linear,
+        .over = group->rank != 0
+    };
+}
+
+static void merge_group(struct layers_row *r, struct smear_group *group)
+{
+    struct smear_rows *frame = r->row.rows;
+    struct smear_layer_rows *rows = &r->layers->rows;
+    r->group = group;
+    set_streak(r);
+    set_area(r);
+    const int32_t y0 = row_top(frame, r->row.row) + frame->window.tile - r->streak.reach_y, y1 = y0 + r->area.rows;
+    set_target(r, y0, y1);
+    set_gather(r);
+    if (rows->held.group != group)
+        smear_streak_edges(&r->streak, rows->edge, r->streak.upright ? rows->rows : rows->width);
+    draw_group(r);
+    rows->held = (struct smear_held_rows){ group, y0, y1, r->target.x0, r->target.x1 };
+    if (group->method == SMEAR_LAYERED)
+        smear_gather_cells(&r->gather);
+    smear_jobs_run(&frame->jobs, merge_job, r, frame->jobs.workers);
+    if (frame->blends)
+        keep_depths(r);
+    mark_tiles(r);
+}
+
+/* ------------------------------------------------------------------ the row */
+
+static void blend_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = (const struct layers_row *)argument;
+    struct smear_raster_target t = r->background;
+    (void)worker;
+    smear_job_columns(r->row.rows, job, &t.x0, &t.x1);
+    if (t.x0 < t.x1)
+        smear_raster_list(&r->row.rows->raster, &t, r->row.rows->blend);
+}
+
+static void convert_job(void *argument, int job, int worker)
+{
+    const struct layers_row *r = (const struct layers_row *)argument;
+    int32_t x0, x1;
+    (void)worker;
+    smear_job_columns(r->row.rows, job, &x0, &x1);
+    smear_band_convert_rows(&r->row, &r->background, x0, x1);
+}
+
+static void count_tiles(const struct smear_rows *rows)
+{
+    for (int32_t i = 0; i < rows->window.columns; i++) {
+        const uint32_t reached = rows->window.moving[i];
+        if ((reached & TILE_LAYERED) != 0)
+            smear_row_count(rows, TILE_COMPLEX, SMEAR_LAYERED);
+        else
+            smear_row_count(rows, reached == 0 ? TILE_STATIC : TILE_UNIFORM, SMEAR_OBJECT);
+    }
+}
+
+/* Moves the lists on to tile row `row`: a tile row above and below belongs to that of groups. */
+static void list_row(const struct layers_row *r, bool first)
+{
+    struct smear_rows *rows = r->row.rows;
+    const int row = r->row.row;
+    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    for (int next = first ? row : row + 2; next <= row + 2; next++)
+        rows->moving = smear_bins_merge(&rows->bins, rows->bins.moving_last, rows->moving, next, row_top(rows, row));
+    smear_groups_list(r->layers, &rows->bins, rows->moving);
+}
+
+static void merge_row(struct layers_row *r)
+{
+    struct smear_rows *rows = r->row.rows;
+    const struct smear_layers *l = r->layers;
+    for (int32_t i = 0; i < rows->window.columns; i++)
+        rows->window.moving[i] = 0;
+    for (uint32_t i = 0; i < l->group_count; i++) {
+        struct smear_group *group = &l->group[l->order[i]];
+        if (group->head != SMEAR_NO_TRIANGLE && group->x0 < group->x1)
+            merge_group(r, group);
+    }
+    count_tiles(rows);
+    if (!rows->blends)
+        return;
+    rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, r->row.row);
+    smear_jobs_run(&rows->jobs, blend_job, r, rows->jobs.workers);
+}
+
+static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t samples, int row, bool first)
+{
+    struct layers_row r = { .row = { .rows = rows, .row = row }, .layers = l, .samples = samples };
+    uint32_t start = stage_start(rows);
+    smear_row_target(rows, row, &r.background);
+    r.background.color_rows = r.background.window_rows
+        = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
+    list_row(&r, first);
+    r.mixes = smear_groups_find_mixed(l, rows->window.reach);
+    smear_jobs_run(&rows->jobs, background_job, &r, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time_raster, start);
+    start = stage_start(rows);
+    merge_row(&r);
+    stage_end(rows, &rows->stats->time_blur, start);
+    start = stage_start(rows);
+    r.row.band = smear_band_begin(rows);
+    smear_jobs_run(&rows->jobs, convert_job, &r, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time_convert, start);
+    return smear_band_flush(&r.row);
+}
+
+int smear_layered_rows(struct smear_layers *l, struct smear_rows *rows, int32_t samples, int first, int end)
+{
+    l->rows.held.group = NULL;
+    for (int row = first; row < end; row++) {
+        int result = finish_row(l, rows, samples, row, row == first);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    return SMEAR_OK;
+}
+
+#endif

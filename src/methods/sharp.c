@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* sharp.c - see sharp.h. */
+#include "methods/sharp.h"
+
+#include "kernels/fill.h"
+#include "display/band.h"
+#include "display/pixel_format.h"
+#include "raster/velocity.h"
+
+/* ------------------------------------------------------------------ into the window */
+
+struct draw_job {
+    struct row_job row;
+    const struct smear_depth_velocity *by_depth;
+};
+
+static void draw_job(void *argument, int job, int worker)
+{
+    const struct draw_job *r = (const struct draw_job *)argument;
+    struct smear_rows *rows = r->row.rows;
+    const struct smear_window *w = &rows->window;
+    const bool by_depth = SMEAR_WITH_FILTERS && r->by_depth != NULL;
+    struct smear_raster_target t;
+    (void)worker;
+    smear_row_target(rows, r->row.row, &t);
+    if (SMEAR_WITH_RECONSTRUCT && rows->keeps_motion) {
+        t.velocity8 = w->velocity8;
+        t.velocity16 = w->velocity16;
+        t.inspect = rows->inspect;
+    }
+    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth)
+        return;
+    const struct smear_camera_store store = { rows->raster.velocity_scale, rows->raster.inspect_scale,
+                                              rows->raster.reach_q3, rows->inspect };
+    smear_camera_velocity(w, &r->by_depth->reprojection, &store, r->by_depth->step, t.x0, t.x1, t.y0, t.y1);
+}
+
+static void inspect_row(const struct smear_rows *rows, int row)
+{
+    const struct smear_window *w = &rows->window;
+    for (int32_t y = row_top(rows, row); y < row_bottom(rows, row); y++) {
+        const int32_t at = window_ring_row(w, y) * w->width;
+        if (!rows->keeps_motion)
+            __builtin_memset(rows->inspect + 2 * at, 0, (size_t)w->width * 8);
+        rows->desc->inspect(rows->desc->user, y, w->color + at, w->depth + at, rows->inspect + 2 * at);
+    }
+}
+
+void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth)
+{
+    struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
+    const uint32_t start = stage_start(rows);
+    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    for (int32_t i = 0; i < rows->window.columns; i++)
+        rows->window.moving[i] = 0;
+    smear_jobs_run(&rows->jobs, draw_job, &job, rows->jobs.workers);
+    if (SMEAR_WITH_INSPECT && rows->inspect != NULL)
+        inspect_row(rows, row);
+    stage_end(rows, &rows->stats->time_raster, start);
+}
+
+/* ------------------------------------------------------------------ straight into the band */
+
+bool smear_sharp_may_be_direct(const smear_desc *d)
+{
+    return SMEAR_DIRECT && d->sharp && !d->cache_static && d->dither == SMEAR_DITHER_NONE
+        && (d->format == SMEAR_RGB565 || d->format == SMEAR_RGB565_SWAPPED);
+}
+
+/* Neither working pixels nor a conversion: a row's place in the band is its place in the window, which has no more
+ * rows. */
+static void direct_job(void *argument, int job, int worker)
+{
+    const struct row_job *r = (const struct row_job *)argument;
+    const struct smear_rows *rows = r->rows;
+    struct smear_raster_target t;
+    (void)worker;
+    smear_row_target(rows, r->row, &t);
+    smear_job_columns(rows, job, &t.x0, &t.x1);
+    if (t.x0 >= t.x1)
+        return;
+    t.direct = (uint16_t *)(void *)r->band;
+    t.cache = smear_raster_cache_of(&rows->cache, job);
+    const uint32_t clear = rgb565_nearest(rows->clear);
+    int32_t at = t.x0, n = t.x1 - t.x0;
+    for (int32_t y = t.y0; y < t.y1; y++, at += rows->window.width) {
+        pixels_fill_narrow(t.direct + at, clear, n);
+        pixels_fill_narrow(t.depth + at, 0, n);
+    }
+    smear_raster_list(&rows->raster, &t, rows->opaque);
+    at = t.x0;
+    if (smear_format_is_swapped((smear_format)rows->desc->format))
+        for (int32_t y = t.y0; y < t.y1; y++, at += rows->window.width)
+            smear_format_swap(t.direct + at, n);
+}
+
+static int draw_direct_row(struct smear_rows *rows, int row)
+{
+    const uint32_t start = stage_start(rows);
+    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows) };
+    smear_jobs_run(&rows->jobs, direct_job, &job, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time_raster, start);
+    return smear_band_flush(&job);
+}
+
+int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
+{
+    int result = SMEAR_OK;
+    for (int row = first; row < end && result == SMEAR_OK; row++) {
+        if (SMEAR_DIRECT && direct) {
+            result = draw_direct_row(rows, row);
+        } else {
+            smear_sharp_draw_row(rows, row, NULL);
+            smear_row_blend(rows, row);
+            result = smear_band_finish_row(rows, row);
+        }
+    }
+    return result;
+}

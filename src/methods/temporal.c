@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+/* temporal.c - see temporal.h.
+ *
+ *     list        moving triangles of the row, and what they mean for its tiles
+ *     for each run of tiles that must be drawn (one, unless the display keeps some):
+ *         static      triangles that do not move, into the row's pixels
+ *         finish      tiles by their method (tile_method.h): a copy, subframes of tiles beside each other, or a time
+ *                     mask; then flush */
+#include "methods/temporal.h"
+
+#include "display/band.h"
+
+#if SMEAR_WITH_SUBFRAMES
+
+/* A run of tiles of a row on its way. */
+struct finish {
+    struct row_job row;
+    struct smear_temporal *self;
+    struct smear_raster_target background;      /* what is static, drawn */
+};
+
+int32_t smear_strip_columns(int32_t strip, int32_t width)
+{
+    return strip >= width ? strip : SMEAR_STRIP_COLUMNS(strip);
+}
+
+static bool is_static(const struct smear_tile_load *load)
+{
+    return (load->flags & (TILE_MOVES | PATH_WITHOUT_MASK)) == 0;
+}
+
+/* ------------------------------------------------------------------ tiles */
+
+static void background_job(void *argument, int job, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    struct smear_raster_target t = f->background;
+    (void)worker;
+    smear_row_draw_opaque(&f->row, job, &t, 0);
+}
+
+/* Draws blended triangles over a tile without moving ones. */
+static void blend_static(const struct smear_moving_tile *t, const struct smear_rows *rows)
+{
+    const struct smear_raster_target *s = &t->still;
+    for (int32_t y = s->y0; y < s->y1; y++) {
+        const uint32_t *in = s->color + target_row(&s->color_rows, s, y) + s->x0;
+        for (int32_t i = 0; i < s->x1 - s->x0; i++)
+            t->out[(y - s->y0) * t->pitch + i] = in[i];
+    }
+    struct smear_raster_target over = *s;
+    over.color = t->out;
+    over.color_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
+    smear_raster_list(&rows->raster, &over, t->blend);
+}
+
+/* Describes tiles [first, end) of the row to a method. */
+static struct smear_moving_tile tiles_of(const struct finish *f, int first, int end, int worker)
+{
+    const struct smear_temporal *self = f->self;
+    const struct smear_rows *rows = f->row.rows;
+    const int32_t pitch = smear_strip_columns(self->strip, rows->window.width);
+    struct smear_moving_tile t = {
+        .frame = &rows->raster, .shutter = &self->shutter, .still = f->background,
+        .moving = self->moving.moving, .moving_count = self->moving.count,
+        .column = first, .last_column = end - 1, .blend = rows->blend,
+        .out = rows->scratch + worker * pitch * rows->window.tile, .pitch = pitch, .tile = rows->window.tile,
+        .work = self->work + (uint32_t)worker * self->work_bytes, .work_bytes = self->work_bytes
+    };
+    t.x0 = t.still.x0 = tile_left(rows, first);
+    t.x1 = t.still.x1 = tile_right(rows, end - 1);
+    return t;
+}
+
+static void hand_on(const struct finish *f, const struct smear_moving_tile *t)
+{
+    struct smear_raster_target out = t->still;
+    out.color = t->out;
+    out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
+    smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
+}
+
+/* Converts static tiles from `first` on; returns the first that is not, or `end`. */
+static int finish_static(const struct finish *f, int first, int end)
+{
+    int next = first;
+    while (next < end && is_static(&f->self->moving.load[next]))
+        next++;
+    smear_band_convert_rows(&f->row, &f->background, tile_left(f->row.rows, first), tile_right(f->row.rows, next - 1));
+    return next;
+}
+
+/* Returns the columns beyond a strip's border in which its moving triangles are drawn, too, so that gaps of its last
+ * tile, which moving triangles go on from by `step`, close with what is there. `neighbour`: the tile beyond, or null. */
+static int32_t margin_of(const struct finish *f, const struct smear_step *step, const struct smear_tile_load *neighbour)
+{
+    enum { GAP_SEEN = 2 * 16 };
+    const int32_t strip = f->self->strip, most = (smear_strip_columns(strip, f->row.rows->window.width) - strip) / 2;
+    const int32_t gap = abs_i32(step->x);       /* 1/16 px */
+    return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
+}
+
+static void widen(struct smear_moving_tile *t, const struct finish *f, const struct smear_step *step)
+{
+    const struct smear_tile_load *load = f->self->moving.load;
+    const struct smear_window *w = &f->row.rows->window;
+    const int first = t->column, last = t->last_column;
+    t->still.x0 -= margin_of(f, &step[0], first > 0 ? &load[first - 1] : NULL);
+    t->still.x1 += margin_of(f, &step[last - first], last + 1 < w->columns ? &load[last + 1] : NULL);
+    t->still.x1 = min_i32(t->still.x1, w->width);
+    t->column -= t->still.x0 < t->x0;
+    t->last_column += t->still.x1 > t->x1;
+}
+
+/* Tiles beside each other share instants: as many as the one that needs most. */
+static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
+{
+    const struct smear_temporal *self = f->self;
+    struct smear_tile_load *load = self->moving.load;
+    struct smear_step step[STRIP_TILES_MAX];
+    struct smear_tile_choice choice;
+    int next = first + 1;
+    load_set_method(&load[first], TILE_SUBFRAMES);
+    for (; next < end && !is_static(&load[next]); next++) {
+        smear_tile_method_choose(&choice, &self->chooser, &load[next]);
+        if (choice.method != TILE_SUBFRAMES)
+            break;
+        load_set_method(&load[next], TILE_SUBFRAMES);
+        instants = max_i32(instants, choice.instants);
+    }
+    for (int i = first; i < next; i++)
+        smear_tile_method_step(&step[i - first], &self->chooser, &load[i], instants);
+    struct smear_moving_tile t = tiles_of(f, first, next, worker);
+    const bool fills = smear_shutter_is_box(&self->shutter);
+    if (fills)
+        widen(&t, f, step);
+    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, fills ? step : NULL);
+    hand_on(f, &t);
+    return next;
+}
+
+static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
+{
+    struct smear_rows *rows = f->row.rows;
+    struct smear_moving_tile t = tiles_of(f, column, column + 1, worker);
+    if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
+        bool is_smooth;
+        rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask, &is_smooth);
+        load_set_method(&f->self->moving.load[column], is_smooth ? TILE_SMOOTH : TILE_TIMEMASK);
+    } else {
+        blend_static(&t, rows);
+    }
+    hand_on(f, &t);
+}
+
+/* Tiles of the run in as many strips as the frame has. */
+static void finish_job(void *argument, int strip, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    const struct smear_window *w = &f->row.rows->window;
+    const int tiles = f->self->strip >> w->tile_shift,
+              end = min_i32((strip + 1) * tiles, (job_right(&f->row) + w->tile - 1) >> w->tile_shift);
+    for (int column = max_i32(strip * tiles, job_left(&f->row) >> w->tile_shift); column < end;) {
+        const struct smear_tile_load *load = &f->self->moving.load[column];
+        struct smear_tile_choice choice;
+        if (is_static(load)) {
+            column = finish_static(f, column, end);
+            continue;
+        }
+        smear_tile_method_choose(&choice, &f->self->chooser, load);
+        if (choice.method == TILE_SUBFRAMES)
+            column = finish_subframes(f, column, end, choice.instants, worker);
+        else
+            finish_tile(f, column++, &choice, worker);
+    }
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static void count_tiles(const struct smear_temporal *self, const struct smear_rows *rows)
+{
+    for (int32_t i = 0; i < rows->window.columns; i++) {
+        const enum smear_tile_method method = load_method(&self->moving.load[i]);
+        smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : method == TILE_SMOOTH ? TILE_UNIFORM : TILE_COMPLEX,
+                        method == TILE_SMOOTH ? SMEAR_AUTO : method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
+    }
+}
+
+static bool run_is_static(const struct smear_temporal *self, const struct smear_damage_run *run)
+{
+    for (int i = run->first; i < run->end; i++)
+        if (!is_static(&self->moving.load[i]))
+            return false;
+    return true;
+}
+
+/* Finds the next tiles to be drawn: all, but for those that the display keeps. */
+static bool next_run(const struct smear_temporal *self, const struct smear_rows *rows, int row,
+                     struct smear_damage_run *run)
+{
+    if (SMEAR_WITH_DAMAGE)
+        return smear_damage_next_run(self->damage, rows, row, run);
+    run->first = run->end;
+    run->end = (int)rows->window.columns;
+    return run->first < run->end;
+}
+
+/* Draws, finishes and hands out tiles beside each other. */
+static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int row, const struct smear_damage_run *run)
+{
+    uint32_t start = stage_start(rows);
+    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+    finish.row.x0 = tile_left(rows, run->first);
+    finish.row.x1 = tile_right(rows, run->end - 1);
+    smear_row_target(rows, row, &finish.background);
+    if (!static_is_cached(self->damage))
+        smear_jobs_run(&rows->jobs, background_job, &finish, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time_raster, start);
+
+    start = stage_start(rows);
+    finish.row.band = smear_band_begin(rows);
+    if (rows->jobs.workers == 1 && run_is_static(self, run))
+        finish_static(&finish, run->first, run->end);
+    else
+        smear_jobs_run(&rows->jobs, finish_job, &finish, (rows->window.width + self->strip - 1) / self->strip);
+    stage_end(rows, &rows->stats->time_blur, start);
+    return smear_band_flush(&finish.row);
+}
+
+static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
+{
+    const struct smear_bins *bins = &rows->bins;
+    rows->opaque = row_advance(rows, bins->opaque_last, rows->opaque, row);
+    rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
+    smear_list_moving(&self->moving, bins, &rows->window, rows->moving, row_top(rows, row));
+    if (!rows->blends)
+        return;
+    rows->blend = row_advance(rows, bins->blend_last, rows->blend, row);
+    smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));
+}
+
+static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row)
+{
+    const uint32_t start = stage_start(rows);
+    list_row(self, rows, row);
+    stage_end(rows, &rows->stats->time_raster, start);
+    struct smear_damage_run run = { 0, 0 };
+    while (next_run(self, rows, row, &run)) {
+        int result = finish_run(self, rows, row, &run);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    count_tiles(self, rows);
+    if (SMEAR_WITH_DAMAGE)
+        smear_damage_row_sent(self->damage, rows, row);
+    return SMEAR_OK;
+}
+
+/* Returns the error that tile rows [first, end) may have, for their share of the frame's budget. */
+static int32_t target_within_budget(const struct smear_temporal *self, const struct smear_rows *rows, int first, int end)
+{
+    const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
+    struct smear_way_areas areas = { .interval_area = 0 };
+    for (int row = first; row < end; row++)
+        smear_add_areas(&areas, &rows->bins, rows->bins.moving_last[row]);
+    uint32_t work;
+    const int32_t target = smear_tile_method_target(&self->chooser, &areas, budget / all * part + budget % all * part / all,
+                                                    &work);
+    rows->stats->work = min_u32(rows->stats->work, UINT32_MAX - work) + work;
+    return target;
+}
+
+int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end)
+{
+    if (self->chooser.method == SMEAR_AUTO) {
+        self->chooser.target = self->target;        /* the part before may have had another */
+        if (self->budget != 0)
+            self->chooser.target = target_within_budget(self, rows, first, end);
+        rows->stats->target = max_u32(rows->stats->target, (uint32_t)self->chooser.target);
+    }
+    for (int row = first; row < end; row++) {
+        int result = draw_row(self, rows, row);
+        if (result != SMEAR_OK)
+            return result;
+    }
+    return SMEAR_OK;
+}
+
+#endif

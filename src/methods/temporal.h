@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* temporal.h - tile rows of methods that look at several instants. */
+#ifndef SMEAR_TEMPORAL_H
+#define SMEAR_TEMPORAL_H
+
+#include "display/damage.h"
+#include "geometry/shutter.h"
+#include "temporal/row_lists.h"
+
+struct smear_temporal {
+    struct smear_shutter shutter;
+    struct smear_chooser chooser;
+    struct smear_row_moving moving;     /* of the row being drawn */
+    uint8_t *work;                      /* work_bytes per worker */
+    uint32_t work_bytes;
+    int32_t strip;                      /* tiles that share instants are so many pixels wide together, at most */
+    int32_t target;                     /* smear_frame.target: the chooser's follows from it and the budget */
+    uint32_t budget;                    /* smear_frame.budget */
+    struct smear_damage *damage;        /* null without desc.cache_static and desc.buffer_age */
+};
+
+/* Returns the columns that a strip of a frame takes with what is drawn beyond its sides: nothing where it is as wide as
+ * the frame. */
+int32_t smear_strip_columns(int32_t strip, int32_t width);
+
+/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
+ * smear_band_flush. */
+int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end);
+
+#endif
