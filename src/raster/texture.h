@@ -7,6 +7,7 @@
 
 #include "base/fixed.h"
 #include "base/pixel.h"
+#include "kernels/texel_run.h"
 
 /* A texture as the raster reads it. */
 struct smear_sampler {
@@ -46,14 +47,6 @@ struct smear_texture_run {
     uint64_t at, step, bend;
 };
 
-static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)v << 32 | u; }
-
-/* Steps: u has a sign of its own, which it borrows from v. */
-static inline uint64_t packed_step(uint32_t du, uint32_t dv)
-{
-    return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
-}
-
 /* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17
  * pixels it makes no difference whether u and v are stepped together or each alone. */
 static inline uint32_t turns_start(uint32_t v) { return (v & ~255u) | 128u; }
@@ -69,13 +62,7 @@ static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, 
 /* Texel number `at` in memory, as 0xAARRGGBB; of the sampler's format. */
 SMEAR_INLINE uint32_t sampler_fetch(const struct smear_sampler *s, uint32_t at, int format)
 {
-    if (format == SMEAR_TEXEL_8888)
-        return ((const uint32_t *)s->texels)[at];
-    if (format == SMEAR_TEXEL_PALETTE8)
-        return s->palette[((const uint8_t *)s->texels)[at]];
-    uint32_t c = ((const uint16_t *)s->texels)[at];
-    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
-    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
+    return texel_fetch(s->texels, s->palette, at, format);
 }
 
 /* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */

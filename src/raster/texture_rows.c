@@ -4,40 +4,19 @@
  * a triangle are drawn together, a block of pixels after the other. */
 #include "raster/texture_rows.h"
 
+#include "kernels/texels_draw.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS
 
-/* ------------------------------------------------------------------ texels */
-
-enum texels {
-    TEXELS_WIDE,            /* 0xAARRGGBB, copied */
-    TEXELS_NARROW,          /* RGB565, copied */
-    TEXELS_LIT,             /* of any format and light, to 32 bits */
-    TEXELS_LIT_NARROW       /* to RGB565 */
-};
-
-SMEAR_INLINE bool are_lit(enum texels kind) { return kind >= TEXELS_LIT; }
-SMEAR_INLINE bool are_narrow(enum texels kind) { return kind == TEXELS_NARROW || kind == TEXELS_LIT_NARROW; }
-
-/* The last texel of a run, and the pixel that it became. Where textures are
- * magnified, most pixels look like those before them. */
-struct lit {
-    uint32_t index, pixel;              /* the order in which registers are filled by hand */
-    uint32_t from_v, mask_v, from_u;    /* index = v >> from_v & mask_v | u >> from_u */
-    uint32_t texel;
-    uint32_t red, green, blue;          /* light: codes */
-    const struct smear_sampler *sampler;
-    bool narrow;
-};
+/* ------------------------------------------------------------------ runs */
 
 /* The light is even, and no linear one: see smear_rows_choose. */
-static SMEAR_NOINLINE void lit_start(struct lit *l, const struct setup *s)
+static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup *s)
 {
-    l->index = ~0u;
-    l->texel = 0;
-    l->pixel = 0;           /* that of black */
-    l->red = l->green = l->blue = 255;
+    const struct smear_sampler *m = &s->draw->sampler;
+    texel_light_start(l, m->texels, m->palette, m->format, m->log2_width, m->log2_height,
+                      target_is_direct(s->target));
     if (segment_gouraud(s->segment)) {
         l->red = (uint32_t)s->channel[0].at >> 16 & 255u;
         l->green = (uint32_t)s->channel[1].at >> 16 & 255u;
@@ -47,423 +26,23 @@ static SMEAR_NOINLINE void lit_start(struct lit *l, const struct setup *s)
         l->green = pixel_green(s->color);
         l->blue = pixel_blue(s->color);
     }
-    const struct smear_sampler *m = l->sampler = &s->draw->sampler;
-    l->narrow = target_is_direct(s->target);
-    l->from_v = 32u - m->log2_height - m->log2_width;
-    l->mask_v = ((1u << m->log2_height) - 1u) << m->log2_width;
-    l->from_u = 32u - m->log2_width;
 }
 
-/* The pixel of another texel. */
-static SMEAR_NOINLINE uint32_t lit_find(struct lit *l, uint32_t index)
+/* Along a block: its curvature is what changes lose. */
+SMEAR_INLINE void run_texcoord(struct texel_run *r, struct course c)
 {
-    const uint32_t pair = 0xff00ffu, t = sampler_fetch(l->sampler, index, l->sampler->format) & 0xffffffu;
-    l->index = index;
-    if (t == l->texel)
-        return l->pixel;
-    /* code_times, of red and blue in one word */
-    uint32_t rb = (pixel_red(t) * l->red << 16) + pixel_blue(t) * l->blue + 0x800080u;
-    rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
-    const uint32_t p = rb | code_times(pixel_green(t), l->green) << 8;
-    l->texel = t;
-    l->pixel = l->narrow ? rgb565_nearest(p) : p;
-    return l->pixel;
-}
-
-SMEAR_INLINE uint32_t lit_pixel(struct lit *l, uint32_t index)
-{
-    return index == l->index ? l->pixel : lit_find(l, index);
-}
-
-/* ------------------------------------------------------------------ pixels */
-
-SMEAR_INLINE uint32_t packed_index(uint64_t uv, int log2_width, int log2_height)
-{
-    return (uint32_t)(uv >> 32) >> (32 - log2_height) << log2_width | (uint32_t)uv >> (32 - log2_width);
-}
-
-/* Pixel i becomes a texel. */
-SMEAR_INLINE void put_texel(void *color, int32_t i, const void *texels, struct lit *lit, uint32_t index,
-                            enum texels kind)
-{
-    if (kind == TEXELS_NARROW)
-        ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
-    else if (kind == TEXELS_WIDE)
-        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
-    else if (kind == TEXELS_LIT_NARROW)
-        ((uint16_t *)color)[i] = (uint16_t)lit_pixel(lit, index);
-    else
-        ((uint32_t *)color)[i] = lit_pixel(lit, index);
-}
-
-SMEAR_INLINE void texel_pixel(void *color, uint16_t *depth, uint32_t z, const void *texels, struct lit *lit,
-                              uint64_t uv, int log2_width, int log2_height, enum texels kind)
-{
-    uint16_t code = (uint16_t)(z >> 16);
-    if (code > *depth) {
-        *depth = code;
-        put_texel(color, 0, texels, lit, packed_index(uv, log2_width, log2_height), kind);
-    }
-}
-
-/* A run of pixels along a course, and where it has come to. Coordinates are stepped both at once where words
- * have 64 bits, else each alone. Bends are negative: what steps gain. */
-#if UINTPTR_MAX > 0xffffffffu
-struct texel_run {
-    uint64_t uv, step, bend;
-    void *color;
-    uint16_t *depth;
-    uint32_t z, dz;
-    const void *texels;
-    struct lit *lit;
-    uint64_t bits, fold;        /* of an index; what brings those of u next to those of v */
-};
-
-SMEAR_INLINE void run_index_start(struct texel_run *r, int log2_width, int log2_height)
-{
-    r->bits = (uint64_t)(0u - (1u << (32 - log2_height))) << 32 | (0u - (1u << (32 - log2_width)));
-    r->fold = 1u + ((uint64_t)1 << (32 - log2_height));
-    __asm__("" : "+r"(r->fold));        /* one product, not a shift and a sum */
-}
-
-SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
-{
+#if TEXELS_PACKED
     const struct smear_texture_run run = course_packed(c);
     r->uv = run.at;
-    r->step = run.step;
-    r->bend = run.bend;
-}
-
-SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return r->uv; }
-
-SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
-{
-    return (uint32_t)((r->uv & r->bits) * r->fold >> (64 - log2_width - log2_height));
-}
-
-SMEAR_INLINE void run_step(struct texel_run *r)
-{
-    r->uv += r->step;
-    r->step += r->bend;
-}
+    r->duv = run.step;
+    r->dduv = run.bend;
 #else
-struct texel_run {              /* the order in which registers are filled by hand */
-    uint32_t dz, du, dv, bend_u, bend_v;
-    const uint16_t *end;
-    void *color;
-    uint16_t *depth;
-    uint32_t z, u, v;
-    const void *texels;
-    int32_t count;
-    struct lit *lit;
-};
-
-SMEAR_INLINE void run_index_start(struct texel_run *r, int log2_width, int log2_height)
-{
-    (void)r, (void)log2_width, (void)log2_height;
-}
-
-SMEAR_INLINE void run_course(struct texel_run *r, struct course c)
-{
     r->u = c.u;
     r->v = c.v;
     r->du = c.du;
     r->dv = c.dv;
-    r->bend_u = 0u - c.bend_u;
-    r->bend_v = 0u - c.bend_v;
-}
-
-SMEAR_INLINE uint64_t run_uv(const struct texel_run *r) { return packed_uv(r->u, r->v); }
-
-SMEAR_INLINE uint32_t run_index(const struct texel_run *r, int log2_width, int log2_height)
-{
-    return r->v >> (32 - log2_height) << log2_width | r->u >> (32 - log2_width);
-}
-
-SMEAR_INLINE void run_step(struct texel_run *r)
-{
-    r->u += r->du;
-    r->v += r->dv;
-    r->du += r->bend_u;
-    r->dv += r->bend_v;
-}
-#endif
-
-#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
-#define TEXELS_BY_HAND 1
-
-/* One pixel, where the depth lies AT and the colour PLACE further on;
- * LABEL is behind it. z in r2, u in r3, v in r4. */
-#define PIXEL_BY_HAND(LOAD, STORE, SIZE, AT, PLACE, LABEL) \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #" AT "]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs " LABEL "f\n\t" \
-        "strh r6, [r1, #" AT "]\n\t" \
-        "lsrs r6, r4, %[from_v]\n\t" \
-        "lsls r6, r6, %[to_v]\n\t" \
-        "lsrs r7, r3, %[from_u]\n\t" \
-        "lsls r7, r7, #" SIZE "\n\t" \
-        "orrs r6, r7\n\t" \
-        LOAD " r6, [r5, r6]\n\t" \
-        STORE " r6, [r0, #" PLACE "]\n" \
-        LABEL ": "
-
-/* Keeps the run, at r0, and fills the registers of its steps. */
-#define STEPS_BY_HAND \
-        ".syntax unified\n\t" \
-        "push {r0}\n\t" \
-        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
-        "mov r8, r1\n\t" \
-        "mov r9, r2\n\t" \
-        "mov r10, r3\n\t" \
-        "mov r11, r4\n\t" \
-        "mov r12, r5\n\t"
-
-/* LOAD, STORE, SIZE, NEXT, STEP: of texels and pixels; a pixel's size as
- * a power of two, where the next one is, two. */
-#define PAIRS_BY_HAND(LOAD, STORE, SIZE, NEXT, STEP) \
-    __asm__ volatile( \
-        STEPS_BY_HAND \
-        "mov lr, r6\n\t" \
-        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
-        "1:\n\t" \
-        PIXEL_BY_HAND(LOAD, STORE, SIZE, "0", "0", "2") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        PIXEL_BY_HAND(LOAD, STORE, SIZE, "2", NEXT, "3") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        "adds r0, #" STEP "\n\t" \
-        "adds r1, #4\n\t" \
-        "cmp r1, lr\n\t" \
-        "bne 1b\n\t" \
-        "ldr r6, [sp]\n\t" \
-        "ldr r6, [r6, #48]\n\t" \
-        "lsrs r6, r6, #1\n\t" \
-        "bcc 5f\n\t" \
-        PIXEL_BY_HAND(LOAD, STORE, SIZE, "0", "0", "4") \
-        "adds r0, #" NEXT "\n\t" \
-        "adds r1, #2\n" \
-        "5: pop {r7}\n\t" \
-        "str r0, [r7, #24]\n\t" \
-        "str r1, [r7, #28]\n\t" \
-        "str r2, [r7, #32]" \
-        : "+r"(r0) \
-        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), \
-          [from_u] "i"(32 - log2_width) \
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
-
-/* run_texels on cores with eight registers that do everything and six that only add:
- * compilers keep half of the values on the stack, which doubles the instructions.
- * 18 a pixel. u and v are stepped each alone. */
-SMEAR_INLINE void pairs_by_hand(struct texel_run *p, int log2_width, int log2_height, enum texels kind)
-{
-    register struct texel_run *r0 __asm__("r0") = p;
-    if (kind == TEXELS_NARROW)
-        PAIRS_BY_HAND("ldrh", "strh", "1", "2", "4");
-    else
-        PAIRS_BY_HAND("ldr", "str", "2", "4", "8");
-}
-
-/* The same of lit texels of any size. On the stack from sp on: the words of struct lit up to
- * from_u, the end, the struct, the run. v and u make the index, which lit_find takes if it is new. */
-#define LIT_PIXEL_BY_HAND(STORE, AT, PLACE, LABEL, KNOWN) \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #" AT "]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs " LABEL "f\n\t" \
-        "strh r6, [r1, #" AT "]\n\t" \
-        "ldr r7, [sp, #8]\n\t" \
-        "movs r6, r4\n\t" \
-        "lsrs r6, r7\n\t" \
-        "ldr r7, [sp, #12]\n\t" \
-        "ands r6, r7\n\t" \
-        "ldr r7, [sp, #16]\n\t" \
-        "movs r5, r3\n\t" \
-        "lsrs r5, r7\n\t" \
-        "orrs r5, r6\n\t" \
-        "ldr r7, [sp]\n\t" \
-        "cmp r5, r7\n\t" \
-        "beq " KNOWN "f\n\t" \
-        "bl 8f\n" \
-        KNOWN ": ldr r6, [sp, #4]\n\t" \
-        STORE " r6, [r0, #" PLACE "]\n" \
-        LABEL ": "
-
-#define LIT_PAIRS_BY_HAND(STORE, NEXT, STEP) \
-    __asm__ volatile( \
-        STEPS_BY_HAND \
-        "ldr r7, [r0, #28]\n\t" \
-        "push {r6, r7}\n\t" \
-        "ldm r7!, {r1, r2, r3, r4, r5}\n\t" \
-        "push {r1, r2, r3, r4, r5}\n\t" \
-        "ldm r0, {r0, r1, r2, r3, r4}\n" \
-        "1:\n\t" \
-        LIT_PIXEL_BY_HAND(STORE, "0", "0", "2", "3") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        LIT_PIXEL_BY_HAND(STORE, "2", NEXT, "4", "5") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        "adds r0, #" STEP "\n\t" \
-        "adds r1, #4\n\t" \
-        "ldr r7, [sp, #20]\n\t" \
-        "cmp r1, r7\n\t" \
-        "bne 1b\n\t" \
-        "ldr r6, [sp, #28]\n\t" \
-        "ldr r6, [r6, #48]\n\t" \
-        "lsrs r6, r6, #1\n\t" \
-        "bcc 9f\n\t" \
-        LIT_PIXEL_BY_HAND(STORE, "0", "0", "6", "7") \
-        "adds r0, #" NEXT "\n\t" \
-        "adds r1, #2\n\t" \
-        "b 9f\n" \
-        "8: push {r0, r1, r2, r3}\n\t" \
-        "mov r6, r12\n\t" \
-        "mov r7, lr\n\t" \
-        "push {r6, r7}\n\t" \
-        "str r5, [sp, #24]\n\t" \
-        "ldr r0, [sp, #48]\n\t" \
-        "movs r1, r5\n\t" \
-        "bl %c[find]\n\t" \
-        "str r0, [sp, #28]\n\t" \
-        "pop {r6, r7}\n\t" \
-        "mov r12, r6\n\t" \
-        "mov lr, r7\n\t" \
-        "pop {r0, r1, r2, r3}\n\t" \
-        "bx lr\n" \
-        "9: add sp, #28\n\t" \
-        "pop {r7}\n\t" \
-        "str r0, [r7, #24]\n\t" \
-        "str r1, [r7, #28]\n\t" \
-        "str r2, [r7, #32]" \
-        : "+r"(r0) \
-        : [find] "i"(lit_find) \
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
-
-/* 26 a pixel. */
-SMEAR_INLINE void lit_by_hand(struct texel_run *p, enum texels kind)
-{
-    register struct texel_run *r0 __asm__("r0") = p;
-    if (are_narrow(kind))
-        LIT_PAIRS_BY_HAND("strh", "2", "4");
-    else
-        LIT_PAIRS_BY_HAND("str", "4", "8");
-}
-#else
-#define TEXELS_BY_HAND 0
-#endif
-
-SMEAR_INLINE void texel_step(struct texel_run *r, int32_t i, int log2_width, int log2_height, enum texels kind)
-{
-    uint16_t code = (uint16_t)(r->z >> 16);
-    if (code > r->depth[i]) {
-        __asm__ volatile ("");      /* nothing of this in advance: that takes more registers than there are */
-        r->depth[i] = code;
-        put_texel(r->color, i, r->texels, r->lit, run_index(r, log2_width, log2_height), kind);
-    }
-    r->z += r->dz;
-    __asm__("" : "+r"(r->z));       /* one sum, not one for every other pixel */
-    run_step(r);
-}
-
-SMEAR_INLINE void run_advance(struct texel_run *r, int32_t n, bool narrow)
-{
-    r->depth += n;
-    r->color = pixel_after(r->color, n, narrow);
-}
-
-/* Twelve values are as many as ARM has registers for; compilers would rather keep copies of some. */
-#if defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
-#define ALL_IN_REGISTERS \
-    __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
-               : "r"(bend_u), "r"(bend_v), "r"(dz), "r"(texels), "r"(end))
-#else
-#define ALL_IN_REGISTERS (void)0
-#endif
-
-/* n > 1 pixels from the start of a block. Afterwards color, depth and z are those of the next pixel. */
-SMEAR_INLINE void run_texels(struct texel_run *run, int32_t n, int log2_width, int log2_height, enum texels kind)
-{
-#if TEXELS_BY_HAND
-    if (are_lit(kind) || __builtin_constant_p(log2_width)) {
-        run->count = n;
-        run->end = run->depth + (n & ~1);
-        if (are_lit(kind))
-            lit_by_hand(run, kind);
-        else
-            pairs_by_hand(run, log2_width, log2_height, kind);
-        return;
-    }
-#endif
-#if UINTPTR_MAX > 0xffffffffu
-    struct texel_run r = *run;      /* in registers */
-    for (; n >= 4; n -= 4) {
-        __asm__("" : "+r"(n));      /* else compilers multiply to know all values at the end in advance */
-        texel_step(&r, 0, log2_width, log2_height, kind);
-        texel_step(&r, 1, log2_width, log2_height, kind);
-        texel_step(&r, 2, log2_width, log2_height, kind);
-        texel_step(&r, 3, log2_width, log2_height, kind);
-        run_advance(&r, 4, are_narrow(kind));
-    }
-    if (n & 2) {
-        texel_step(&r, 0, log2_width, log2_height, kind);
-        texel_step(&r, 1, log2_width, log2_height, kind);
-        run_advance(&r, 2, are_narrow(kind));
-    }
-    if (n & 1) {
-        texel_step(&r, 0, log2_width, log2_height, kind);
-        run_advance(&r, 1, are_narrow(kind));
-    }
-    run->color = r.color;
-    run->depth = r.depth;
-    run->z = r.z;
-#else
-    uint32_t u = run->u, v = run->v, du = run->du, dv = run->dv, z = run->z;
-    const uint32_t bend_u = run->bend_u, bend_v = run->bend_v, dz = run->dz;
-    const void *const texels = run->texels;
-    struct lit *const lit = run->lit;
-    void *color = run->color;
-    uint16_t *depth = run->depth, *const end = depth + (n & ~1);
-#define TEXEL_STEP(I) \
-    do { \
-        ALL_IN_REGISTERS; \
-        if (z >> 16 > depth[I]) { \
-            SMEAR_KEEP_BRANCH(); \
-            depth[I] = (uint16_t)(z >> 16); \
-            put_texel(color, I, texels, lit, \
-                      v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), kind); \
-        } \
-        z += dz; \
-        u += du; \
-        v += dv; \
-        du += bend_u; \
-        dv += bend_v; \
-    } while (0)
-    for (; depth != end; depth += 2, color = pixel_after(color, 2, are_narrow(kind))) {
-        TEXEL_STEP(0);
-        TEXEL_STEP(1);
-    }
-    if (n & 1) {
-        texel_pixel(color, depth, z, texels, lit, packed_uv(u, v), log2_width, log2_height, kind);
-        color = pixel_after(color, 1, are_narrow(kind));
-        depth++;
-        z += dz;
-    }
-    run->color = color;
-    run->depth = depth;
-    run->z = z;
+    r->ddu = 0u - c.bend_u;
+    r->ddv = 0u - c.bend_v;
 #endif
 }
 
@@ -474,7 +53,7 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
 {
     const struct texture_setup *t = &s->texture;
 #if defined(__ARM_ARCH_6M__)
-    __asm__("" : "+r"(t));
+    SMEAR_KEEP_VALUE(t);
 #endif
     return t;
 }
@@ -497,7 +76,7 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
     k->u = u;
     k->v = v;
     k->place = to;
-    run_course(&k->run, c);
+    run_texcoord(&k->run, c);
 }
 
 /* With few registers functions of their own: the loops over pixels take them all. */
@@ -566,8 +145,8 @@ static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct tex
         nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
     g.rate = (k->place.nearness + nearness) >> 1;
     k->place.nearness = nearness;
-    coordinate_go(&g, &t->uv[0], &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.bend_u, ~0u);
-    coordinate_go(&g, &t->uv[1], &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.bend_v, ~255u);
+    coordinate_go(&g, &t->uv[0], &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.ddu, ~0u);
+    coordinate_go(&g, &t->uv[1], &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.ddv, ~255u);
     k->run.v = turns_start(k->run.v);
 }
 
@@ -622,23 +201,23 @@ SMEAR_NOINLINE bool smear_rows_piece(struct rows_piece *p, const struct setup *s
 }
 
 /* How texels become pixels where there is no loop for each way: lit where `lit` is not null. */
-static inline enum texels texels_of(const struct setup *s, const struct lit *lit)
+static inline enum texel_kind texels_of(const struct setup *s, const struct texel_light *light)
 {
     const bool narrow = target_is_direct(s->target);
-    return lit != NULL ? (narrow ? TEXELS_LIT_NARROW : TEXELS_LIT) : narrow ? TEXELS_NARROW : TEXELS_WIDE;
+    return light != NULL ? (narrow ? TEXELS_LIT_NARROW : TEXELS_LIT) : narrow ? TEXELS_NARROW : TEXELS_WIDE;
 }
 
 /* Pixels [first, end) of a block of which the run has come to pixel i. */
 static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
 {
-    const enum texels kind = texels_of(s, r->lit);
+    const enum texel_kind kind = texels_of(s, r->light);
     const struct smear_sampler *m = &s->draw->sampler;
     for (; i < end; i++, r->z += r->dz) {
         if (i >= first)
-            texel_pixel(r->color, r->depth, r->z, m->texels, r->lit, run_uv(r), m->log2_width, m->log2_height,
+            texel_pixel(r->color, r->depth, r->z, m->texels, r->light, texel_run_uv(r), m->log2_width, m->log2_height,
                         kind);
-        run_advance(r, 1, are_narrow(kind));
-        run_step(r);
+        texel_run_advance(r, 1, texels_are_narrow(kind));
+        texel_run_step(r);
     }
 }
 
@@ -669,14 +248,14 @@ struct row_list {
 
 /* Rows whose blocks would be single pixels: a place for each. */
 static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_rows *r,
-                                       const struct row_list *list, struct lit *lit)
+                                       const struct row_list *list, struct texel_light *light)
 {
     const enum texture_mode mode = s->texture.mode == TEXTURE_DIVIDED ? TEXTURE_DIVIDED : TEXTURE_AFFINE;
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
-    const enum texels kind = texels_of(s, lit);
-    const bool narrow = are_narrow(kind), plain = rows_are_plain(s, r);
+    const enum texel_kind kind = texels_of(s, light);
+    const bool narrow = texels_are_narrow(kind), plain = rows_are_plain(s, r);
     const int up = t->up, log2_width = m->log2_width, log2_height = m->log2_height;
     const void *const texels = m->texels;
     struct rows_piece p;
@@ -698,7 +277,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 if (z >> 16 > *depth) {
                     const struct place place = place_at(t, mode, NULL, q, u, v, true);
                     *depth = (uint16_t)(z >> 16);
-                    put_texel(color, 0, texels, lit,
+                    texel_put(color, 0, texels, light,
                               (uint32_t)place.v << up >> (32 - log2_height) << log2_width
                                   | (uint32_t)place.u << up >> (32 - log2_width), kind);
                 }
@@ -713,9 +292,9 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
 
 /* Lists the others in `quotients`. */
 SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients,
-                              struct lit *lit, int log2_width, int log2_height, enum texels kind)
+                              struct texel_light *light, int log2_width, int log2_height, enum texel_kind kind)
 {
-    const bool narrow = are_narrow(kind);
+    const bool narrow = texels_are_narrow(kind);
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
@@ -724,8 +303,8 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
-    k.run.lit = lit;
-    run_index_start(&k.run, log2_width, log2_height);
+    k.run.light = light;
+    texel_run_start(&k.run, log2_width, log2_height);
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
@@ -757,7 +336,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             rest -= n;
             const int32_t last = rest == 0, count = n + last;
             if (rest - last >= least_rest) {
-                run_texels(&k.run, count, log2_width, log2_height, kind);
+                texels_draw(&k.run, count, log2_width, log2_height, kind);
             } else {
                 const int32_t end = right - 1 - rest + last;
                 struct texel_run run = k.run;       /* that one stays in registers */
@@ -783,8 +362,8 @@ SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return a * (uint64_t)(int6
 SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
 {
     r->uv = at;
-    r->step = step;
-    r->bend = bend;
+    r->duv = step;
+    r->dduv = bend;
 }
 #else
 typedef struct { uint32_t u, v; } uv_pair;
@@ -803,16 +382,16 @@ SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pai
     r->v = at.v;
     r->du = step.u;
     r->dv = step.v;
-    r->bend_u = bend.u;
-    r->bend_v = bend.v;
+    r->ddu = bend.u;
+    r->ddv = bend.v;
 }
 #endif
 
 /* course_curved, whose values go on from row to row. */
-SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, struct lit *lit,
-                              int log2_width, int log2_height, enum texels kind)
+SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, struct texel_light *light,
+                              int log2_width, int log2_height, enum texel_kind kind)
 {
-    const bool narrow = are_narrow(kind);
+    const bool narrow = texels_are_narrow(kind);
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const struct curve *cu = &t->curve[0], *cv = &t->curve[1];
@@ -832,9 +411,9 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     uint16_t *depth = target->depth + r->at;
     struct texel_run run;
     run.texels = s->draw->sampler.texels;
-    run.lit = lit;
+    run.light = light;
     run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    run_index_start(&run, log2_width, log2_height);
+    texel_run_start(&run, log2_width, log2_height);
     const ptrdiff_t stride = target->window_rows.stride;
     for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
         const int32_t left = side->left, n = side->right - left, x = left - x0,
@@ -854,11 +433,11 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
             if (!plain && (p.a != left || p.b != left + n)) {
                 struct texel_run piece = run;       /* that one stays in registers */
                 run_texels_pieces(s, r, row, &piece, &p, left, left + n);
-            } else if (n == 1 && TEXELS_BY_HAND) {
-                texel_pixel(run.color, run.depth, run.z, run.texels, lit, run_uv(&run), log2_width,
+            } else if (n < TEXELS_LEAST) {
+                texel_pixel(run.color, run.depth, run.z, run.texels, light, texel_run_uv(&run), log2_width,
                             log2_height, kind);
             } else {
-                run_texels(&run, n, log2_width, log2_height, kind);
+                texels_draw(&run, n, log2_width, log2_height, kind);
             }
         }
         depth += stride;
@@ -873,19 +452,19 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct row_list list; \
-        struct lit lit; \
-        if (are_lit(KIND)) \
-            lit_start(&lit, s); \
-        draw_blocks(s, r, &list, are_lit(KIND) ? &lit : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
+        struct texel_light light; \
+        if (texels_are_lit(KIND)) \
+            light_start(&light, s); \
+        draw_blocks(s, r, &list, texels_are_lit(KIND) ? &light : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
         if (list.count != 0) \
-            draw_places(s, r, &list, are_lit(KIND) ? &lit : NULL); \
+            draw_places(s, r, &list, texels_are_lit(KIND) ? &light : NULL); \
     } \
     static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
-        struct lit lit; \
-        if (are_lit(KIND)) \
-            lit_start(&lit, s); \
-        draw_curves(s, r, are_lit(KIND) ? &lit : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
+        struct texel_light light; \
+        if (texels_are_lit(KIND)) \
+            light_start(&light, s); \
+        draw_curves(s, r, texels_are_lit(KIND) ? &light : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
     }
 #define ANY_WIDTH  s->draw->sampler.log2_width
 #define ANY_HEIGHT s->draw->sampler.log2_height

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* texel_light.h - a texel in the light of its triangle, as a pixel. */
+#ifndef SMEAR_KERNELS_TEXEL_LIGHT_H
+#define SMEAR_KERNELS_TEXEL_LIGHT_H
+
+#include "smear.h"
+
+#include "base/pixel.h"
+#include "kernels/kernels.h"
+
+/* Texel number `at` in memory, of a smear_texel_format, as 0xAARRGGBB. */
+SMEAR_INLINE uint32_t texel_fetch(const void *texels, const uint32_t *palette, uint32_t at, int format)
+{
+    if (format == SMEAR_TEXEL_8888)
+        return ((const uint32_t *)texels)[at];
+    if (format == SMEAR_TEXEL_PALETTE8)
+        return palette[((const uint8_t *)texels)[at]];
+    uint32_t c = ((const uint16_t *)texels)[at];
+    uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;
+    return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
+}
+
+/* Light that is the same throughout a triangle, its texture, and the last texel with the pixel that it became: where
+ * textures are magnified, most pixels look like those before them. */
+struct texel_light {
+    uint32_t index, pixel;              /* the order in which the assembly loads registers */
+    uint32_t from_v, mask_v, from_u;    /* index = v >> from_v & mask_v | u >> from_u */
+    uint32_t texel;
+    uint32_t red, green, blue;          /* of the light: codes */
+    const void *texels;
+    const uint32_t *palette;
+    int format;
+    bool narrow;                        /* pixels are RGB565 */
+};
+
+/* White light. The texture's sizes are 2^log2_width and 2^log2_height, both at least 2. */
+static inline void texel_light_start(struct texel_light *l, const void *texels, const uint32_t *palette, int format,
+                                     int log2_width, int log2_height, bool narrow)
+{
+    l->index = ~0u;
+    l->texel = 0;
+    l->pixel = 0;           /* that of black */
+    l->red = l->green = l->blue = 255;
+    l->texels = texels;
+    l->palette = palette;
+    l->format = format;
+    l->narrow = narrow;
+    l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
+    l->mask_v = ((1u << log2_height) - 1u) << log2_width;
+    l->from_u = 32u - (uint32_t)log2_width;
+}
+
+/* Returns the pixel of another texel than the last one. Rarely called, where textures are magnified. */
+uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index);
+
+SMEAR_INLINE uint32_t texel_light_pixel(struct texel_light *l, uint32_t index)
+{
+    return index == l->index ? l->pixel : smear_texel_light_find(l, index);
+}
+
+#endif

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+/* texels_draw.h - depth-tested texels along a row. */
+#ifndef SMEAR_KERNELS_TEXELS_DRAW_H
+#define SMEAR_KERNELS_TEXELS_DRAW_H
+
+#include "kernels/texels_draw_armv6m.h"
+
+/* The least number of pixels that texels_draw takes. */
+enum { TEXELS_LEAST = SMEAR_ASM_ARMV6M ? 2 : 1 };
+
+/* Draws n >= TEXELS_LEAST pixels of a run. Pixel i has the depth code z >> 16; where it is greater than that in memory,
+ * which it then replaces, the pixel becomes the texel at the run's coordinates. Then z changes by dz, u and v by du
+ * and dv, these by ddu and ddv, all modulo 2^32. Afterwards color, depth and z are those of the next pixel; coordinates
+ * and their changes are as before. Sizes are 2 at least; texels, light, colours and depths don't overlap. */
+SMEAR_INLINE void texels_draw_reference(struct texel_run *run, int32_t n, int log2_width, int log2_height,
+                                        enum texel_kind kind)
+{
+    struct texel_run r = *run;
+    for (; n > 0; n--) {
+        texel_pixel(r.color, r.depth, r.z, r.texels, r.light, texel_run_uv(&r), log2_width, log2_height, kind);
+        texel_run_advance(&r, 1, texels_are_narrow(kind));
+        texel_run_step(&r);
+        r.z += r.dz;
+    }
+    run->color = r.color;
+    run->depth = r.depth;
+    run->z = r.z;
+}
+
+#if TEXELS_PACKED
+SMEAR_INLINE void texels_step(struct texel_run *r, int32_t i, int log2_width, int log2_height, enum texel_kind kind)
+{
+    uint16_t code = (uint16_t)(r->z >> 16);
+    if (code > r->depth[i]) {
+        SMEAR_KEEP_BRANCH();            /* in advance it would take more registers than there are */
+        r->depth[i] = code;
+        texel_put(r->color, i, r->texels, r->light,
+                  (uint32_t)((r->uv & r->bits) * r->fold >> (64 - log2_width - log2_height)), kind);
+    }
+    r->z += r->dz;
+    SMEAR_KEEP_VALUE(r->z);             /* one sum, not one for every other pixel */
+    texel_run_step(r);
+}
+
+/* Four pixels a round, whose indices are a product. */
+SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log2_width, int log2_height,
+                                       enum texel_kind kind)
+{
+    struct texel_run r = *run;          /* in registers */
+    for (; n >= 4; n -= 4) {
+        SMEAR_KEEP_VALUE(n);            /* else compilers multiply to know all values at the end in advance */
+        texels_step(&r, 0, log2_width, log2_height, kind);
+        texels_step(&r, 1, log2_width, log2_height, kind);
+        texels_step(&r, 2, log2_width, log2_height, kind);
+        texels_step(&r, 3, log2_width, log2_height, kind);
+        texel_run_advance(&r, 4, texels_are_narrow(kind));
+    }
+    if (n & 2) {
+        texels_step(&r, 0, log2_width, log2_height, kind);
+        texels_step(&r, 1, log2_width, log2_height, kind);
+        texel_run_advance(&r, 2, texels_are_narrow(kind));
+    }
+    if (n & 1) {
+        texels_step(&r, 0, log2_width, log2_height, kind);
+        texel_run_advance(&r, 1, texels_are_narrow(kind));
+    }
+    run->color = r.color;
+    run->depth = r.depth;
+    run->z = r.z;
+}
+#else
+/* The twelve values of the loop are as many as ARM has registers for; compilers would rather keep copies of some. */
+#if defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
+#define TEXELS_KEEP_ALL \
+    __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
+               : "r"(ddu), "r"(ddv), "r"(dz), "r"(texels), "r"(end))
+#else
+#define TEXELS_KEEP_ALL (void)0
+#endif
+
+#define TEXELS_STEP(I) \
+    do { \
+        TEXELS_KEEP_ALL; \
+        if (z >> 16 > depth[I]) { \
+            SMEAR_KEEP_BRANCH(); \
+            depth[I] = (uint16_t)(z >> 16); \
+            texel_put(color, I, texels, light, \
+                      v >> (32 - log2_height) << log2_width | u >> (32 - log2_width), kind); \
+        } \
+        z += dz; \
+        u += du; \
+        v += dv; \
+        du += ddu; \
+        dv += ddv; \
+    } while (0)
+
+/* Two pixels a round. */
+SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log2_width, int log2_height,
+                                       enum texel_kind kind)
+{
+    uint32_t u = run->u, v = run->v, du = run->du, dv = run->dv, z = run->z;
+    const uint32_t ddu = run->ddu, ddv = run->ddv, dz = run->dz;
+    const void *const texels = run->texels;
+    struct texel_light *const light = run->light;
+    void *color = run->color;
+    uint16_t *depth = run->depth, *const end = depth + (n & ~1);
+    for (; depth != end; depth += 2, color = pixel_after(color, 2, texels_are_narrow(kind))) {
+        TEXELS_STEP(0);
+        TEXELS_STEP(1);
+    }
+    if (n & 1) {
+        texel_pixel(color, depth, z, texels, light, packed_uv(u, v), log2_width, log2_height, kind);
+        color = pixel_after(color, 1, texels_are_narrow(kind));
+        depth++;
+        z += dz;
+    }
+    run->color = color;
+    run->depth = depth;
+    run->z = z;
+}
+#endif
+
+#if SMEAR_ASM_ARMV6M
+/* Copied texels need sizes that are constants; others are drawn by the compiler's code. */
+SMEAR_INLINE void texels_draw_armv6m(struct texel_run *run, int32_t n, int log2_width, int log2_height,
+                                     enum texel_kind kind)
+{
+    if (!texels_are_lit(kind) && !__builtin_constant_p(log2_width)) {
+        texels_draw_unrolled(run, n, log2_width, log2_height, kind);
+        return;
+    }
+    run->count = n;
+    run->end = run->depth + (n & ~1);
+    if (texels_are_lit(kind))
+        texels_light_armv6m(run, kind);
+    else
+        texels_copy_armv6m(run, log2_width, log2_height, kind);
+}
+#endif
+
+SMEAR_INLINE void texels_draw(struct texel_run *run, int32_t n, int log2_width, int log2_height,
+                              enum texel_kind kind)
+{
+#if SMEAR_ASM_ARMV6M
+    texels_draw_armv6m(run, n, log2_width, log2_height, kind);
+#else
+    texels_draw_unrolled(run, n, log2_width, log2_height, kind);
+#endif
+}
+
+#endif

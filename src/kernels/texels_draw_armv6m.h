@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT */
+/* texels_draw_armv6m.h - texels_draw in assembly for Cortex-M0 and M0+: eight registers do everything and six only add.
+ * Compilers keep half of the values on the stack there, which doubles the instructions. */
+#ifndef SMEAR_KERNELS_TEXELS_DRAW_ARMV6M_H
+#define SMEAR_KERNELS_TEXELS_DRAW_ARMV6M_H
+
+#include "kernels/texel_run.h"
+
+#if SMEAR_ASM_ARMV6M
+
+/* Where registers are loaded from, and what is stored at the end. */
+SMEAR_STATIC_ASSERT(offsetof(struct texel_run, end) == 20 && offsetof(struct texel_run, color) == 24
+                    && offsetof(struct texel_run, depth) == 28 && offsetof(struct texel_run, z) == 32
+                    && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, count) == 48
+                    && offsetof(struct texel_run, light) == 52, "the assembly knows struct texel_run");
+SMEAR_STATIC_ASSERT(offsetof(struct texel_light, index) == 0 && offsetof(struct texel_light, pixel) == 4
+                    && offsetof(struct texel_light, from_v) == 8 && offsetof(struct texel_light, mask_v) == 12
+                    && offsetof(struct texel_light, from_u) == 16, "the assembly knows struct texel_light");
+
+/* One pixel, whose depth lies AT bytes and whose colour lies PLACE bytes further on; LABEL is behind it. r0 points to colours,
+ * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
+#define ARMV6M_PIXEL(LOAD, STORE, SIZE, AT, PLACE, LABEL) \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #" AT "]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs " LABEL "f\n\t" \
+        "strh r6, [r1, #" AT "]\n\t" \
+        "lsrs r6, r4, %[from_v]\n\t" \
+        "lsls r6, r6, %[to_v]\n\t" \
+        "lsrs r7, r3, %[from_u]\n\t" \
+        "lsls r7, r7, #" SIZE "\n\t" \
+        "orrs r6, r7\n\t" \
+        LOAD " r6, [r5, r6]\n\t" \
+        STORE " r6, [r0, #" PLACE "]\n" \
+        LABEL ": "
+
+/* Keeps the run, at r0, and loads the registers of its changes; its end into r6. */
+#define ARMV6M_LOAD_STEPS \
+        ".syntax unified\n\t" \
+        "push {r0}\n\t" \
+        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r9, r2\n\t" \
+        "mov r10, r3\n\t" \
+        "mov r11, r4\n\t" \
+        "mov r12, r5\n\t"
+
+/* Pairs of pixels, then the odd one. LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes: NEXT in
+ * decimal, and STEP for two of them. */
+#define ARMV6M_PAIRS(LOAD, STORE, SIZE, NEXT, STEP) \
+    __asm__ volatile( \
+        ARMV6M_LOAD_STEPS \
+        "mov lr, r6\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
+        "1:\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "2") \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "2", NEXT, "3") \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        "adds r0, #" STEP "\n\t" \
+        "adds r1, #4\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 1b\n\t" \
+        "ldr r6, [sp]\n\t" \
+        "ldr r6, [r6, #48]\n\t" \
+        "lsrs r6, r6, #1\n\t" \
+        "bcc 5f\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "4") \
+        "adds r0, #" NEXT "\n\t" \
+        "adds r1, #2\n" \
+        "5: pop {r7}\n\t" \
+        "str r0, [r7, #24]\n\t" \
+        "str r1, [r7, #28]\n\t" \
+        "str r2, [r7, #32]" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), \
+          [from_u] "i"(32 - log2_width) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+/* Copied texels: 18 instructions a pixel. The sizes are constants. */
+static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texel_run *p, int log2_width,
+                                                                     int log2_height, enum texel_kind kind)
+{
+    register struct texel_run *r0 __asm__("r0") = p;
+    if (kind == TEXELS_NARROW)
+        ARMV6M_PAIRS("ldrh", "strh", "1", "2", "4");
+    else
+        ARMV6M_PAIRS("ldr", "str", "2", "4", "8");
+}
+
+/* As ARMV6M_PIXEL, for lit texels of any size. On the stack from sp on lie the words of struct texel_light up to from_u, the
+ * run's end, pointers to the light and to the run. u and v make the index in r5, which smear_texel_light_find takes if it is
+ * new, at 8. */
+#define ARMV6M_LIT_PIXEL(STORE, AT, PLACE, LABEL, KNOWN) \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #" AT "]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs " LABEL "f\n\t" \
+        "strh r6, [r1, #" AT "]\n\t" \
+        "ldr r7, [sp, #8]\n\t" \
+        "movs r6, r4\n\t" \
+        "lsrs r6, r7\n\t" \
+        "ldr r7, [sp, #12]\n\t" \
+        "ands r6, r7\n\t" \
+        "ldr r7, [sp, #16]\n\t" \
+        "movs r5, r3\n\t" \
+        "lsrs r5, r7\n\t" \
+        "orrs r5, r6\n\t" \
+        "ldr r7, [sp]\n\t" \
+        "cmp r5, r7\n\t" \
+        "beq " KNOWN "f\n\t" \
+        "bl 8f\n" \
+        KNOWN ": ldr r6, [sp, #4]\n\t" \
+        STORE " r6, [r0, #" PLACE "]\n" \
+        LABEL ": "
+
+#define ARMV6M_LIT_PAIRS(STORE, NEXT, STEP) \
+    __asm__ volatile( \
+        ARMV6M_LOAD_STEPS \
+        "ldr r7, [r0, #28]\n\t" \
+        "push {r6, r7}\n\t" \
+        "ldm r7!, {r1, r2, r3, r4, r5}\n\t" \
+        "push {r1, r2, r3, r4, r5}\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4}\n" \
+        "1:\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "0", "0", "2", "3") \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "2", NEXT, "4", "5") \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t" \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t" \
+        "adds r0, #" STEP "\n\t" \
+        "adds r1, #4\n\t" \
+        "ldr r7, [sp, #20]\n\t" \
+        "cmp r1, r7\n\t" \
+        "bne 1b\n\t" \
+        "ldr r6, [sp, #28]\n\t" \
+        "ldr r6, [r6, #48]\n\t" \
+        "lsrs r6, r6, #1\n\t" \
+        "bcc 9f\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "0", "0", "6", "7") \
+        "adds r0, #" NEXT "\n\t" \
+        "adds r1, #2\n\t" \
+        "b 9f\n" \
+        "8: push {r0, r1, r2, r3}\n\t" \
+        "mov r6, r12\n\t" \
+        "mov r7, lr\n\t" \
+        "push {r6, r7}\n\t" \
+        "str r5, [sp, #24]\n\t" \
+        "ldr r0, [sp, #48]\n\t" \
+        "movs r1, r5\n\t" \
+        "bl %c[find]\n\t" \
+        "str r0, [sp, #28]\n\t" \
+        "pop {r6, r7}\n\t" \
+        "mov r12, r6\n\t" \
+        "mov lr, r7\n\t" \
+        "pop {r0, r1, r2, r3}\n\t" \
+        "bx lr\n" \
+        "9: add sp, #28\n\t" \
+        "pop {r7}\n\t" \
+        "str r0, [r7, #24]\n\t" \
+        "str r1, [r7, #28]\n\t" \
+        "str r2, [r7, #32]" \
+        : "+r"(r0) \
+        : [find] "i"(smear_texel_light_find) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+/* Lit texels: 26 instructions a pixel. */
+SMEAR_INLINE void texels_light_armv6m(struct texel_run *p, enum texel_kind kind)
+{
+    register struct texel_run *r0 __asm__("r0") = p;
+    if (texels_are_narrow(kind))
+        ARMV6M_LIT_PAIRS("strh", "2", "4");
+    else
+        ARMV6M_LIT_PAIRS("str", "4", "8");
+}
+
+#endif
+
+#endif

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
+ * lit ones, whose sizes it doesn't know. */
+#include "kernels/texels_draw.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, TEXELS = 1 << (LOG2_WIDTH + LOG2_HEIGHT), PALETTE = 256 };
+enum { U, V, DU, DV, DDU, DDV, Z, DZ, LIGHT, FORMAT, COLOR_END, DEPTH_END };    /* words */
+enum { COLOR, DEPTH, TEXTURE };                                                 /* planes */
+
+static uint32_t palette[PALETTE];
+
+/* Coordinates as textures have them, and the formats of texels in turn. */
+static void prepare(struct kernel_call *c)
+{
+    static const int formats[] = { SMEAR_TEXEL_8888, SMEAR_TEXEL_565, SMEAR_TEXEL_PALETTE8 };
+    c->word[V] = (c->word[V] & ~255u) | 128u;
+    c->word[DV] &= ~255u;
+    c->word[DDV] &= ~255u;
+    c->word[FORMAT] = (uint32_t)formats[kernel_random() % 3u];
+    if (kernel_random() % 4u != 0) {            /* textures that are magnified: most pixels show the same texel */
+        c->word[DU] >>= 6;
+        c->word[DV] = c->word[DV] >> 5 & ~255u;
+        c->word[DDU] = c->word[DDV] = 0;
+    }
+    c->bytes[TEXTURE] = TEXELS * 4;
+    for (int i = 0; i < PALETTE; i++)
+        palette[i] = kernel_random();
+}
+
+/* Any form, with sizes that are constants where `kind` is one whose texels are copied. */
+SMEAR_INLINE void call(struct kernel_call *c, enum texel_kind kind, int log2_width, int log2_height,
+                       void draw(struct texel_run *, int32_t, int, int, enum texel_kind))
+{
+    struct texel_light light;
+    struct texel_run run;
+    texel_light_start(&light, c->plane[TEXTURE], palette, (int)c->word[FORMAT], log2_width, log2_height,
+                      texels_are_narrow(kind));
+    light.red = pixel_red(c->word[LIGHT]);
+    light.green = pixel_green(c->word[LIGHT]);
+    light.blue = pixel_blue(c->word[LIGHT]);
+    texel_run_start(&run, log2_width, log2_height);
+#if TEXELS_PACKED
+    run.uv = packed_uv(c->word[U], c->word[V]);
+    run.duv = packed_step(c->word[DU], c->word[DV]);
+    run.dduv = packed_step(c->word[DDU], c->word[DDV]);
+#else
+    run.u = c->word[U];
+    run.v = c->word[V];
+    run.du = c->word[DU];
+    run.dv = c->word[DV];
+    run.ddu = c->word[DDU];
+    run.ddv = c->word[DDV];
+#endif
+    run.color = c->plane[COLOR];
+    run.depth = c->plane[DEPTH];
+    run.z = c->word[Z];
+    run.dz = c->word[DZ];
+    run.texels = c->plane[TEXTURE];
+    run.light = &light;
+    draw(&run, c->n, log2_width, log2_height, kind);
+    c->word[U] = (uint32_t)(texel_run_uv(&run) >> 32);
+    c->word[V] = (uint32_t)texel_run_uv(&run);
+    c->word[Z] = run.z;
+    c->word[COLOR_END] = (uint32_t)((uint8_t *)run.color - (uint8_t *)c->plane[COLOR]);
+    c->word[DEPTH_END] = (uint32_t)((uint8_t *)run.depth - (uint8_t *)c->plane[DEPTH]);
+    c->word[LIGHT] = light.pixel;
+    c->word[FORMAT] = light.index;
+}
+
+/* Sizes that the compiler doesn't know. */
+static int unknown(int value)
+{
+    SMEAR_KEEP_VALUE(value);
+    return value;
+}
+
+#define CALLS(FORM) \
+    static void wide_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_WIDE, LOG2_WIDTH, LOG2_HEIGHT, texels_draw_##FORM); \
+    } \
+    static void narrow_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_NARROW, LOG2_WIDTH, LOG2_HEIGHT, texels_draw_##FORM); \
+    } \
+    static void lit_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_LIT, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
+    } \
+    static void lit_narrow_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_LIT_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
+    }
+
+CALLS(reference)
+CALLS(unrolled)
+#if SMEAR_ASM_ARMV6M
+CALLS(armv6m)
+#define ARMV6M(CALL) , { "armv6m", CALL }
+#else
+#define ARMV6M(CALL)
+#endif
+
+#define KERNEL(NAME, KIND, SIZE) \
+    { .name = NAME, .least = TEXELS_LEAST, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
+      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } ARMV6M(KIND##_armv6m) } }
+
+extern const struct kernel kernels_texels_draw[];
+const struct kernel kernels_texels_draw[] = {
+    KERNEL("texels_draw", wide, 4),
+    KERNEL("texels_draw (narrow)", narrow, 2),
+    KERNEL("texels_draw (lit)", lit, 4),
+    KERNEL("texels_draw (lit, narrow)", lit_narrow, 2),
+    { .name = NULL }
+};
