@@ -6,6 +6,14 @@ BUILD  := build/$(TARGET)
 
 .DEFAULT_GOAL := all
 
+# One line for each file that is made; V=1 shows the commands, -s nothing.
+ifeq ($(V),1)
+say =
+else
+.SILENT:
+say = $(if $(findstring s,$(firstword -$(MAKEFLAGS))),,$(info $(1) $(or $(2),$@)))
+endif
+
 OPT    ?= -O2
 CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP $(OPT)
 
@@ -71,14 +79,17 @@ objects = $(1:%.c=$(BUILD)/%.o)
 all: $(BIN)/smear $(BIN)/smear-bench
 
 $(BUILD)/%.o: %.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -c -o $@ $<
 
 $(LIB): $(call objects,$(LIB_SRC))
+	$(call say,AR)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
 $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures and loops, in build/demo
@@ -105,9 +116,11 @@ chart-picture: $(BIN)/smear-bench
 	cp build/chart/both.svg tools/bench/pictures/chart.svg
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 $(BIN)/smear-demo: $(call objects,$(DEMO_SRC)) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 # platform/display.h on a desktop: firmware links it and is seen in a window or terminal, or checked
@@ -120,20 +133,25 @@ HOST_DISPLAY_SRC := platform/host/platform.c platform/host/desktop_display.c too
 host-display: $(BUILD)/libsmear-display.a
 
 $(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
+	$(call say,AR)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
 # For a Linux without libraries, and what boots it.
 $(BUILD)/smear-static: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -static -o $@ $^ -lm -lpthread
 
 $(BUILD)/view_linux_init: tests/shell/view_linux_init.c
+	$(call say,CC,$<)
 	$(CC) -std=c11 -D_DEFAULT_SOURCE -Os -static -Wall -Wextra -o $@ $<
 
 $(BUILD)/mkcpio: tests/shell/mkcpio.c
+	$(call say,CC,$<)
 	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
 
 $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 ## pictures of the README again
@@ -153,6 +171,7 @@ tables: build/gentables
 	build/gentables > build/tables.c && mv build/tables.c src/base/tables.c
 
 build/gentables: tools/gentables.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(CC) -std=c11 -O2 -o $@ $< -lm
 
@@ -169,6 +188,7 @@ dist: build/dist-single
 	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
 
 build/dist-single: tools/dist/single.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(CC) -std=c11 -Wall -Wextra -O1 -o $@ $<
 
@@ -190,6 +210,7 @@ help:
 	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-16s %s\n",$$0,text;text=""}}' \
 	    $(filter Makefile %.mk,$(MAKEFILE_LIST))
 	@echo "  TARGET=NAME      $(patsubst platform/%/target.mk,%,$(wildcard platform/*/target.mk)); host where it is not given"
+	@echo "  V=1              shows the commands; -s says nothing"
 	@echo "  SAN=1            address and undefined behaviour sanitizers; CHECK=1: every fixed-point promise is checked"
 
 # ---------------------------------------------------------------------- tests
@@ -229,6 +250,7 @@ $(BUILD)/tests/unit/test_kernels.o: CFLAGS += -D'KERNEL_FAMILIES=$(foreach famil
 $(BUILD)/tests/unit/test_kernels.o: $(KERNEL_TESTS)
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
 
 .PHONY: print-suites print-san-suites run-suite test-headers test-tables test-readme fuzz-corpus
@@ -285,10 +307,12 @@ FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC))
 
 build/fuzz/obj/%.o: %.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -MMD -MP -c -o $@ $<
 
 build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
+	$(call say,LD)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm
 
@@ -311,6 +335,7 @@ NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)
 $(BUILD)/demo-screen:  $(filter-out $(NOT_OF_SCREENS),$(FIRMWARE_OBJ))
 $(BUILD)/model-screen: $(filter-out $(NOT_OF_SCREENS),$(MODEL_OBJ))
 $(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/platform/print.o $(BUILD)/libsmear-display.a $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
@@ -319,14 +344,17 @@ cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
 	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
 
 build/tapes/view_cost: tests/target/view_cost.c tools/view/cost.c $(TAPES_SRC)
+	$(call say,CC)
 	@mkdir -p $(@D)
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ \
 	    $(filter-out tests/target/target_tapes.c,$^) -lm
 
 build/tapes/cost.c: build/tapes/view_cost
+	$(call say,GEN)
 	build/tapes/view_cost tapes $@ build/tapes/cost.counts
 
 $(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) platform/print.c tests/target/target_bench.c platform/play.c build/tapes/cost.c) $(LIB)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -35,33 +35,41 @@ UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_unit.o $(BUILD)/tests
                $(UNIT_SUITES:%=$(BUILD)/tests/unit/test_%.o) $(KERNEL_TESTS:%.c=$(BUILD)/%.o)
 
 $(TAPES)/target_tapes: $(TAPES_SRC)
+	$(call say,CC)
 	@mkdir -p $(@D)
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ $(TAPES_SRC) -lm
 
 $(TAPES)/golden.c: $(TAPES)/target_tapes tests/golden.txt
+	$(call say,GEN)
 	$(TAPES)/target_tapes golden $@ tests/golden.txt
 
 $(TAPES)/small.c: $(TAPES)/target_tapes tests/golden.txt
+	$(call say,GEN)
 	$(TAPES)/target_tapes small $@ tests/golden.txt
 
 $(TAPES)/bench.c: $(TAPES)/target_tapes
+	$(call say,GEN)
 	$(TAPES)/target_tapes bench $@
 
 $(BUILD)/tests/target/target_unit.o: CFLAGS += \
     -D'TARGET_SUITES=$(foreach suite,$(UNIT_SUITES),SUITE($(suite)))'
 
 $(BUILD)/target_golden$(EXE): $(GOLDEN_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(GOLDEN_OBJ) $(LIB) $(LDLIBS)
 
 $(BUILD)/target_unit$(EXE): $(UNIT_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(UNIT_OBJ) $(LIB) $(LDLIBS)
 
 # On small boards (SMALL_LAYOUTS) the linker script holds programs to the real sizes; golden frames
 # that need more memory than there is are skipped.
 $(BUILD)/target_golden-%$(EXE): $(SMALL_OBJ) $(LIB) $(SCRIPTS) platform/cortexm/%.ld
+	$(call say,LD)
 	$(CC) $(LDFLAGS) -T $*.ld -o $@ $(SMALL_OBJ) $(LIB) $(LDLIBS)
 
 $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
@@ -76,6 +84,7 @@ switches-test: $(TAPES)/golden.c
 TEMPLATE_SRC := platform/template/firmware.c tests/target/target_template.c tools/image/crc32.c
 
 $(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) platform/template/board.h $(LIB)
+	$(call say,CC)
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
 
 .PHONY: template-test
@@ -107,13 +116,16 @@ FIRMWARE_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform
 $(BUILD)/platform/demo.o: CFLAGS += -D'DEMO_SCREEN="$(DEMO_SCREEN)"'
 
 $(PROPS)/demo_props: $(PROPS_SRC) platform/demo_scene.h
+	$(call say,CC)
 	@mkdir -p $(@D)
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ $(PROPS_SRC) -lm
 
 $(PROPS)/props.c: $(PROPS)/demo_props
+	$(call say,GEN)
 	$(PROPS)/demo_props $@
 
 $(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
@@ -121,6 +133,7 @@ SCREEN_SRC := tests/target/target_screen.c platform/demo_player.c platform/demo_
               $(LIB_SRC) $(wildcard tools/image/*.c)
 
 $(PROPS)/target_screen: $(SCREEN_SRC) platform/demo_player.h platform/demo_scene.h
+	$(call say,CC)
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -I. -o $@ $(SCREEN_SRC) -lm
 
 .PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
@@ -174,6 +187,7 @@ FILE_SRC ?= platform/host/file.c
 TINY_OBJ := $(PROGRAM_OBJ) $(FILE_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/tiny.o
 
 $(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	@rm -f $@.*.ci
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
 
@@ -196,6 +210,7 @@ tiny-cost: $(BUILD)/tiny$(EXE)
 ERROR_SRC := platform/device_error.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c $(LIB_SRC)
 
 $(PROPS)/device_error: $(ERROR_SRC) platform/demo_player.h platform/demo_scene.h
+	$(call say,CC)
 	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -Iinclude -Isrc -I. -o $@ $(ERROR_SRC) -lm
 
 .PHONY: device-chart
@@ -223,6 +238,7 @@ $(MODEL):
 	@echo "$(MODEL) is missing: build/smear convert FILE --name model -o $(MODEL)" >&2; exit 1
 
 $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
+	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
 
 .PHONY: model-firmware model-run model-cost model-test

@@ -47,10 +47,12 @@ export SHOT_ZOOM   := 2
 export SHOT_KEY    := 1
 
 $(PLATFORM_OBJ): $(BUILD)/%.o: %.S
+	$(call say,AS,$<)
 	@mkdir -p $(@D)
 	$(CC) -mcpu=arm7tdmi -DHEADER_CHECKSUM=0xfd -c -o $@ $<
 
 $(BUILD)/gbarun: platform/gba/gbarun.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(or $(HOST_CC),cc) -std=gnu11 -O2 -Wall -Wextra -o $@ $< -lmgba
 

@@ -15,7 +15,7 @@ RUN       :=
 RUN_BENCH :=
 RUN_NEEDS := $(BUILD)/mkcpio
 
-DISPLAY_SRC  = $(filter-out platform/%,$(HOST_DISPLAY_SRC))
+DISPLAY_SRC  = $(filter-out $(PLATFORM_SRC),$(HOST_DISPLAY_SRC))
 DEMO_SCREEN := linux
 DEMO_LOOPS  := linux:18
 

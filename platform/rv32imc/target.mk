@@ -25,5 +25,6 @@ RUN       := platform/rv32imc/run.sh
 RUN_BENCH := platform/rv32imc/run.sh -icount shift=0
 
 $(PLATFORM_OBJ): $(BUILD)/%.o: %.S
+	$(call say,AS,$<)
 	@mkdir -p $(@D)
 	$(CC) $(CORE) -c -o $@ $<

@@ -29,6 +29,7 @@ web: $(WEB)/index.html
 
 $(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.css unpack.js begin.js) \
     $(addprefix $(WEB)/,unlzma.wasm modules.lzma texts.lzma)
+	$(call say,GEN)
 	$(WEB)/pack page tools/web/page.html $@
 
 $(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
@@ -36,9 +37,11 @@ $(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
 WEB_TEXTS := $(addprefix tools/web/,worker.js settings.js engines.js frames.js screen.js controls.js chart.js models.js film.js app.js)
 $(WEB)/texts.joined: $(WEB)/pack $(WEB)/chart.csv $(WEB_TEXTS)
 $(WEB)/%.joined:
+	$(call say,GEN)
 	$(WEB)/pack join $@ $(filter-out $<,$^)
 
 $(WEB)/%.lzma: $(WEB)/%.joined
+	$(call say,XZ)
 	$(WEB_XZ) --format=lzma --lzma1=preset=9e,nice=273,pb=0 --stdout $< > $@.part
 	mv $@.part $@
 
@@ -51,32 +54,39 @@ WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/
 $(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
 
 $(WEB)/scalar/%.o: %.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) -c -o $@ $<
 
 $(WEB)/simd/%.o: %.c
+	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(WEB_CC) $(WEB_FLAGS) $(WEB_OPT) $(WEB_SIMD) -c -o $@ $<
 
 # The stack lies first: an overflow is a trap, not another's data.
 WEB_LDFLAGS := --no-entry --strip-all --gc-sections --stack-first -z stack-size=1048576 --max-memory=2147483648 -O2
 $(WEB)/scalar.wasm: $(call web_objects,scalar)
+	$(call say,LD)
 	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
 
 $(WEB)/simd.wasm: $(call web_objects,simd)
+	$(call say,LD)
 	$(WEB_LD) $(WEB_LDFLAGS) -o $@ $^
 
 $(WEB)/unlzma.wasm: tools/web/unlzma.c
+	$(call say,CC)
 	@mkdir -p $(@D)
 	$(WEB_CC) --target=wasm32 -std=c11 -ffreestanding -Oz -Wall -Wextra -c -o $(WEB)/unlzma.o $<
 	$(WEB_LD) --no-entry --strip-all --gc-sections -O2 -o $@ $(WEB)/unlzma.o
 
 $(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c))
+	$(call say,LD)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 # The chart's numbers: those of the last whole `make chart` where there is one, else those that are kept.
 $(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) tools/web/chart.awk
+	$(call say,GEN)
 	@mkdir -p $(@D)
 	$(if $(filter build/%,$<),awk -f tools/web/chart.awk $< > $@,cp $< $@)
 
@@ -97,6 +107,7 @@ web-bench: $(WEB)/index.html
 WEB_NAMES := sin cos tan atan atan2 exp log pow powf fmod remainder frexp ldexp lround llround ilogb strtod snprintf vsnprintf printf \
     fprintf
 $(WEB)/libc_test: tests/target/web_libc.c $(addprefix tools/web/libc/,math.c decimal.c printf.c decimal.h math.h)
+	$(call say,CC)
 	@mkdir -p $(WEB)/host
 	for name in math decimal printf; do \
 	    $(CC) -std=c11 -O1 -ffp-contract=off -fno-builtin -fno-math-errno -isystem tools/web/libc -c -o $(WEB)/host/$$name.o \
