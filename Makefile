@@ -74,7 +74,7 @@ CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
 objects = $(1:%.c=$(BUILD)/%.o)
 
-.PHONY: all cost-model host-display help demo readme-pictures test bench chart chart-picture layers house tables clean
+.PHONY: all cost-model host-display help demo readme-pictures check test bench chart chart-picture layers house tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -96,6 +96,10 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 demo:
 	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
+
+## what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
+check:
+	MAKE="$(MAKE)" sh tests/check.sh
 
 ## every suite; names what it needs
 test:

@@ -1,58 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# all.sh - every suite, one after the other; `make test` calls it. Each suite's output goes to build/test/NAME.log and is
-# shown when it fails. The last line adds up: N passed, N failed.
-#
-# A suite whose tools are missing is named together with the command that installs them. With CI=true that is a
-# failure: there, everything runs.
+# all.sh - every suite, one after the other; `make test` calls it. The last line adds up: N passed, N failed.
 set -u
-make=${MAKE:-make}
-log=build/test
-mkdir -p "$log"
-passed=0
-failed=0
-missing=0
-started=$(date +%s)
-
-# suite NAME COMMAND...: a suite counts its tests in a last line "N passed, N failed"; else it is one test.
-suite() {
-    name=$1
-    shift
-    before=$(date +%s)
-    "$@" >"$log/$name.log" 2>&1
-    status=$?
-    line=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log/$name.log" | tail -n 1)
-    if [ -n "$line" ]; then
-        good=$(echo "$line" | cut -d' ' -f1)
-        bad=$(echo "$line" | cut -d' ' -f3)
-        [ $status -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
-    else
-        good=0
-        bad=0
-        if [ $status -eq 0 ]; then good=1; else bad=1; fi
-    fi
-    passed=$((passed + good))
-    failed=$((failed + bad))
-    printf '%-28s %4d passed, %d failed  (%d s)\n' "$name" "$good" "$bad" $(($(date +%s) - before))
-    if [ "$bad" -gt 0 ]; then
-        echo "--- $log/$name.log"
-        tail -n 60 "$log/$name.log"
-        echo "---"
-    fi
-}
-
-# needs TOOL PACKAGES: true when the tool is there.
-needs() {
-    command -v "$1" >/dev/null 2>&1 && return 0
-    if [ "${CI:-}" = true ]; then
-        echo "$1 is missing: apt-get install --no-install-recommends $2"
-        failed=$((failed + 1))
-    else
-        echo "not run without $1: apt-get install --no-install-recommends $2"
-        missing=$((missing + 1))
-    fi
-    return 1
-}
+. "$(dirname "$0")/shell/suites.sh"
 
 exr() {
     command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
@@ -60,12 +10,11 @@ exr() {
 
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
-suite layers $make -s layers
-jobs=-j$(getconf _NPROCESSORS_ONLN)
+suite includes $make -s layers
 suite build $make -s $jobs all build/host/run
 suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
-suite tables $make -s test-tables
+suite table-file $make -s test-tables
 suite readme $make -s test-readme
 for name in $($make -s print-suites); do
     suite "$name" $make -s run-suite SUITE="$name"
@@ -105,6 +54,7 @@ suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
+suite golden-sanitized $make -s $jobs SAN=1 CHECK=1 target-test
 suite view-sanitized sh tests/shell/view.sh build/host-san-check/smear
 if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite build-linux $make -s build/host/smear-static build/host/view_linux_init build/host/mkcpio
@@ -148,7 +98,4 @@ if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s $jobs fuzz-corpus
 fi
 
-echo "in $(($(date +%s) - started)) s"
-[ $missing -eq 0 ] || echo "$missing suites were not run; the lines above say what they need"
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+add_up

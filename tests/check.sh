@@ -1,0 +1,25 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# check.sh - what a change needs, in under three minutes on two cores; `make check` calls it. The host's suites but the
+# three longest, and golden frames and units under sanitizers with every promise checked. all.sh runs the rest.
+set -u
+. "$(dirname "$0")/shell/suites.sh"
+longest=" accuracy blur failures "
+
+suite includes $make -s layers
+suite build $make -s $jobs all build/host/run
+suite headers $make -s test-headers
+suite table-file $make -s test-tables
+suite readme $make -s test-readme
+for name in $($make -s print-suites); do
+    case $longest in
+    *" $name "*) ;;
+    *) suite "$name" $make -s run-suite SUITE="$name" ;;
+    esac
+done
+suite golden-host $make -s $jobs TARGET=host target-test
+suite golden-sanitized $make -s $jobs SAN=1 CHECK=1 target-test
+if needs arm-none-eabi-gcc "gcc-arm-none-eabi"; then
+    suite symbols-cortex-m0plus $make -s $jobs TARGET=cortex-m0plus symbols-test
+fi
+add_up

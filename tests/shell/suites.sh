@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+# suites.sh - runs suites one after the other and adds up; sourced by all.sh and check.sh. Each suite's output goes to
+# build/test/NAME.log and is shown when it fails.
+#
+# A suite whose tools are missing is named together with the command that installs them. With CI=true that is a
+# failure: there, everything runs.
+set -u
+make=${MAKE:-make}
+log=build/test
+mkdir -p "$log"
+passed=0
+failed=0
+missing=0
+started=$(date +%s)
+jobs=-j$(getconf _NPROCESSORS_ONLN)
+
+# suite NAME COMMAND...: a suite counts its tests in a last line "N passed, N failed"; else it is one test.
+suite() {
+    name=$1
+    shift
+    before=$(date +%s)
+    "$@" >"$log/$name.log" 2>&1
+    status=$?
+    line=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log/$name.log" | tail -n 1)
+    if [ -n "$line" ]; then
+        good=$(echo "$line" | cut -d' ' -f1)
+        bad=$(echo "$line" | cut -d' ' -f3)
+        [ $status -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
+    else
+        good=0
+        bad=0
+        if [ $status -eq 0 ]; then good=1; else bad=1; fi
+    fi
+    passed=$((passed + good))
+    failed=$((failed + bad))
+    printf '%-28s %4d passed, %d failed  (%d s)\n' "$name" "$good" "$bad" $(($(date +%s) - before))
+    if [ "$bad" -gt 0 ]; then
+        echo "--- $log/$name.log"
+        tail -n 60 "$log/$name.log"
+        echo "---"
+    fi
+}
+
+# needs TOOL PACKAGES: true when the tool is there.
+needs() {
+    command -v "$1" >/dev/null 2>&1 && return 0
+    if [ "${CI:-}" = true ]; then
+        echo "$1 is missing: apt-get install --no-install-recommends $2"
+        failed=$((failed + 1))
+    else
+        echo "not run without $1: apt-get install --no-install-recommends $2"
+        missing=$((missing + 1))
+    fi
+    return 1
+}
+
+# The last lines: N passed, N failed.
+add_up() {
+    echo "in $(($(date +%s) - started)) s"
+    [ $missing -eq 0 ] || echo "$missing suites were not run; the lines above say what they need"
+    echo "$passed passed, $failed failed"
+    [ $failed -eq 0 ]
+}
