@@ -189,9 +189,8 @@ static inline void smear_math_difference(int32_t out[3], smear_vec3 eye, smear_v
     out[2] = (int32_t)(fits ? z : z >> 1);
 }
 
-/* `out`, of length one: at a right angle to z and to `up`, on the right hand where z points at the viewer. z is of
- * length one in q30, `up` of any. Products are exact, so `out` stays at right angles to z however close `up` is to
- * it. Returns 0 where up is 0 or its sine with z below 2^-20. */
+/* A camera's x, which is up x z brought to length one in q30. z has that length already, `up` any. Products are exact,
+ * so x is at a right angle to z however close `up` is to it. Returns 0 where up is 0 or its sine with z below 2^-20. */
 static inline int smear_math_right(int32_t out[3], smear_vec3 up, const int32_t z[3])
 {
     int32_t u[3];
@@ -424,11 +423,12 @@ static inline int32_t smear_focal_from_fov(uint32_t fov)
         focal = focal << 1 | (rest >= sine);
         rest -= rest >= sine ? sine : 0;
     }
-    return (int32_t)(focal + (rest << 1 >= sine && focal != INT32_MAX));
+    focal += rest << 1 >= sine && focal != INT32_MAX;
+    return focal > 0 ? (int32_t)focal : 1;
 }
 
-/* A camera with a perspective, where nothing is moved or turned: set its pose. Planes are distances in Q16.16, far_plane
- * 0 for none. */
+/* A camera with a perspective, at the origin and looking along -Z until its pose is set. Planes are distances in
+ * Q16.16, far_plane 0 for none. */
 static inline smear_camera smear_perspective(uint32_t fov, int32_t near_plane, int32_t far_plane)
 {
 #ifdef __cplusplus

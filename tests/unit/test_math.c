@@ -301,6 +301,7 @@ static void test_focal_lengths_are_exact_or_clamped(void)
     CHECK_NEAR(smear_focal_from_fov(SMEAR_DEGREES(1)), 7509682, 1);
     CHECK_EQ(smear_focal_from_fov(0), INT32_MAX);
     CHECK_EQ(smear_focal_from_fov(1), INT32_MAX);
+    CHECK_EQ(smear_focal_from_fov(SMEAR_TURNS(0.5) - 1), 1);
     CHECK_EQ(smear_focal_from_fov(SMEAR_TURNS(0.5)), 1);
     CHECK_EQ(smear_focal_from_fov(UINT32_MAX), 1);
     int32_t last = INT32_MAX;
