@@ -16,7 +16,7 @@
 
 /* When each slot begins, time[SHUTTER_SAMPLES] when the last one ends. A box shutter has even steps; where a
  * shutter lets through less light, slots are longer. */
-struct smear_shutter {
+struct smear_shutter_times {
     int32_t time[(SMEAR_WITH_SUBFRAMES ? SHUTTER_SAMPLES : 0) + 1];
 };
 

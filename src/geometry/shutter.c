@@ -31,7 +31,7 @@ static int32_t time_in_piece(int32_t a, int32_t b, uint32_t light_q8)
     return low;
 }
 
-bool smear_shutter_make(struct smear_shutter *shutter, const uint8_t *openness)
+bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness)
 {
     const int steps = SMEAR_SHUTTER_POINTS - 1;
     for (int slot = 0; slot <= SHUTTER_SAMPLES; slot++)
@@ -54,7 +54,7 @@ bool smear_shutter_make(struct smear_shutter *shutter, const uint8_t *openness)
     return true;
 }
 
-int32_t smear_shutter_instant(const struct smear_shutter *shutter, int32_t i, int32_t n)
+int32_t smear_shutter_instant(const struct smear_shutter_times *shutter, int32_t i, int32_t n)
 {
     /* In slots, q16: (i + 1/2) 32 / n. */
     uint32_t at = (uint32_t)(2 * i + 1) * (SHUTTER_SAMPLES << 15) / (uint32_t)n;
@@ -63,7 +63,7 @@ int32_t smear_shutter_instant(const struct smear_shutter *shutter, int32_t i, in
     return begin + (int32_t)((uint32_t)length * rest >> 16);
 }
 
-bool smear_shutter_is_box(const struct smear_shutter *shutter)
+bool smear_shutter_is_box(const struct smear_shutter_times *shutter)
 {
     for (int slot = 0; slot < SHUTTER_SAMPLES; slot++)
         if (shutter->time[slot] != slot * (SHUTTER_CLOSE / SHUTTER_SAMPLES))

@@ -7,12 +7,12 @@
 
 /* `openness`: SMEAR_SHUTTER_POINTS even steps over the exposure, straight lines between;
  * null: box. False when it is closed throughout. */
-bool smear_shutter_make(struct smear_shutter *shutter, const uint8_t *openness);
+bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness);
 
 /* The middle of instant i of n of equal weight, q16 of the exposure. */
-int32_t smear_shutter_instant(const struct smear_shutter *shutter, int32_t i, int32_t n);
+int32_t smear_shutter_instant(const struct smear_shutter_times *shutter, int32_t i, int32_t n);
 
 /* Slots of one length. */
-bool smear_shutter_is_box(const struct smear_shutter *shutter);
+bool smear_shutter_is_box(const struct smear_shutter_times *shutter);
 
 #endif

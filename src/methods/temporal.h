@@ -8,7 +8,7 @@
 #include "temporal/row_lists.h"
 
 struct smear_temporal {
-    struct smear_shutter shutter;
+    struct smear_shutter_times shutter;
     struct smear_chooser chooser;
     struct smear_row_moving moving;     /* of the row being drawn */
     uint8_t *work;                      /* work_bytes per worker */

@@ -16,7 +16,7 @@ struct smear_moving_triangle {
 /* A tile, or some beside each other, to be finished by a time-resolved method. */
 struct smear_moving_tile {
     const struct smear_raster_frame *frame;
-    const struct smear_shutter *shutter;
+    const struct smear_shutter_times *shutter;
     struct smear_raster_target still;   /* the still scene, drawn; y0, y1 are the tiles', x0, x1, too, or
                                          * a little beyond. Only read. */
     int32_t x0, x1;                     /* the tiles' */

@@ -106,7 +106,7 @@ static inline uint32_t listed_moving(const struct job *j, uint32_t i)
 /* ------------------------------------------------------------------ segments */
 
 /* How far the shutter's slots lie off an even course within one of 2^log2 segments, q16 of the exposure. */
-static int32_t shutter_bend(const struct smear_shutter *s, int log2)
+static int32_t shutter_bend(const struct smear_shutter_times *s, int log2)
 {
     int step = SHUTTER_SAMPLES >> log2;
     int32_t worst = 0;

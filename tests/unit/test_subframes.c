@@ -18,7 +18,7 @@ static struct smear_segment segment[SEGMENTS];
 static struct smear_raster_draw draw[SEGMENTS];
 static struct smear_bins geometry;
 static struct smear_raster_frame frame;
-static struct smear_shutter shutter;
+static struct smear_shutter_times shutter;
 static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, still_head, still_last, blend_head, blend_last;
 static uint32_t texels[32 * 16];
