@@ -2,6 +2,7 @@
 /* band.c - see band.h. */
 #include "display/band.h"
 
+#include "base/crc32.h"
 #include "display/pixel_format.h"
 
 uint8_t *smear_band_begin(struct smear_rows *rows)

@@ -178,20 +178,3 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
     else if (SMEAR_WITH_L1 && format == SMEAR_L1_PAGES)
         row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }
-
-uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size)
-{
-    /* Four bits at a time: a table of 16 words, and no 64-bit or table start-up anywhere. */
-    static const uint32_t nibble[16] = {
-        0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u, 0x4db26158u,
-        0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu, 0x9b64c2b0u, 0x86d3d2d4u,
-        0xa00ae278u, 0xbdbdf21cu
-    };
-    crc = ~crc;
-    for (; size > 0; size--) {
-        crc ^= *bytes++;
-        crc = crc >> 4 ^ nibble[crc & 15u];
-        crc = crc >> 4 ^ nibble[crc & 15u];
-    }
-    return ~crc;
-}

@@ -31,7 +31,4 @@ static inline bool smear_format_is_swapped(smear_format format)
 
 void smear_format_swap(uint16_t *pixels, int32_t n);
 
-/* CRC-32 as in zlib, continued from `crc` (0 to start with). */
-uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size);
-
 #endif

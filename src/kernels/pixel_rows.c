@@ -103,7 +103,7 @@ static inline uint32_t ordered_one(uint32_t code)
 SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t step, struct ordered *o, bool is_555, bool swapped)
 {
     if (p != o->last) {
-        __asm__ volatile ("");      /* keeps what follows behind one branch: compilers would do some of it always */
+        SMEAR_KEEP_BRANCH();
         o->last = p;
         o->red_blue = is_555 ? ordered_two(pixel_blue(p), pixel_red(p)) : ordered_two(pixel_red(p), pixel_blue(p));
         /* With 63 levels one product holds for all codes. */

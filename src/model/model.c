@@ -4,7 +4,7 @@
 
 #include "base/arena.h"
 #include "model/blob.h"
-#include "display/pixel_format.h"
+#include "base/crc32.h"
 
 #if SMEAR_WITH_MODEL
 

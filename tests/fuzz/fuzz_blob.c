@@ -4,7 +4,7 @@
  * The head's magic, version, size and checksum are set right first, so that mutations reach the tables; input whose
  * first byte is odd is left as it is. Everything lies in blocks of exactly its size. Seeds are in tests/fuzz/corpus/blob. */
 #include "model/blob.h"
-#include "display/pixel_format.h"
+#include "base/crc32.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "tests/data/arm.h"
 #include "tests/data/arm_blob.h"
 
-#include "display/pixel_format.h"
+#include "base/crc32.h"
 #include "model/skin.h"
 #include "tests/test.h"
 

@@ -3,6 +3,7 @@
  * mean; packing; the CRC. Needs neither libc nor floating point. */
 #include "display/pixel_format.h"
 
+#include "base/crc32.h"
 #include "base/tables.h"
 #include "tests/test.h"
 
