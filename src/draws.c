@@ -156,7 +156,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
                        frame_is_linear(&c->rows.raster));
-    assembly_find_level(a);
+    assembly_find_flat(a);
     if (!moves)
         return true;
     a->fixed = c->raster_draw[i].fixed;

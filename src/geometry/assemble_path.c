@@ -181,8 +181,8 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     for (int i = 0; i < 3; i++)
         record[i] = bins_vertex(g, b->segment, vertex[i]);
     uint32_t color = smear_face_color(b->d, b->segment, face);
-    if (smear_vertex_level(&color, b->segment, record, b->d->shading.linear))
-        bounds->flags |= PATH_LEVEL;
+    if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.linear))
+        bounds->flags |= PATH_FLAT;
     struct smear_triangle *t = bins_add_path(g, list_of(b, bounds), bounds);
     for (int i = 0; i < 3; i++)
         t->vertex[i] = vertex[i];

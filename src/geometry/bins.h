@@ -46,7 +46,7 @@ enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
     PATH_INTERVAL = 4,         /* there for a interval of the exposure only */
-    PATH_LEVEL = 8          /* vertices of (nearly) one colour, which is the triangle's `color` */
+    PATH_FLAT = 8          /* vertices of (nearly) one colour, which is the triangle's `color` */
 };
 
 enum { PATH_INTERVALS = 16 };
@@ -67,7 +67,7 @@ struct smear_segment {
     uint8_t shade;          /* smear_shade_mode */
     uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
-    uint8_t level;          /* its triangles are flat, though vertices had colours: all the same */
+    uint8_t flat;           /* its triangles are flat, though vertices had colours: all the same */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
                              * place of motion words; moves is 0 */
 };
@@ -88,17 +88,17 @@ static inline bool segment_gouraud(const struct smear_segment *s)
     return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
 }
 
-/* Whether level draws are looked for: not where size counts. */
+/* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size counts. */
 #ifdef __OPTIMIZE_SIZE__
-#define SMEAR_LEVELS 0
+#define SMEAR_FIND_FLAT 0
 #else
-#define SMEAR_LEVELS SMEAR_WITH_GOURAUD
+#define SMEAR_FIND_FLAT SMEAR_WITH_GOURAUD
 #endif
 
-/* Colours are those of vertices: of all three where it is level. */
+/* Whether colours come from vertices: of each, or one for all three where they are flat. */
 static inline bool segment_by_vertices(const struct smear_segment *s)
 {
-    return segment_gouraud(s) || (SMEAR_LEVELS && s->level);
+    return segment_gouraud(s) || (SMEAR_FIND_FLAT && s->flat);
 }
 
 static inline bool segment_colored(const struct smear_segment *s)

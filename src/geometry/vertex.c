@@ -6,7 +6,7 @@
 #include "geometry/path.h"
 #include "base/pixel.h"
 
-enum { LEVEL_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
+enum { FLAT_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
 
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
@@ -56,7 +56,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
     bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
     bool by_vertices = SMEAR_WITH_GOURAUD
                     && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
-    bool per_vertex = by_vertices && !is_level(d);
+    bool per_vertex = by_vertices && !assembly_is_flat(d);
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
     s->uv = s->color = s->motion = 0;
@@ -64,7 +64,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
         s->uv = (uint8_t)at++;
     if (per_vertex)
         s->color = (uint8_t)at;
-    if (by_vertices)            /* level ones take as much room: what finds none is the same */
+    if (by_vertices)            /* flat draws take as much room, so that what fits does not depend on it */
         at += 2;
     s->moves = SMEAR_WITH_RECONSTRUCT && a->keep_motion && !is_blend(d) ? d->moves : 0;
     if (segment_moves(s) != 0) {
@@ -79,13 +79,13 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
     }
     const bool plain = !d->shading.lit && d->shading.white && mesh->face_color == NULL && mesh->color == NULL;
     s->shade = per_vertex ? SHADE_GOURAUD : textured && plain ? SHADE_NONE : SHADE_FLAT;
-    s->level = is_level(d);
+    s->flat = assembly_is_flat(d);
     s->flat_depth = is_orthographic(&d->at.now);
     s->stride = (uint8_t)at;
     return s;
 }
 
-#if SMEAR_LEVELS
+#if SMEAR_FIND_FLAT
 /* Looked at for all triangles of all draws of each frame: without loops or branches of its own. */
 static inline bool same_normal(const uint8_t *a, const uint8_t *b)
 {
@@ -100,7 +100,7 @@ static inline bool same_color(const uint8_t *a, const uint8_t *b)
     return first == second;
 }
 
-bool smear_vertex_is_level(const smear_mesh *mesh, bool lit)
+bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 {
     const uint8_t *normal = lit ? (const uint8_t *)mesh->normal : NULL, *color = mesh->color;
     const uint16_t *index = mesh->index, *const end = index + 3 * mesh->triangle_count;
@@ -196,7 +196,7 @@ static uint32_t channel_code(const struct smear_segment *s, const int32_t *recor
                   : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
 }
 
-bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
                         bool linear)
 {
     if (s->shade != SHADE_GOURAUD || s->uv != 0)
@@ -209,7 +209,7 @@ bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const in
             least = min_u32(least, code);
             most = max_u32(most, code);
         }
-        if (most - least > LEVEL_CODES)
+        if (most - least > FLAT_CODES)
             return false;
         mean = mean << 8 | (least + most) >> 1;
     }
@@ -223,9 +223,9 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
     const uint16_t *index = d->mesh->index + 3 * triangle;
     if (d->mesh->face_color != NULL)
         face.color = d->mesh->face_color + 4 * triangle;
-    if (is_level(d) && d->mesh->color != NULL)
+    if (assembly_is_flat(d) && d->mesh->color != NULL)
         face.vertex_color = d->mesh->color + 4 * index[0];
-    if (is_level(d) && d->shading.lit && d->mesh->normal != NULL) {
+    if (assembly_is_flat(d) && d->shading.lit && d->mesh->normal != NULL) {
         face.cosine = cosine_at(d, index[0], back);
     } else if (d->shading.lit && d->mesh->normal == NULL) {
         const int16_t *p = d->at.position;

@@ -92,7 +92,7 @@ struct smear_assembly {
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
-    bool level;                         /* triangles have one colour each, though vertices have normals or colours */
+    bool flat;                          /* triangles have one colour each, though vertices have normals or colours */
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
@@ -115,7 +115,7 @@ static inline bool assembly_has_path(const struct smear_assembly *d) { return SM
 /* Adds the further terms. */
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
 
-static inline bool is_level(const struct smear_assembly *d) { return SMEAR_LEVELS && d->level; }
+static inline bool assembly_is_flat(const struct smear_assembly *d) { return SMEAR_FIND_FLAT && d->flat; }
 
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
                                        uint32_t index)
@@ -182,17 +182,17 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
     *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
 }
 
-/* Whether what vertices have of their own (normals where it is lit, colours) is the same within every
- * triangle: as faces that are flat come out of modelling programs. */
-bool smear_vertex_is_level(const smear_mesh *mesh, bool lit);
+/* Whether all three vertices of every triangle have one colour and, where the draw is lit, one normal: so flat faces
+ * come out of modelling programs. */
+bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit);
 
 /* Finds out whether the draw's triangles have one colour each. In linear light, colours that are interpolated may round
  * to other codes. */
-static inline void assembly_find_level(struct smear_assembly *d)
+static inline void assembly_find_flat(struct smear_assembly *d)
 {
-    if (SMEAR_LEVELS)
-        d->level = d->material->alpha == SMEAR_OPAQUE && !shading_is_linear(&d->shading)
-                && smear_vertex_is_level(d->mesh, d->shading.lit);
+    if (SMEAR_FIND_FLAT)
+        d->flat = d->material->alpha == SMEAR_OPAQUE && !shading_is_linear(&d->shading)
+                && smear_vertex_is_flat(d->mesh, d->shading.lit);
 }
 
 /* Starts a segment for more records of this draw; null when the table is full. */
@@ -214,7 +214,7 @@ void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_a
 void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v);
 
 /* Whether three stored vertices have one colour, or nearly, and there is no texture. */
-bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
+bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
                         bool linear);
 
 /* ------------------------------------------------------------------ faces */
@@ -223,7 +223,7 @@ bool smear_vertex_level(uint32_t *color, const struct smear_segment *s, const in
 struct smear_face {
     bool back;                  /* seen from behind: double-sided */
     const uint8_t *color;
-    const uint8_t *vertex_color;        /* of all three vertices, where the draw is level */
+    const uint8_t *vertex_color;        /* of all three vertices, where the draw is flat */
     uint32_t cosine;            /* flat light */
 };
 

@@ -370,7 +370,7 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
 
 /* ------------------------------------------------------------------ one velocity, few taps */
 
-uint32_t smear_plain_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy)
+uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy)
 {
     const struct smear_layer_rows *l = a->layer;
     const int32_t n = a->samples;

@@ -40,6 +40,6 @@ void smear_gather_cells(const struct smear_gather_area *a);
 uint32_t smear_gather_merge(const struct smear_gather_area *a);
 
 /* The mean of `samples` places along one displacement (q8 px): the two-camera approach as it is. Likewise. */
-uint32_t smear_plain_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy);
+uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy);
 
 #endif

@@ -174,7 +174,7 @@ static void merge_job(void *argument, int job, int worker)
     if (gathers(r)) {
         struct smear_gather_area area = r->gather;
         smear_job_columns(rows, job, &area.left, &area.right);
-        samples = is_two_camera(r) ? smear_plain_merge(&area, r->vx, r->vy) : smear_gather_merge(&area);
+        samples = is_two_camera(r) ? smear_two_camera_merge(&area, r->vx, r->vy) : smear_gather_merge(&area);
     } else {
         struct smear_streak_area area = r->area;
         smear_job_columns(rows, job, &area.left, &area.right);

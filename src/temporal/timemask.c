@@ -424,7 +424,7 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
-                         (m->bounds->flags & PATH_LEVEL) != 0, m->record, pose, &c,
+                         (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c,
                          max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
     if (m->bounds->interval != 0) {    /* its ends may lie before the near plane, where
                                      * depths end: its middle tells */

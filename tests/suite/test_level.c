@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_level.c - meshes whose vertices have normals or colours that are the same within every triangle: they are found, and
- * drawn as flat ones are (smear_segment.level), to the bit as by their vertices. Host only. */
+ * drawn as flat ones are (smear_segment.flat), to the bit as by their vertices. Host only. */
 #include "probe.h"
 #include "geometry/vertex.h"
 
@@ -13,7 +13,7 @@
 
 void suite_level(void);
 
-#if SMEAR_LEVELS
+#if SMEAR_FIND_FLAT
 
 /* ------------------------------------------------------------------ a ball of facets */
 
@@ -90,33 +90,33 @@ static void test_a_mesh_is_level_where_every_facet_has_one_normal_and_one_colour
     make_ball();
     smear_mesh bare = ball(false, false, false), normals = ball(true, false, false), colors = ball(false, true, false),
                both = ball(true, true, false);
-    CHECK(!smear_vertex_is_level(&bare, true));         /* is flat as it is */
-    CHECK(smear_vertex_is_level(&normals, true));
-    CHECK(!smear_vertex_is_level(&normals, false));     /* nobody looks at them: likewise */
-    CHECK(smear_vertex_is_level(&colors, true));
-    CHECK(smear_vertex_is_level(&both, true));
+    CHECK(!smear_vertex_is_flat(&bare, true));         /* is flat as it is */
+    CHECK(smear_vertex_is_flat(&normals, true));
+    CHECK(!smear_vertex_is_flat(&normals, false));     /* nobody looks at them: likewise */
+    CHECK(smear_vertex_is_flat(&colors, true));
+    CHECK(smear_vertex_is_flat(&both, true));
     for (int k = 0; k < 7; k++) {       /* a component of a vertex other by one step */
         const int vertex = 3 * (FACETS / 2) + k % 3;
         if (k < 3)
             ball_normal[3 * vertex + k]--;
         else
             ball_color[4 * vertex + k - 3]--;
-        CHECK(!smear_vertex_is_level(&both, true));
-        CHECK_EQ(smear_vertex_is_level(&both, false), k < 3);
-        CHECK_EQ(smear_vertex_is_level(&normals, true), k >= 3);
-        CHECK_EQ(smear_vertex_is_level(&colors, true), k < 3);
+        CHECK(!smear_vertex_is_flat(&both, true));
+        CHECK_EQ(smear_vertex_is_flat(&both, false), k < 3);
+        CHECK_EQ(smear_vertex_is_flat(&normals, true), k >= 3);
+        CHECK_EQ(smear_vertex_is_flat(&colors, true), k < 3);
         if (k < 3)
             ball_normal[3 * vertex + k]++;
         else
             ball_color[4 * vertex + k - 3]++;
     }
     both.triangle_count = FACETS + 1;
-    CHECK(!smear_vertex_is_level(&both, true));
+    CHECK(!smear_vertex_is_flat(&both, true));
     both.triangle_count = FACETS;
     for (int i = 0; i < 3; i++) {       /* a vertex that the mesh has not */
         const uint16_t kept = ball_index[CORNERS - 3 + i];
         ball_index[CORNERS - 3 + i] = CORNERS;
-        CHECK(!smear_vertex_is_level(&both, true));
+        CHECK(!smear_vertex_is_flat(&both, true));
         ball_index[CORNERS - 3 + i] = kept;
     }
 }
@@ -160,7 +160,7 @@ static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, 
         }
         smear_stats stats;
         smear_get_stats(r.ctx, &stats);
-        t.level = smear_probe(r.ctx).rows->bins.segment[0].level != 0;
+        t.level = smear_probe(r.ctx).rows->bins.segment[0].flat != 0;
         t.words = smear_probe(r.ctx).rows->bins.vertex_words;
         t.drawn = stats.triangles_drawn;
         t.split = stats.triangles_split;
@@ -256,7 +256,7 @@ static void test_only_opaque_draws_in_encoded_light_are_level(void)
 
 void suite_level(void)
 {
-#if SMEAR_LEVELS
+#if SMEAR_FIND_FLAT
     RUN(test_a_mesh_is_level_where_every_facet_has_one_normal_and_one_colour);
     RUN(test_level_draws_are_to_the_bit_what_their_vertices_give);
     RUN(test_level_draws_seen_from_behind_are_what_their_vertices_give);
