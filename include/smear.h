@@ -183,7 +183,7 @@ typedef enum smear_method {
     SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots
                                  * (8, 16 or 32); needs desc.timed */
     SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what
-                                 * lies between them, or a time mask; needs desc.timed */
+                                 * lies between them; needs desc.timed */
     SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is
                                  * done per vertex; needs the window */
     SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */

@@ -58,13 +58,12 @@ for pair in "$@"; do
     done
     one="-DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -DSMEAR_WITH_DITHER=1"
     # shellcheck disable=SC2086
-    for set in sharp accumulate reconstruct subframes auto; do
+    for set in sharp accumulate reconstruct auto; do
         case $set in
         sharp) measure $set $one ;;
         accumulate) measure $set $one -DSMEAR_WITH_ACCUMULATE=1 ;;
         reconstruct) measure $set $one -DSMEAR_WITH_RECONSTRUCT=1 ;;
-        subframes) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 ;;
-        auto) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_TIMEMASK=1 ;;
+        auto) measure $set $one -DSMEAR_WITH_SUBFRAMES=1 ;;
         esac
         printf '%-34s %7d %s\n' "only RGB565, $set" "$flash" "$line"
     done

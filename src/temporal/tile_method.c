@@ -6,30 +6,29 @@
 
 #include "base/fixmath.h"
 
-/* Instants for a way of L: `least` and one more per `step`, where what lies between them is filled in. Where moving triangles go
- * apart, as many as keep a step of one within `spread` of that of another; from `most` on a time mask, whose closed forms
- * do not care how long a way is, costs less. Measured on the scenes of the quality suite (make chart): fewer instants cost
- * a tenth less and are seen as teeth at the ends of long streaks (failure rows 3 and 22). */
+/* How many instants a travel of L gets: `least` and one more per `step`, where gaps between them are closed. Where moving
+ * triangles go apart, as many as keep a step of one within `spread` of that of another. In a frame too small for gaps to
+ * be closed, one per `apart`. Measured on the scenes of the quality suite (make chart): fewer instants cost a tenth less
+ * and are seen as teeth at the ends of long streaks (failure rows 3 and 22). */
 struct preset {
     int32_t target;                     /* from this error on, 1/64 codes */
-    int32_t least, step, spread, most;  /* 1/16 px */
-    int32_t intervals;                     /* at least, of what passes through the near plane */
-    int32_t slots, edge, tap, sparse;   /* as in struct smear_timemask_settings */
+    int32_t least, step, spread, apart; /* 1/16 px, but for `least` */
+    int32_t intervals;                  /* instants at least, of what passes through the near plane */
 };
 
 enum {
     INSTANTS_MAX = 64,
-    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframes.c */
+    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
 
 static const struct preset presets[] = {
-    { SMEAR_DRAFT, 2, 288, 512, 32, 6, 8, 2, 768, 2 },
-    { 128, 3, 352, 448, 32, 6, 32, 7, 512, 3 },
-    { SMEAR_BALANCED, 3, 320, 400, 32, 6, 32, 7, 512, 3 },
-    { 64, 5, 192, 144, 40, 7, 32, 7, 512, 3 },
-    { SMEAR_FINE, 9, 96, 56, 48, 12, 32, 8, 256, 6 },
-    { 20, 15, 64, 36, 1000, 16, 32, 8, 256, 6 },
-    { 0, 20, 40, 20, 1000, 16, 32, 8, 256, 6 }
+    { SMEAR_DRAFT, 2, 288, 512, 8, 6 },
+    { 128, 3, 352, 448, 4, 6 },
+    { SMEAR_BALANCED, 3, 320, 400, 4, 6 },
+    { 64, 5, 192, 144, 4, 7 },
+    { SMEAR_FINE, 9, 96, 56, 2, 12 },
+    { 20, 15, 64, 36, 1, 16 },
+    { 0, 20, 40, 20, 1, 16 }
 };
 
 static const struct preset *preset_of(int32_t target)
@@ -94,65 +93,41 @@ void smear_tile_method_step(struct smear_step *step, const struct smear_chooser 
     step->y = (int16_t)(load->y / instants);
 }
 
-static void choose_timemask(struct smear_tile_choice *choice, int32_t slots, int32_t curvature, int32_t edge, int32_t tap,
-                            int32_t sparse)
-{
-    choice->method = TILE_TIMEMASK;
-    choice->timemask = (struct smear_timemask_settings){ slots <= 8 ? 8 : slots <= 16 ? 16 : 32, curvature, edge, tap,
-                                                            sparse };
-}
-
-static void choose_subframes(struct smear_tile_choice *choice, int32_t instants)
-{
-    choice->method = TILE_SUBFRAMES;
-    choice->instants = instants;
-}
-
 /* Instants that SMEAR_AUTO takes of a tile. */
 static int32_t auto_instants(const struct preset *p, const struct smear_chooser *chooser,
                              const struct smear_tile_load *load)
 {
     const int32_t travel = travel_of(load);
-    int32_t instants = travel / 16 + 1;
+    int32_t instants = chooser->fills ? travel / 16 + 1 : max_i32(travel / p->apart + 1, p->least);
     if (may_fill(chooser, load)) {
         instants = max_i32(p->least + travel / p->step, reach_of(load) / STEP_MAX + 1);
         if (p->least <= 3 && travel < 8)        /* half a pixel */
             instants = 2;
         instants = max_i32(instants, spread_of(load) / p->spread + 1);
     }
-    /* What passes through the near plane is in intervals: the mask draws them all, an instant one of them. How they go is
-     * not known, as clipping moves their ends. */
+    /* What passes through the near plane is in sub-intervals of the exposure, of which an instant draws one. How they go
+     * is not known, as clipping moves their ends. */
     if ((load->flags & PATH_INTERVAL) != 0)
         instants = clamp_i32(instants, p->intervals, PATH_INTERVALS);
     return instants;
 }
 
-static void choose_auto(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
-                        const struct smear_tile_load *load, bool closed_form)
-{
-    const struct preset *p = preset_of(chooser->target);
-    const int32_t instants = auto_instants(p, chooser, load);
-    if (closed_form && (load->flags & PATH_INTERVAL) == 0 && (instants > p->most || !chooser->fills)) {
-        /* A texture shows where its surface is all over, not only at edges. */
-        const int32_t curvature = (load->flags & PATH_TEXTURED) != 0 ? 16 : min_i32(chooser->target, 32);
-        choose_timemask(choice, p->slots, curvature, p->edge, p->tap, p->sparse);
-    } else {
-        choose_subframes(choice, min_i32(instants, INSTANTS_MAX));
-    }
-}
-
 void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                   const struct smear_tile_load *load)
 {
-    const bool closed_form = SMEAR_WITH_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0;
-    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0)
+    if ((load->flags & TILE_MOVES) == 0 && (load->flags & PATH_SUBFRAMES) == 0) {
         choice->method = TILE_COPY;
-    else if (chooser->method == SMEAR_AUTO)
-        choose_auto(choice, chooser, load, closed_form);
-    else if (chooser->method == SMEAR_TIMEMASK && closed_form)
-        choose_timemask(choice, chooser->samples, 16, 6, 256, 0);
-    else
-        choose_subframes(choice, instants_for(load, chooser->samples));
+    } else if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0) {
+        choice->method = TILE_TIMEMASK;
+        choice->timemask = (struct smear_timemask_settings){
+            chooser->samples <= 8 ? 8 : chooser->samples <= 16 ? 16 : 32, 16, 6, 256, 0
+        };
+    } else {
+        choice->method = TILE_SUBFRAMES;
+        choice->instants = chooser->method != SMEAR_AUTO
+                         ? instants_for(load, chooser->samples)
+                         : min_i32(auto_instants(preset_of(chooser->target), chooser, load), INSTANTS_MAX);
+    }
 }
 
 /* Pixels x instants, saturated. Triangles that go apart are not known to share a tile. */

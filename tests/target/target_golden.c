@@ -52,9 +52,6 @@ static enum outcome outcome_of(const struct tape *tape)
             return REFUSED;
         if (method == SMEAR_DEFAULT_METHOD && !d->timed && !d->sharp && !SMEAR_WITH_RECONSTRUCT)
             outcome = OTHER_METHODS;
-        if (d->timed && (method == SMEAR_DEFAULT_METHOD || method == SMEAR_AUTO)
-            && !SMEAR_WITH_TIMEMASK)
-            outcome = OTHER_METHODS;
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;
