@@ -22,7 +22,7 @@
 /* Where the pixels of a row lie, and depth at its pixel 0. */
 struct row {
     int32_t y;
-    int32_t color_slot, window_ring_row;
+    int32_t color_ring_row, window_ring_row;
     int32_t color, window;          /* index of column 0 in the planes */
     int32_t units;
 };
@@ -32,13 +32,13 @@ static void row_start(struct row *r, const struct setup *s, int32_t y)
     const struct smear_raster_target *t = s->target;
     const struct smear_plane_rows *c = &t->color_rows, *w = &t->window_rows;
     r->y = y;
-    r->color_slot = c->slot0 + (y - t->y0);
-    r->window_ring_row = w->slot0 + (y - t->y0);
-    if (r->color_slot >= c->ring)
-        r->color_slot -= c->ring;
+    r->color_ring_row = c->ring_row + (y - t->y0);
+    r->window_ring_row = w->ring_row + (y - t->y0);
+    if (r->color_ring_row >= c->ring)
+        r->color_ring_row -= c->ring;
     if (r->window_ring_row >= w->ring)
         r->window_ring_row -= w->ring;
-    r->color = r->color_slot * c->stride - c->x0;
+    r->color = r->color_ring_row * c->stride - c->x0;
     r->window = r->window_ring_row * w->stride - w->x0;
     r->units = plane_at(&s->depth, 0, y);
 }
@@ -49,8 +49,8 @@ static inline void row_next(struct row *r, const struct setup *s)
     r->y++;
     r->color += t->color_rows.stride;
     r->window += t->window_rows.stride;
-    if (++r->color_slot == t->color_rows.ring) {
-        r->color_slot = 0;
+    if (++r->color_ring_row == t->color_rows.ring) {
+        r->color_ring_row = 0;
         r->color = -t->color_rows.x0;
     }
     if (++r->window_ring_row == t->window_rows.ring) {
@@ -283,27 +283,27 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
 /* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
 struct gather {
     struct span_rows rows;
-    int32_t slot;               /* of the row that comes next */
+    int32_t ring_row;           /* of the row that comes next */
 };
 
 static inline void gather_start(struct gather *g, const struct setup *s, int32_t y)
 {
     const struct smear_raster_target *t = s->target;
-    g->slot = t->window_rows.slot0 + (y - t->y0);
-    if (g->slot >= t->window_rows.ring)
-        g->slot -= t->window_rows.ring;
+    g->ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (g->ring_row >= t->window_rows.ring)
+        g->ring_row -= t->window_rows.ring;
     g->rows.y = y;
     g->rows.count = 0;
 }
 
 static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
 {
-    g->rows.at = (g->slot - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
+    g->rows.at = (g->ring_row - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
     draw(s, &g->rows);
     g->rows.y += g->rows.count;
     g->rows.count = 0;
-    if (g->slot == s->target->window_rows.ring)
-        g->slot = 0;
+    if (g->ring_row == s->target->window_rows.ring)
+        g->ring_row = 0;
 }
 
 /* Pixels of an edge in n > 0 rows: one edge after the other, in registers. */
@@ -342,11 +342,11 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     while (g.rows.y < d.end) {
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
-            int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.slot);
+            int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);
             gather_left(&g.rows, &d.left, n);
             gather_right(&g.rows, &d.right, n, s->frame->width);
             g.rows.count = n;
-            g.slot += n;
+            g.ring_row += n;
             gather_draw(&g, s, draw);
         }
     }
@@ -395,20 +395,20 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
     const int32_t stride = t->window_rows.stride;
     int32_t units = plane_at(&s->depth, 0, d.y);
     uint32_t z = code_from_units(units, s->slope);
-    int32_t y = d.y, slot = t->window_rows.slot0 + (y - t->y0);
-    if (slot >= t->window_rows.ring)
-        slot -= t->window_rows.ring;
+    int32_t y = d.y, ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (ring_row >= t->window_rows.ring)
+        ring_row -= t->window_rows.ring;
     int32_t knee = y;
     while (y < d.end) {
         if (y == knee)
             knee = sides_part(&d, y);
         /* Rows up to the middle vertex, or to the end of the ring. */
-        int32_t n = min_i32(knee - y, t->window_rows.ring - slot), at = slot * stride - t->window_rows.x0;
+        int32_t n = min_i32(knee - y, t->window_rows.ring - ring_row), at = ring_row * stride - t->window_rows.x0;
         struct edge_walk left = d.left, right = d.right;
         y += n;
-        slot += n;
-        if (slot == t->window_rows.ring)
-            slot = 0;
+        ring_row += n;
+        if (ring_row == t->window_rows.ring)
+            ring_row = 0;
         for (; n > 0; n--, at += stride) {
             int32_t a = edge_pixel(&left), b = edge_pixel(&right);
             const int32_t row_units = units;
@@ -554,8 +554,8 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
     edges_start(&e, s, area, x0, top);
     if (gouraud)
         channels_start(&channels, s);
-    int32_t slot = t->window_rows.slot0 + (top - t->y0);
-    for (int32_t y = top; y < bottom; y++, slot++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
+    int32_t ring_row = t->window_rows.ring_row + (top - t->y0);
+    for (int32_t y = top; y < bottom; y++, ring_row++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
         int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = x0;
         while ((e0 | e1 | e2) < 0 && ++x < x1) {
             e0 += e.right0;
@@ -564,9 +564,9 @@ static void draw_tiny(const struct setup *s, int32_t area, int32_t left, int32_t
         }
         if (x == x1)
             continue;
-        if (slot >= t->window_rows.ring)
-            slot -= t->window_rows.ring;
-        int32_t at = slot * t->window_rows.stride + x - t->window_rows.x0, end = at + (x1 - x);
+        if (ring_row >= t->window_rows.ring)
+            ring_row -= t->window_rows.ring;
+        int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0, end = at + (x1 - x);
         do {
             uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
@@ -609,26 +609,26 @@ static bool is_flat(struct setup *s)
 
 /* A triangle that goes on in the next rows. Memory of its own, between
  * the pool's vertices and triangles (frame.c). */
-struct slot {
+struct cache_entry {
     struct setup s;
     uint32_t triangle;
 };
 
-enum { SLOTS_MAX = 512 };
+enum { ENTRIES_MAX = 512 };
 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count)
 {
-    struct slot *slot = (struct slot *)memory;
-    uint32_t slots = min_u32((uint32_t)(bytes / sizeof *slot), SLOTS_MAX) / (uint32_t)count;
-    for (uint32_t i = 0; i < slots * (uint32_t)count; i++)
-        slot[i].triangle = SMEAR_NO_TRIANGLE;
-    return (struct smear_raster_cache){ slot, slots };
+    struct cache_entry *entry = (struct cache_entry *)memory;
+    uint32_t entries = min_u32((uint32_t)(bytes / sizeof *entry), ENTRIES_MAX) / (uint32_t)count;
+    for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
+        entry[i].triangle = SMEAR_NO_TRIANGLE;
+    return (struct smear_raster_cache){ entry, entries };
 }
 
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
 {
-    return (struct smear_raster_cache){ (struct slot *)first->slot + (uint32_t)i * first->slots,
-                                        first->slots };
+    return (struct smear_raster_cache){ (struct cache_entry *)first->entry + (uint32_t)i * first->entries,
+                                        first->entries };
 }
 
 /* Gradients and planes. */
@@ -707,13 +707,13 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         return;
 
     struct setup here, *s = &here;
-    struct slot *slot = NULL;
+    struct cache_entry *entry = NULL;
     bool known = false;
-    if (SMEAR_RASTER_CACHE && target->cache.slots != 0 && (resumes || goes_on)) {
-        slot = (struct slot *)target->cache.slot + triangle % target->cache.slots;
-        known = resumes && slot->triangle == triangle;
+    if (SMEAR_RASTER_CACHE && target->cache.entries != 0 && (resumes || goes_on)) {
+        entry = (struct cache_entry *)target->cache.entry + triangle % target->cache.entries;
+        known = resumes && entry->triangle == triangle;
         if (known || goes_on)
-            s = &slot->s;
+            s = &entry->s;
     }
     s->target = target;
     if (!known) {
@@ -736,13 +736,13 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         uint64_t area = setup_edges(s);
         if (is_tiny(s, pixels)) {
             if (s != &here)
-                slot->triangle = SMEAR_NO_TRIANGLE;
+                entry->triangle = SMEAR_NO_TRIANGLE;
             draw_tiny(s, (int32_t)area, left, right, top, bottom);
             return;
         }
         setup_all(s, area);
         if (s != &here)
-            slot->triangle = triangle;
+            entry->triangle = triangle;
     }
     cover(s, left, right, top, bottom, small);
 }
@@ -755,10 +755,10 @@ static inline void draw_point(const struct smear_raster_frame *frame,
     int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
     if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
         return;
-    int32_t slot = target->window_rows.slot0 + y;
-    if (slot >= target->window_rows.ring)
-        slot -= target->window_rows.ring;
-    int32_t at = slot * target->window_rows.stride + x - target->window_rows.x0;
+    int32_t ring_row = target->window_rows.ring_row + y;
+    if (ring_row >= target->window_rows.ring)
+        ring_row -= target->window_rows.ring;
+    int32_t at = ring_row * target->window_rows.stride + x - target->window_rows.x0;
     if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
     target->depth[at] = t->vertex[POINT_DEPTH];

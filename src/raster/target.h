@@ -7,18 +7,18 @@
 #include "base/pixel.h"
 #include "raster/texture.h"
 
-/* One plane of pixels of which some rows exist: row `y0` is row `slot0` of the memory, and after row
- * `ring - 1` comes row 0. Column x is at x - x0. */
+/* One plane of pixels of which some rows exist, in a ring: the target's row `y0` is row `ring_row` of the
+ * memory, and after row `ring - 1` comes row 0. Column x is at x - x0. */
 struct smear_plane_rows {
     int32_t stride;         /* pixels */
-    int32_t slot0, ring, x0;
+    int32_t ring_row, ring, x0;
 };
 
 /* Memory for what was found out about triangles that reach beyond a
  * target's rows, for the rows after them: raster.c. */
 struct smear_raster_cache {
-    void *slot;
-    uint32_t slots;         /* 0: none */
+    void *entry;
+    uint32_t entries;       /* 0: none */
 };
 
 /* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples
@@ -87,8 +87,8 @@ static inline void target_put(const struct smear_raster_target *t, int32_t at, u
 static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t,
                                  int32_t y)
 {
-    int32_t slot = rows->slot0 + (y - t->y0);
-    return (slot >= rows->ring ? slot - rows->ring : slot) * rows->stride - rows->x0;
+    int32_t ring_row = rows->ring_row + (y - t->y0);
+    return (ring_row >= rows->ring ? ring_row - rows->ring : ring_row) * rows->stride - rows->x0;
 }
 
 /* The box of a triangle's vertices, q8. */

@@ -160,7 +160,7 @@ static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend
 static struct smear_raster_target within(const struct subframes *f, const struct pixel_box *b)
 {
     struct smear_raster_target t = f->work;
-    t.color_rows.slot0 = t.window_rows.slot0 = b->y0 - t.y0;
+    t.color_rows.ring_row = t.window_rows.ring_row = b->y0 - t.y0;
     t.x0 = b->x0;
     t.y0 = b->y0;
     t.x1 = b->x1;

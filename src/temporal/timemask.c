@@ -303,7 +303,7 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
 static inline uint32_t still_at(const struct smear_plane_rows *r, const struct smear_raster_target *t,
                                 int32_t x, int32_t y)
 {
-    int32_t slot = r->slot0 + (y - t->y0);
+    int32_t slot = r->ring_row + (y - t->y0);
     if (slot >= r->ring)
         slot -= r->ring;
     return (uint32_t)(slot * r->stride + x - r->x0);

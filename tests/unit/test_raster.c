@@ -1514,7 +1514,7 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
                 t.x1 = x + column < W ? x + column : W;
                 t.y0 = y;
                 t.y1 = y + band < H ? y + band : H;
-                t.color_rows.slot0 = t.window_rows.slot0 = y;
+                t.color_rows.ring_row = t.window_rows.ring_row = y;
                 smear_raster_list(&frame, &t, 0);
             }
         if (!same_planes(&full, &cut))
@@ -1642,8 +1642,8 @@ static void target_clear(const struct smear_raster_target *t, uint16_t depth)
     for (int32_t y = t->y0; y < t->y1; y++)
         for (int32_t x = t->x0; x < t->x1; x++) {
             const struct smear_plane_rows *c = &t->color_rows, *w = &t->window_rows;
-            t->color[(c->slot0 + y - t->y0) % c->ring * c->stride + x - c->x0] = 0x123456u;
-            int32_t at = (w->slot0 + y - t->y0) % w->ring * w->stride + x - w->x0;
+            t->color[(c->ring_row + y - t->y0) % c->ring * c->stride + x - c->x0] = 0x123456u;
+            int32_t at = (w->ring_row + y - t->y0) % w->ring * w->stride + x - w->x0;
             t->depth[at] = depth;
             for (int axis = 0; axis < 2; axis++) {
                 if (t->velocity8 != NULL)

@@ -213,7 +213,7 @@ static bool draw_sparse(int32_t slots, int32_t tile, int32_t bend, int32_t tap, 
                 .color_rows = rows, .depth = still_depth, .window_rows = rows
             };
             /* The target's first row is that of y0. */
-            t.still.color_rows.slot0 = t.still.window_rows.slot0 = y;
+            t.still.color_rows.ring_row = t.still.window_rows.ring_row = y;
             for (int i = 0; i < TILE_MAX * TILE_MAX; i++)
                 out[i] = 0xabababu;
             bool is_smooth;
