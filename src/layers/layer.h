@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* layer.h - blurred layers: what is blurred on its own and merged over the still scene.
+/* layer.h - blurred layers: what is blurred on its own and merged over the background, which is the static scene.
  *
  * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the
  * exposure into rows of its own: those of the tile row and as many above and below as the blur reads, and
@@ -10,57 +10,56 @@
 
 #include "geometry/bins.h"
 
-/* Of a draw that is in no group: it is drawn with the still scene. */
+/* The group of a draw that is in none (it is drawn with the background), and its layer. */
 #define SMEAR_NO_GROUP 0xffffu
 #define SMEAR_NO_LAYER 0xffu
 
-/* A layer as the frame has it, with its cameras: now, open, close. */
+/* A layer of the frame. */
 struct smear_layer_setting {
     smear_layer layer;
-    smear_camera camera[3];
+    smear_camera camera[3];     /* now, open, close */
     bool has_camera;
-    int32_t shutter;            /* its exposure in those of the frame, q16 */
+    int32_t shutter;            /* its exposure over that of the frame, q16 */
 };
 
 struct smear_group {
     int32_t vx, vy;             /* displacement during the exposure, q8 px */
     int32_t depth;              /* units q11 of its middle: farther groups are merged first */
-    uint32_t end;               /* triangles of the store below this number are its
-                                 * own or those of groups before it */
+    uint32_t end;               /* triangles of the store below this number are its own or those of groups before it */
     uint8_t layer;
-    uint8_t rank;               /* 0: by depth. Else over all groups of lower ranks */
+    uint8_t rank;               /* 0: its depth orders it. Else it lies over all groups of lower ranks */
     bool textured;              /* texels leave their alpha in the pixels */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: as it is now */
-    /* In the tile row being drawn: its part of the moving triangles' list, the columns and depth codes it keeps to. */
-    uint32_t head, tail;
-    int32_t x0, x1;
+    /* The rest is about the tile row being drawn. */
+    uint32_t head, tail;        /* its part of the moving triangles' list */
+    int32_t x0, x1;             /* the columns and depth codes it keeps to */
     uint16_t nearest, farthest;
     int32_t mixed0, mixed1;     /* columns in which it passes through other groups */
-    bool marks;                 /* of which one is merged later, none of them with depth codes below this: */
-    uint32_t marked_from;
+    bool marks;                 /* one of those groups is merged later, */
+    uint32_t marked_from;       /* none of them with depth codes below this */
 };
 
-/* The group that the rows hold, or null: of the store's rows [y0, y1), columns [x0, x1). */
+/* What the rows hold: the store's rows [y0, y1) and columns [x0, x1) of a group. */
 struct smear_held_rows {
-    const struct smear_group *group;
+    const struct smear_group *group;    /* null: nothing */
     int32_t y0, y1, x0, x1;
 };
 
-/* Rows of a group. Pixel (x, y) of the frame lies `margin` columns to the right and a tile row further down
- * there: the store has triangles of layers at these places. */
+/* Rows of a group. Pixel (x, y) of the frame lies there `margin` columns to the right and a tile row further down; so
+ * do the triangles of layers in the store. */
 struct smear_layer_rows {
     int32_t margin, width, height;      /* of the frame with its margins */
-    int32_t rows;                       /* there is memory for */
-    int8_t *velocity8;                  /* one of the two, as in window.h; for SMEAR_LAYERED */
+    int32_t rows;                       /* how many there is memory for */
+    int8_t *velocity8;                  /* SMEAR_LAYERED has one of the two, as in window.h */
     int16_t *velocity16;
-    uint8_t *moving;                    /* per tile: for the raster */
+    uint8_t *moving;                    /* per tile, for the raster */
     struct smear_layer_cell *cell;      /* layer_gather.h */
     struct smear_held_rows held;
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
     uint32_t *over;                     /* of the tile row, where groups pass through each other (streak.h) */
     uint16_t *over_depth;
-    int16_t *row_first, *row_end;       /* in each row: what is drawn lies within */
+    int16_t *row_first, *row_end;       /* the columns of each row within which something is drawn */
     int16_t *edge;                      /* streak.h */
     void *work;                         /* work_bytes per worker: streak.h */
     uint32_t work_bytes;
@@ -68,7 +67,7 @@ struct smear_layer_rows {
 
 #define SMEAR_UNCOVERED 0xff000000u
 
-/* In smear_window.moving, of the tile row being finished: by what each tile is reached. */
+/* What reaches a tile of the tile row being finished, in smear_window.moving. */
 enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
 
 struct smear_layers {

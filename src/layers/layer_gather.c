@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* layer_gather.c - what a pixel sees of a moving layer: each tap is a place the layer's surface may have come
- * from. It counts if its own velocity carries it here, and for the share of the exposure it spends on the
- * stretch it stands for; what is left of the exposure shows the still scene. */
+/* layer_gather.c - what a pixel sees of a moving layer: each tap is a place that the layer's surface may have come
+ * from. A tap counts if its own velocity carries it here, and for the share of the exposure that it spends on the
+ * stretch it stands for; what is left of the exposure shows the background. */
 #include "layers/layer_gather.h"
 
 #include "filter/gather.h"
@@ -73,15 +73,15 @@ static uint32_t sum_mean(const struct weighed_sum *s, bool linear)
     return pixel_make(0, c[0], c[1], c[2]);
 }
 
-/* What is missing is still; what is too much is shared. */
-static uint32_t sum_pixel(struct weighed_sum *s, uint32_t still, bool linear)
+/* Returns the mean with the background for what is missing of the whole exposure; what is too much is shared. */
+static uint32_t sum_pixel(struct weighed_sum *s, uint32_t background, bool linear)
 {
     if (s->weight < WHOLE)
-        sum_add(s, still, WHOLE - s->weight, linear);
+        sum_add(s, background, WHOLE - s->weight, linear);
     return sum_mean(s, linear);
 }
 
-/* Taps along a direction, and what the velocities they meet are worth. */
+/* Taps along a direction, and the weight of those that meet the newest velocity. */
 struct taps {
     struct smear_pixel_velocity d;
     int32_t length;             /* q6 px */
@@ -91,8 +91,8 @@ struct taps {
         int32_t distance;       /* q6 px */
     } tap[SMEAR_GATHER_TAPS];
     uint32_t word;              /* the newest velocity */
-    int32_t carries;            /* how far it carries a surface along the direction, q6 px; 0: elsewhere */
-    uint32_t weight;            /* of a tap with it */
+    int32_t carries;            /* how far it carries a surface along the direction, q6 px; negative: elsewhere */
+    uint32_t weight;            /* of a tap that meets it */
 };
 
 static SMEAR_NOINLINE void taps_start(struct taps *t, struct smear_pixel_velocity d, uint32_t word, int32_t width)
@@ -129,15 +129,15 @@ static SMEAR_NOINLINE void taps_meet(struct taps *t, struct smear_pixel_velocity
 
 enum { PROBES = 8 };
 
-/* What stays the same for the area. */
+/* What the pixels of an area share. */
 struct gathering {
     const struct smear_gather_area *a;
     const uint32_t *color;
     const uint16_t *depth;
     int32_t width;
     struct taps taps;
-    /* Where a surface may come from: places along the longest velocity
-     * around, in both senses, and how fast it must be. */
+    /* Places that a surface may come from, along the longest velocity around in both senses, and how fast it must
+     * be to do so. */
     struct smear_pixel_velocity top;
     struct {
         int32_t offset;
@@ -149,20 +149,20 @@ static SMEAR_NOINLINE void probes_start(struct gathering *g, struct smear_pixel_
 {
     g->top = top;
     for (int32_t i = 0; i < PROBES; i++) {
-        int32_t k = (i & 1 ? -1 : 1) * ((i >> 1) + 1);      /* quarters of the way */
+        int32_t k = (i & 1 ? -1 : 1) * ((i >> 1) + 1);      /* quarters of `top` */
         g->probe[i].offset = ((top.y * k + 16) >> 5) * g->width + ((top.x * k + 16) >> 5);
         int32_t x = max_i32(abs_i32(top.x * k >> 2) - 6, 0), y = max_i32(abs_i32(top.y * k >> 2) - 6, 0);
         g->probe[i].least = max_i32(x * x + y * y, 16);
     }
 }
 
-/* The velocity of the layer's surface that passes by a pixel where none is in the middle of the exposure: of
- * the nearest place that comes this far. Returns that, or -1. */
-static inline int32_t find_direction(const struct gathering *g, int32_t here, uint32_t still_depth)
+/* Finds a surface of the layer that passes by a pixel where none is in the middle of the exposure. Returns the nearest
+ * place whose velocity comes this far, or -1. */
+static inline int32_t find_direction(const struct gathering *g, int32_t here, uint32_t background_depth)
 {
     for (int32_t i = 0; i < PROBES; i++) {
         int32_t at = here + g->probe[i].offset;
-        if (g->depth[at] > still_depth && square_of(velocity_at(g->a->layer, at)) >= g->probe[i].least)
+        if (g->depth[at] > background_depth && square_of(velocity_at(g->a->layer, at)) >= g->probe[i].least)
             return at;
     }
     return -1;
@@ -174,11 +174,11 @@ SMEAR_INLINE uint32_t word_at(const struct smear_layer_rows *l, int32_t at)
     return velocity_word(l->velocity8, l->velocity16, (uint32_t)at);
 }
 
-/* What a pixel sees of the layer: all of it, or what lies behind a group
- * that was merged before, and what before it. */
+/* What a pixel sees of the layer: what lies in front of groups that were merged before, or all of it, and what lies
+ * behind them. */
 struct seen {
     struct weighed_sum sum, behind;
-    uint32_t passed_depth;      /* of that group; 0: there is none */
+    uint32_t passed_depth;      /* of those groups; 0: there are none */
 };
 
 static inline struct weighed_sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
@@ -186,9 +186,9 @@ static inline struct weighed_sum *sum_of(struct seen *s, uint32_t depth, bool mi
     return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
 }
 
-/* `own`: the pixel's surface moves itself. Where a tap meets one that does not come here, it is hidden by a
- * nearer one, or has left one that is farther free. */
-SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t still_depth,
+/* Sums up the taps of a pixel. Where its own surface moves (`own`) and a tap meets one that does not come here, that one
+ * either is hidden by a nearer surface or has left a farther one uncovered. */
+SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t background_depth,
                          bool linear, bool mixed)
 {
     struct taps *t = &g->taps;
@@ -196,7 +196,7 @@ SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, b
     const uint32_t even = (uint32_t)((WHOLE + t->count - 1) / t->count);
     for (int32_t k = 0; k < t->count; k++) {
         int32_t at = here + t->tap[k].offset;
-        if (g->depth[at] <= still_depth)
+        if (g->depth[at] <= background_depth)
             continue;
         uint32_t word = word_at(l, at);
         if (word != t->word)
@@ -210,12 +210,12 @@ SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, b
     }
 }
 
-/* Sums at a pixel, `here` in the layer's rows; where its surface comes from: an index there, or -1. */
-SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t still_depth,
+/* Sums up what a pixel sees, `here` in the layer's rows. Returns the index there of the surface it sees, or -1. */
+SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t background_depth,
                           uint32_t *taken, bool linear, bool mixed)
 {
     int32_t of = -1;
-    const bool drawn = g->depth[here] > still_depth;
+    const bool drawn = g->depth[here] > background_depth;
     struct smear_pixel_velocity d = { 0, 0 };
     if (drawn) {
         d = velocity_at(g->a->layer, here);
@@ -224,13 +224,13 @@ SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, 
     }
     const bool stays = drawn && of < 0;
     if (of < 0)
-        of = find_direction(g, here, still_depth);
+        of = find_direction(g, here, background_depth);
     if (of >= 0) {
         uint32_t word = word_at(g->a->layer, of);
         d = velocity_at(g->a->layer, of);
         if (d.x != g->taps.d.x || d.y != g->taps.d.y)
             taps_start(&g->taps, d, word, g->width);
-        gather(g, seen, here, of == here, still_depth, linear, mixed);
+        gather(g, seen, here, of == here, background_depth, linear, mixed);
         *taken += (uint32_t)g->taps.count;
     }
     const uint32_t weight = seen->sum.weight + (mixed ? seen->behind.weight : 0);
@@ -239,18 +239,18 @@ SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, 
     return drawn ? here : of;
 }
 
-SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t still_depth, uint32_t *out,
+SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t background_depth, uint32_t *out,
                               uint32_t *taken, bool linear)
 {
     struct seen seen = { .passed_depth = 0 };
-    look(g, &seen, here, still_depth, taken, linear, false);
+    look(g, &seen, here, background_depth, taken, linear, false);
     if (seen.sum.weight != 0)
         *out = sum_pixel(&seen.sum, *out, linear);
 }
 
 /* ------------------------------------------------------------------ between other groups */
 
-/* a + (b - a) part / WHOLE, of codes or their light. */
+/* Returns a + (b - a) part / WHOLE, in codes or their light. */
 static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, bool linear)
 {
     const uint32_t rest = WHOLE - part;
@@ -268,7 +268,7 @@ static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, bool linear)
                       mixed_channel(pixel_blue(a), pixel_blue(b), part, linear));
 }
 
-/* Something whole that is seen past `passed`, which are colours times coverage, and coverage. */
+/* Returns an opaque pixel as it is seen past `passed`: colours times coverage, coverage on top. */
 static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
 {
     const uint32_t rest = ((255u - (passed >> 24)) * WHOLE + 127u) / 255u;
@@ -283,37 +283,37 @@ static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
     return pixel_make(0, sum[2], sum[1], sum[0]);
 }
 
-/* `part` of a pixel over what has passed; coverage likewise. */
+/* Puts `part` of a pixel over what has passed, coverage included. */
 static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool linear)
 {
     uint32_t a = ((passed >> 24) * (WHOLE - part) + 255u * part + WHOLE / 2) >> 12;
     return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
 }
 
-/* Where other groups were merged before this one: what lies behind them goes
- * between them and what they were merged over. */
-static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t still_depth, int32_t at,
+/* Merges a pixel where other groups were merged before this one: what lies behind them goes between them and what they
+ * were merged over. */
+static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t background_depth, int32_t at,
                                        uint32_t *taken)
 {
     const struct smear_gather_area *a = g->a;
     uint32_t passed = a->passed[at];
     struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->passed_depth[at] : 0u };
-    const int32_t of = look(g, &seen, here, still_depth, taken, a->linear, true);
+    const int32_t of = look(g, &seen, here, background_depth, taken, a->linear, true);
     const uint32_t front = min_u32(seen.sum.weight, WHOLE);
     if (seen.behind.weight != 0 && front < WHOLE) {
-        /* Its share of the time in which nothing of the layer is in front. */
+        /* The share of the time in which nothing of the layer is in front. */
         const uint32_t part = seen.behind.weight >= WHOLE - front
                                 ? (uint32_t)WHOLE
                                 : (seen.behind.weight << 12) / (WHOLE - front);
         const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
-        a->still[at] = mixed_pixel(a->still[at], whole, part, a->linear);
+        a->background[at] = mixed_pixel(a->background[at], whole, part, a->linear);
         const uint32_t coverage = passed >> 24;
         passed = (coverage + (((255u - coverage) * part + WHOLE / 2) >> 12)) << 24
                | mixed_pixel(passed & 0xffffffu, whole, part, a->linear);
     }
     if (front != 0) {
         passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
-        a->still[at] = sum_pixel(&seen.sum, a->still[at], a->linear);
+        a->background[at] = sum_pixel(&seen.sum, a->background[at], a->linear);
     }
     if (!a->marks || (seen.sum.weight | seen.behind.weight) == 0)
         return;
@@ -322,7 +322,7 @@ static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32
     a->passed[at] = passed;
 }
 
-/* Columns that what is drawn in the rows around y may reach. */
+/* Finds the columns that may be reached by what is drawn in the rows around y. */
 static void reached(const struct smear_gather_area *a, int32_t y, int32_t *left, int32_t *right)
 {
     const struct smear_layer_rows *l = a->layer;
@@ -346,23 +346,23 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
     g.taps.over = 16384 / a->samples;
     uint32_t taken = 0;
     for (int32_t y = 0; y < a->height; y++) {
-        uint32_t *still = a->still + y * a->still_stride;
-        const uint16_t *depth = a->still_depth + y * a->still_stride;
+        uint32_t *background = a->background + y * a->background_stride;
+        const uint16_t *depth = a->background_depth + y * a->background_stride;
         int32_t left, right;
         reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
             const struct smear_pixel_velocity top = { cell->x, cell->y };
-            uint32_t still_depth = a->over ? 0 : depth[x];
+            uint32_t background_depth = a->over ? 0 : depth[x];
             if (top.x != g.top.x || top.y != g.top.y)
                 probes_start(&g, top);
             int32_t here = (y + a->top) * l->width + x + l->margin;
             if (x + l->margin >= a->mixed0 && x + l->margin < a->mixed1)
-                merge_mixed(&g, here, still_depth, y * a->still_stride + x, &taken);
+                merge_mixed(&g, here, background_depth, y * a->background_stride + x, &taken);
             else if (a->linear)
-                merge_pixel(&g, here, still_depth, &still[x], &taken, true);
+                merge_pixel(&g, here, background_depth, &background[x], &taken, true);
             else
-                merge_pixel(&g, here, still_depth, &still[x], &taken, false);
+                merge_pixel(&g, here, background_depth, &background[x], &taken, false);
         }
     }
     return taken;
@@ -379,18 +379,18 @@ uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, i
         int32_t left, right;
         reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
-            uint32_t *still = a->still + y * a->still_stride + x;
-            uint32_t still_depth = a->over ? 0 : a->still_depth[y * a->still_stride + x];
+            uint32_t *background = a->background + y * a->background_stride + x;
+            uint32_t background_depth = a->over ? 0 : a->background_depth[y * a->background_stride + x];
             struct weighed_sum sum = { 0, 0, 0, 0 };
             for (int32_t k = 0; k < n; k++) {
                 int32_t part = (2 * k + 1 - n) * 128 / n;           /* q8, -1/2 .. 1/2 */
                 int32_t at = (y + a->top + ((vy * part + 0x8000) >> 16)) * l->width + x + l->margin
                            + ((vx * part + 0x8000) >> 16);
-                if (l->depth[at] > still_depth)
+                if (l->depth[at] > background_depth)
                     sum_add(&sum, l->color[at], weight, a->linear);
             }
             if (sum.weight != 0)
-                *still = sum_pixel(&sum, *still, a->linear);
+                *background = sum_pixel(&sum, *background, a->linear);
         }
     }
     return (uint32_t)(a->height * (a->right - a->left) * n);

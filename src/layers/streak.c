@@ -7,7 +7,7 @@
  *
  *     gather      sums what is drawn on a line
  *     means       takes the line's means at its nodes and shares them out to the rows it passes between
- *     finish      mixes pixels between nodes, over the static scene by coverage and depth (streak_finish.c) */
+ *     finish      mixes pixels between nodes, over the background by coverage and depth (streak_finish.c) */
 #include "layers/streak_part.h"
 
 /* ------------------------------------------------------------------ lines */

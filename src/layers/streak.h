@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* streak.h - a group of draws blurred along one velocity, over the static scene: the two-camera approach with known
+/* streak.h - a group of draws blurred along one velocity, over the background: the two-camera approach with known
  * coverage and depth. */
 #ifndef SMEAR_STREAK_H
 #define SMEAR_STREAK_H
@@ -39,9 +39,9 @@ struct smear_streak_area {
     const int16_t *row_first, *row_end;     /* the columns of each row within which something is drawn */
     int32_t top;                /* the first row to be finished */
     int32_t margin;             /* the frame's first column */
-    uint32_t *still;            /* first pixel of the frame's row to be finished */
-    uint16_t *still_depth;
-    int32_t still_stride;
+    uint32_t *background;       /* first pixel of the frame's row to be finished */
+    uint16_t *background_depth;
+    int32_t background_stride;
     /* Groups pass through each other in columns [mixed0, mixed1) of the group's planes. `over` has what was merged
      * there before (colours times coverage, coverage in the top byte), `over_depth` about its depth codes; their
      * rows are those of the frame. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* streak_finish.c - merges the means of a group over the static scene, by coverage and depth.
+/* streak_finish.c - merges the means of a group over the background, by coverage and depth.
  *
- * Pixels between two nodes get a mix of their means. Where the scene lies behind the whole group, a pixel costs a
+ * Pixels between two nodes get a mix of their means. Where the background lies behind the whole group, a pixel costs a
  * blend; where it lies within the group's depths, the mean is taken again of what is in front of it; where groups
  * pass through each other, their depths tell which is in front. */
 #include "layers/streak_part.h"
@@ -13,23 +13,23 @@
 #define EACH_NODE 1
 #endif
 
-/* ------------------------------------------------------------------ a pixel over the scene */
+/* ------------------------------------------------------------------ a pixel over the background */
 
-/* Puts a mean over a pixel of the scene, by its coverage. */
-static inline uint32_t codes_over(lanes m, uint32_t still)
+/* Puts a mean over a pixel of the background, by its coverage. */
+static inline uint32_t codes_over(lanes m, uint32_t background)
 {
     uint32_t rest = 255u - (uint32_t)(m >> 48);
     rest += rest >> 7;
-    return lanes_pixel(m + ((lanes_times(lanes_of(still), rest) + lanes_halves) >> 8 & lanes_codes));
+    return lanes_pixel(m + ((lanes_times(lanes_of(background), rest) + lanes_halves) >> 8 & lanes_codes));
 }
 
 /* Likewise; channels and coverage are q16. */
-static inline uint32_t light_over(const struct light *m, uint32_t still)
+static inline uint32_t light_over(const struct light *m, uint32_t background)
 {
     uint32_t rest = (65536u - m->a) >> 1;
-    uint32_t r = m->r + (smear_srgb_decode[pixel_red(still)] * rest >> 15);
-    uint32_t g = m->g + (smear_srgb_decode[pixel_green(still)] * rest >> 15);
-    uint32_t b = m->b + (smear_srgb_decode[pixel_blue(still)] * rest >> 15);
+    uint32_t r = m->r + (smear_srgb_decode[pixel_red(background)] * rest >> 15);
+    uint32_t g = m->g + (smear_srgb_decode[pixel_green(background)] * rest >> 15);
+    uint32_t b = m->b + (smear_srgb_decode[pixel_blue(background)] * rest >> 15);
     return pixel_make(0, smear_srgb_encode[min_u32(r >> 4, 4095u)], smear_srgb_encode[min_u32(g >> 4, 4095u)],
                       smear_srgb_encode[min_u32(b >> 4, 4095u)]);
 }
@@ -45,10 +45,10 @@ static inline bool mean_is_none(const struct mean *mean, bool linear)
     return linear ? mean->light.a == 0 : mean->codes >> 48 == 0;
 }
 
-/* Takes the mean of those pixels of the group alone that lie in front of the scene's surface, for one that lies within
- * the group's depths. x and y count in the group's planes. */
+/* Takes the mean of those pixels of the group alone that lie in front of the background, which is within the group's
+ * depths. x and y count in the group's planes. */
 static SMEAR_NOINLINE void mean_before(struct mean *out, const struct smear_streak_part *m, int32_t x, int32_t y,
-                                       uint32_t still_depth)
+                                       uint32_t background_depth)
 {
     const struct smear_streak *s = m->s;
     struct light light = { 0, 0, 0, 0 };
@@ -59,7 +59,7 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct smear_stre
         if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
             continue;
         int32_t at = py * m->a->stride + px;
-        if (m->a->depth[at] <= still_depth)
+        if (m->a->depth[at] <= background_depth)
             continue;
         uint32_t weight = abs_i32(t) > s->half ? s->rest : s->inner + s->rest;
         if (m->a->linear) {
@@ -111,7 +111,7 @@ static inline lanes over_each_other(lanes front, lanes back)
     return front + ((lanes_times(back, rest + (rest >> 7)) + lanes_halves) >> 8 & lanes_codes);
 }
 
-/* Puts `back`, of coverage b, between the scene and `front`, of coverage a, which have been merged:
+/* Puts `back`, of coverage b, between the background and `front`, of coverage a, which have been merged:
  * (1 - b) merged + (1 - a) back + b front. */
 static inline uint32_t codes_between_two(lanes front, lanes back, uint32_t merged)
 {
@@ -143,10 +143,11 @@ static SMEAR_NOINLINE void merge_between(const struct smear_streak_part *m, cons
     lanes before = lanes_of(a->over[at]);
     bool behind = depth < a->over_depth[at];
     if (!behind)
-        a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(codes, a->still[at]);
+        a->background[at] = a->linear ? light_over(&mean->light, a->background[at])
+                                      : codes_over(codes, a->background[at]);
     else
-        a->still[at] = a->linear ? light_between_two(before, &mean->light, a->still[at])
-                                 : codes_between_two(before, codes, a->still[at]);
+        a->background[at] = a->linear ? light_between_two(before, &mean->light, a->background[at])
+                                      : codes_between_two(before, codes, a->background[at]);
     if (!a->marks)
         return;
     codes = behind ? over_each_other(before, codes) : over_each_other(codes, before);
@@ -167,7 +168,7 @@ static inline void merge_mixed(const struct smear_streak_part *m, const struct m
         merge_between(m, mean, codes, depth, at);
         return;
     }
-    a->still[at] = a->linear ? light_over(&mean->light, a->still[at]) : codes_over(codes, a->still[at]);
+    a->background[at] = a->linear ? light_over(&mean->light, a->background[at]) : codes_over(codes, a->background[at]);
     if (a->marks) {
         a->over[at] = (uint32_t)(codes | codes >> 24);
         a->over_depth[at] = (uint16_t)depth;
@@ -196,7 +197,7 @@ static SMEAR_NOINLINE void find_range(struct smear_streak_part *m)
 static void finish_pixel(struct smear_streak_part *m, struct mean *mean, int32_t x, int32_t y, int32_t at)
 {
     const struct smear_streak_area *a = m->a;
-    uint32_t depth = a->still_depth[at];
+    uint32_t depth = a->background_depth[at];
     if (depth >= m->farthest && !m->has_range)
         find_range(m);
     if (depth >= m->nearest)
@@ -209,8 +210,8 @@ static void finish_pixel(struct smear_streak_part *m, struct mean *mean, int32_t
     if (x >= a->mixed0 && x < a->mixed1)
         merge_mixed(m, mean, depth_near(m, x, y), at);
     else
-        a->still[at] = a->linear ? light_over(&mean->light, a->still[at])
-                                 : codes_over(mean->codes, a->still[at]);
+        a->background[at] = a->linear ? light_over(&mean->light, a->background[at])
+                                      : codes_over(mean->codes, a->background[at]);
 }
 
 static inline void finish_codes(struct smear_streak_part *m, lanes codes, int32_t x, int32_t y, int32_t at)
@@ -248,7 +249,7 @@ static void along_light(struct smear_streak_part *m)
 {
     const int32_t node = m->s->node;
     for (int32_t y = m->low; y < m->high; y++) {
-        const int32_t row = (y - m->a->top) * m->a->still_stride - m->a->margin;
+        const int32_t row = (y - m->a->top) * m->a->background_stride - m->a->margin;
         const int32_t first = max_i32(max_i32(m->first, m->a->left + m->a->margin), m->first_of[y - m->low]);
         const struct light *l = m->node.light + (y - m->low) * m->nodes;
         for (int32_t x = first; x < min_i32(m->end, m->end_of[y - m->low]); x++) {
@@ -259,23 +260,23 @@ static void along_light(struct smear_streak_part *m)
     }
 }
 
-/* Merges the pixels from one node to the next over the scene alone. */
+/* Merges the pixels from one node to the next over the background alone. */
 SMEAR_INLINE void between_codes(struct smear_streak_part *m, lanes here, lanes next, int32_t x, int32_t y, int32_t row,
                                 int32_t node)
 {
     const uint32_t farthest = m->farthest;
-    uint32_t *still = m->a->still + row;
-    const uint16_t *depth = m->a->still_depth + row;
+    uint32_t *background = m->a->background + row;
+    const uint16_t *depth = m->a->background_depth + row;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
     int32_t end = x + (1 << node);
     if ((here & next) >> 48 == 255) {
         for (; x < end && depth[x] < farthest; x++, sum += next - here)
-            still[x] = lanes_pixel(sum >> node & lanes_codes);
+            background[x] = lanes_pixel(sum >> node & lanes_codes);
     }
     for (; x < end; x++, sum += next - here) {
         lanes codes = sum >> node & lanes_codes;
         if (depth[x] < farthest)
-            still[x] = codes_over(codes, still[x]);
+            background[x] = codes_over(codes, background[x]);
         else
             finish_codes(m, codes, x, y, row + x);
     }
@@ -307,18 +308,18 @@ SMEAR_INLINE void between_mixed_by(struct smear_streak_part *m, lanes here, lane
     }
     const uint32_t farthest = m->farthest;
     const lanes step = next - here;
-    uint32_t *still = a->still + row + x;
-    const uint16_t *still_depth = a->still_depth + row + x;
+    uint32_t *background = a->background + row + x;
+    const uint16_t *background_depth = a->background_depth + row + x;
     lanes sum = (here << node) + ((1u << node) >> 1) * 0x0001000100010001u;
     for (int32_t i = 0; i < n; i++, sum += step) {
         lanes codes = sum >> node & lanes_codes;
-        if (still_depth[i] >= farthest) {
+        if (background_depth[i] >= farthest) {
             finish_codes(m, codes, x + i, y, row + x + i);
         } else if (any != 0 && codes >> 48 != 0) {
             struct mean mean = { .codes = codes };
             merge_mixed(m, &mean, near, row + x + i);
         } else {
-            still[i] = codes_over(codes, still[i]);
+            background[i] = codes_over(codes, background[i]);
             over[i] = (uint32_t)(codes | codes >> 24);
             over_depth[i] = (uint16_t)near;
         }
@@ -342,7 +343,7 @@ SMEAR_INLINE void along_codes_by(struct smear_streak_part *m, int32_t node)
     const struct smear_streak_area *a = m->a;
     const int32_t n = 1 << node, last = m->end, mixed0 = a->mixed0, mixed1 = a->mixed1;
     for (int32_t y = m->low; y < m->high; y++) {
-        const int32_t row = (y - a->top) * a->still_stride - a->margin;
+        const int32_t row = (y - a->top) * a->background_stride - a->margin;
         const int32_t left = max_i32(a->left + a->margin, m->first_of[y - m->low]);
         const int32_t end = min_i32(last, m->end_of[y - m->low]);
         const lanes *c = m->node.codes + (y - m->low) * m->nodes;
@@ -385,7 +386,7 @@ static void finish_across(struct smear_streak_part *m)
     const struct smear_streak_area *a = m->a;
     const int32_t node = m->s->node;
     for (int32_t y = a->top; y < a->top + a->height; y++) {
-        int32_t row = (y - a->top) * a->still_stride - a->margin, k = (y - m->first) >> node;
+        int32_t row = (y - a->top) * a->background_stride - a->margin, k = (y - m->first) >> node;
         int32_t part = (y - m->first) & ((1 << node) - 1), here = k * m->along,
                 next = min_i32(k + 1, m->nodes - 1) * m->along;
         for (int32_t x = m->low; x < m->high; x++, here++, next++) {

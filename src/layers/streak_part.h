@@ -95,7 +95,7 @@ struct smear_streak_part {
  * pass through each other: what is mixed must not depend on the pixels before. */
 void smear_streak_find_depths(struct smear_streak_part *m);
 
-/* Merges the means of a part's nodes, mixed for the pixels between them, over the static scene. */
+/* Merges the means of a part's nodes, mixed for the pixels between them, over the background. */
 void smear_streak_finish(struct smear_streak_part *m);
 
 #endif

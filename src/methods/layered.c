@@ -190,7 +190,7 @@ static void keep_depths(const struct layers_row *r)
     const struct smear_layer_rows *rows = &r->layers->rows;
     for (int32_t y = 0; y < r->area.height; y++) {
         const uint16_t *depth = rows->depth + (y + r->area.top) * rows->width + rows->margin;
-        uint16_t *under = r->area.still_depth + y * r->area.still_stride;
+        uint16_t *under = r->area.background_depth + y * r->area.background_stride;
         for (int32_t x = max_i32(r->target.x0 - rows->margin, 0);
              x < min_i32(r->target.x1 - rows->margin, r->row.rows->window.width); x++)
             under[x] = (uint16_t)max_u32(under[x], depth[x]);
@@ -234,7 +234,8 @@ static void set_area(struct layers_row *r)
         .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
         .rows = height + 2 * s->reach_y, .tile = frame->window.tile,
         .row_first = rows->row_first, .row_end = rows->row_end, .top = s->reach_y, .margin = rows->margin,
-        .still = r->background.color, .still_depth = r->background.depth, .still_stride = frame->window.width,
+        .background = r->background.color, .background_depth = r->background.depth,
+        .background_stride = frame->window.width,
         .over = rows->over, .over_depth = rows->over_depth, .mixed0 = group->mixed0, .mixed1 = group->mixed1,
         .marks = group->marks, .marked_from = group->marked_from, .height = height,
         .nearest = group->rank != 0 ? 65536u : group->nearest,
@@ -278,7 +279,8 @@ static void set_gather(struct layers_row *r)
     const struct smear_group *group = r->group;
     r->gather = (struct smear_gather_area){
         .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
-        .still = r->background.color, .still_depth = r->background.depth, .still_stride = frame->window.width,
+        .background = r->background.color, .background_depth = r->background.depth,
+        .background_stride = frame->window.width,
         .passed = rows->over, .passed_depth = rows->over_depth,
         .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks,
         .height = r->area.height, .tile_shift = frame->window.tile_shift,
