@@ -5,28 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_arc(void);
 
 enum { ONE = 1 << 24 };
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-/* low .. high */
-static double uniform(double low, double high)
-{
-    return low + (high - low) * random_u32() / 4294967295.0;
-}
 
 /* ------------------------------------------------------------------ rotations in double */
 

@@ -3,6 +3,7 @@
  * frame. Needs neither libc nor floating point. */
 #include "geometry/bins.h"
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_bins(void);
@@ -16,22 +17,6 @@ static struct smear_bins bins;
 
 /* What was added, in order. */
 static struct { int first, end; bool blend; } added[MOST];    /* pixel rows [first, end) */
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-static int between(int low, int high)
-{
-    return low + (int)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 static void begin(int first, int end)
 {

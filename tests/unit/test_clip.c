@@ -4,27 +4,10 @@
  * point. */
 #include "geometry/clip.h"
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_clip(void);
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-/* low .. high, both included; high - low < 2^32 */
-static int32_t between(int32_t low, int32_t high)
-{
-    uint32_t span = (uint32_t)high - (uint32_t)low + 1u;
-    return (int32_t)((uint32_t)low + random_u32() % span);
-}
 
 enum { NEAR_AT = 1 << 12, FAR_AT = 1 << 22 };
 

@@ -5,6 +5,7 @@
 
 #include "base/crc32.h"
 #include "base/tables.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_convert(void);
@@ -13,17 +14,6 @@ enum { MOST = 80 };
 
 static uint32_t pixels[MOST];
 static uint8_t band[MOST * 4 * 8];
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 static void band_fill(uint8_t value)
 {

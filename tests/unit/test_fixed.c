@@ -28,20 +28,10 @@
 #undef scale_sat
 #undef narrow_sat
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_fixed(void);
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 /* Random values of every magnitude: a plain random word is nearly always large. */
 static int32_t random_i32(void)

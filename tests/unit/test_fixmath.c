@@ -49,20 +49,10 @@
 #undef sqrt_floor_64
 #undef sqrt_q3
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_fixmath(void);
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 static uint64_t random_u64(void)
 {

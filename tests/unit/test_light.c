@@ -4,6 +4,7 @@
 #include "geometry/light.h"
 
 #include "base/tables.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 #include <math.h>
@@ -11,27 +12,6 @@
 void suite_light(void);
 
 static const smear_material plain = { 0 };
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * random_u32() / 4294967295.0;
-}
-
-static int between(int low, int high)
-{
-    return low + (int)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 static void random_unit(double v[3])
 {

@@ -6,22 +6,12 @@
 #define SMEAR_HAS_MUL64 0
 #include <smear_math.h>
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_math(void);
 
 enum { ONE = SMEAR_BASIS_ONE };
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 /* Of all magnitudes. */
 static int32_t random_i32(void)

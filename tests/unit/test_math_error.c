@@ -5,6 +5,7 @@
 #include <smear_math.h>
 #include <stdlib.h>
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_math_error(void);
@@ -13,17 +14,6 @@ void suite_math_error(void);
 #define TAU 6.283185307179586476925
 
 enum { TRIES = 200000 };
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 /* Of all magnitudes. */
 static int32_t random_i32(void)

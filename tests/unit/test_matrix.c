@@ -4,33 +4,12 @@
 #include "geometry/matrix.h"
 
 #include "geometry/transform.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 #include <math.h>
 
 void suite_matrix(void);
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * random_u32() / 4294967295.0;
-}
-
-static int32_t between(int32_t low, int32_t high)
-{
-    uint32_t span = (uint32_t)high - (uint32_t)low + 1u;
-    return (int32_t)((uint32_t)low + (span != 0 ? random_u32() % span : random_u32()));
-}
 
 static int32_t wild(void)
 {

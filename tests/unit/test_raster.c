@@ -6,6 +6,7 @@
 
 #include "base/pixel.h"
 #include "geometry/transform.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_raster(void);
@@ -31,28 +32,6 @@ static uint8_t moving[W / 8];
 static uint32_t list_last;
 
 /* ------------------------------------------------------------------ random numbers */
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-/* low .. high, both included */
-static int32_t between(int32_t low, int32_t high)
-{
-    return low + (int32_t)(random_u32() % (uint32_t)(high - low + 1));
-}
-
-static bool chance(int one_in)
-{
-    return random_u32() % (uint32_t)one_in == 0;
-}
 
 /* ------------------------------------------------------------------ lists made by hand */
 

@@ -4,6 +4,7 @@
 #include "raster/texture.h"
 
 #include "base/tables.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_texture(void);
@@ -14,22 +15,6 @@ static uint32_t texels[MOST];
 static uint16_t texels565[MOST];
 static uint8_t texels8[MOST];
 static uint32_t palette[256];
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-static int32_t between(int32_t low, int32_t high)
-{
-    return low + (int32_t)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 static void random_texels(void)
 {

@@ -3,6 +3,7 @@
  * sizes, the corner rule, the classes. Needs neither libc nor floating point. */
 #include "filter/tilemax.h"
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_tilemax(void);
@@ -14,22 +15,6 @@ static int16_t wide[MOST_PIXELS * 2];
 static struct smear_tile_motion motion[3 * MOST_COLUMNS];
 static struct smear_tile_neighborhood around[3 * MOST_COLUMNS];
 static struct smear_window window;
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-static int between(int low, int high)
-{
-    return low + (int)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 /* A window of tiles of 8 px whose ring holds `ring` rows; still. */
 static void make_window(int width, int height, int ring, bool is_wide)

@@ -6,6 +6,7 @@
 #include "base/pixel.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
+#include "tests/random.h"
 #include "tests/test.h"
 
 void suite_timemask(void);
@@ -35,23 +36,6 @@ static int32_t instant_depth[W * H];
 static uint32_t texels[32 * 32];
 
 /* ------------------------------------------------------------------ random numbers */
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-/* low .. high, both included */
-static int32_t between(int32_t low, int32_t high)
-{
-    return low + (int32_t)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 /* ------------------------------------------------------------------ scenes made by hand */
 

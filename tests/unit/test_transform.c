@@ -3,33 +3,12 @@
  * precision: rigid, scaled, sheared, mirrored, tiny and huge transforms. Host only. */
 #include "geometry/transform.h"
 
+#include "tests/random.h"
 #include "tests/test.h"
 
 #include <math.h>
 
 void suite_transform(void);
-
-static uint32_t random_state;
-
-static uint32_t random_u32(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
-
-/* low .. high */
-static double uniform(double low, double high)
-{
-    return low + (high - low) * random_u32() / 4294967295.0;
-}
-
-static int32_t between(int32_t low, int32_t high)
-{
-    return low + (int32_t)(random_u32() % (uint32_t)(high - low + 1));
-}
 
 /* A random rotation times `scale`, q24. */
 static void random_rotation(int32_t basis[9], double scale)
