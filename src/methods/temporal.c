@@ -144,9 +144,8 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
     struct smear_rows *rows = f->row.rows;
     struct smear_moving_tile t = tiles_of(f, column, column + 1, worker);
     if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
-        bool is_smooth;
-        rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask, &is_smooth);
-        load_set_method(&f->self->moving.load[column], is_smooth ? TILE_SMOOTH : TILE_TIMEMASK);
+        rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask);
+        load_set_method(&f->self->moving.load[column], TILE_TIMEMASK);
     } else {
         blend_static(&t, rows);
     }
@@ -181,8 +180,8 @@ static void count_tiles(const struct smear_temporal *self, const struct smear_ro
 {
     for (int32_t i = 0; i < rows->window.columns; i++) {
         const enum smear_tile_method method = load_method(&self->moving.load[i]);
-        smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : method == TILE_SMOOTH ? TILE_UNIFORM : TILE_COMPLEX,
-                        method == TILE_SMOOTH ? SMEAR_AUTO : method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
+        smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : TILE_COMPLEX,
+                        method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
     }
 }
 

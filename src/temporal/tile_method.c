@@ -120,7 +120,7 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
     } else if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (load->flags & PATH_WITHOUT_MASK) == 0) {
         choice->method = TILE_TIMEMASK;
         choice->timemask = (struct smear_timemask_settings){
-            chooser->samples <= 8 ? 8 : chooser->samples <= 16 ? 16 : 32, 16, 6, 256, 0
+            chooser->samples <= 8 ? 8 : chooser->samples <= 16 ? 16 : 32, 16, 6, 256
         };
     } else {
         choice->method = TILE_SUBFRAMES;

@@ -26,8 +26,7 @@ enum {
     PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | TILE_BLENDED
 };
 
-/* TILE_SMOOTH: a time mask whose samples lie apart. */
-enum smear_tile_method { TILE_COPY, TILE_SMOOTH, TILE_SUBFRAMES, TILE_TIMEMASK };
+enum smear_tile_method { TILE_COPY, TILE_SUBFRAMES, TILE_TIMEMASK };
 
 static inline enum smear_tile_method load_method(const struct smear_tile_load *load)
 {

@@ -7,15 +7,12 @@
 #include "temporal/timemask_cover.h"
 #include "temporal/timemask_shade.h"
 #include "temporal/timemask_samples.h"
-#include "temporal/timemask_spread.h"
 #include "geometry/transform.h"
 
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
 enum { PIXELS_LOG2 = 7, PIECES_LOG2 = 4 };     /* entries of a block, at most */
-
-enum { SPARSE_LOG2_MAX = 2 };
 
 enum {
     LISTED = 100,                               /* moving triangles that are drawn in order of depth */
@@ -33,12 +30,7 @@ struct job {
     int32_t segments_log2;
     int32_t slots_log2;                         /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
-    int32_t across_log2, down_log2;             /* px from a sample to the next */
-    bool swapped;                               /* the block's rows run down: they are long where
-                                                 * samples lie apart across */
-    int32_t front, back;                        /* depth codes: no moving triangle is at or before, beyond this */
-    int32_t x, y, last_x, last_y;               /* pixels of the block's first and last sample */
-    int32_t width, height;                      /* its samples: in a row, rows */
+    int32_t x, y, width, height;                /* the block's pixels */
     int32_t stride;                             /* from a row of entries to the next */
     bool even;                                  /* slots are */
     uint32_t fragments;
@@ -59,10 +51,8 @@ static void moving_take(struct moving *m, const struct job *j, uint32_t i)
     m->bounds = bins_bounds(g, triangle);
     m->triangle = bins_triangle(g, triangle);
     m->segment = &g->segment[m->triangle->segment];
-    /* What is mirrored turns the other way round. */
-    const int order[3] = { 0, j->swapped ? 2 : 1, j->swapped ? 1 : 2 };
     for (int k = 0; k < 3; k++)
-        m->record[k] = bins_vertex(g, m->segment, m->triangle->vertex[order[k]]);
+        m->record[k] = bins_vertex(g, m->segment, m->triangle->vertex[k]);
 }
 
 /* ------------------------------------------------------------------ order */
@@ -90,9 +80,7 @@ static void list_moving(struct job *j)
     j->first = j->next;
     j->listed = 0;
     for (; j->next < t->moving_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
-        if (moving_is_in(&t->moving[j->next], t)
-            /* the last samples lie there */
-            || (j->across_log2 != 0 && t->moving[j->next].first == t->column + 1))
+        if (moving_is_in(&t->moving[j->next], t))
             j->list[j->listed++] = (uint32_t)t->moving[j->next].nearest << 16
                                  | (65535u - (j->next - j->first));
     sort_down(j->list, j->listed);
@@ -142,160 +130,26 @@ static void choose_segments(struct job *j)
         j->time[i] = t->shutter->time[i * (SHUTTER_SAMPLES >> log2)];
 }
 
-/* ------------------------------------------------------------------ samples */
-
-/* How all moving triangles of a tile go. */
-struct flow {
-    int32_t least[2], most[2];  /* q8 px: the shortest and the longest ways along both axes */
-    int32_t nearest, farthest;  /* depth codes */
-};
-
-static inline bool is_sparse(const struct job *j)
-{
-    return (j->across_log2 | j->down_log2) != 0;
-}
-
-/* Of units q4. */
-static inline int32_t depth_code(int32_t units)
-{
-    return units < 32768 << 4 ? (units + 8) >> 4 : (units + ((15 * 32768) << 4) + 128) >> 8;
-}
-
-enum { LARGE_BEND = 16 };       /* 1/16 px */
-
-/* Not a sliver: its area is a quarter of that of its box, or more. */
-static bool is_wide(const struct timemask_pose *p)
-{
-    int64_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
-    int64_t area = x1 * y2 - x2 * y1, width = max_i32(p->x[0], max_i32(p->x[1], p->x[2]))
-                                            - min_i32(p->x[0], min_i32(p->x[1], p->x[2]));
-    int64_t height = max_i32(p->y[0], max_i32(p->y[1], p->y[2]))
-                   - min_i32(p->y[0], min_i32(p->y[1], p->y[2]));
-    return (area < 0 ? -area : area) * 2 >= width * height;
-}
-
-/* Displacements at the vertices, q8 px, during the whole exposure; of a triangle much
- * larger than the tile at the tile's corners in its plane: a floor may stand still at the
- * horizon and rush by here. How many: 3 or 4. */
-static int displacements(int32_t out[4][2], const struct job *j, const struct moving *m)
-{
-    const struct smear_path_bounds *b = m->bounds;
-    const struct smear_raster_target *tile = &j->tile->still;
-    const int32_t scale = b->interval == 0 ? 1 : PATH_INTERVALS;
-    int32_t value[2][3];
-    struct timemask_pose p;
-    for (int i = 0; i < 3; i++) {
-        const int32_t *middle = m->record[i], *open = middle + m->segment->motion,
-                      *close = open + PATH_POSE_WORDS;
-        for (int axis = 0; axis < 2; axis++) {
-            value[axis][i] = (close[axis] - open[axis]) * scale;
-            out[i][axis] = value[axis][i];
-        }
-        p.x[i] = middle[PATH_X] - (tile->x0 + tile->x1) * 128;
-        p.y[i] = middle[PATH_Y] - (tile->y0 + tile->y1) * 128;
-    }
-    struct timemask_shape shape;
-    if (min_i32(b->x1 - b->x0, b->y1 - b->y0) <= 3 * j->tile->tile || b->curvature > LARGE_BEND || !is_wide(&p)
-        || !smear_timemask_shape(&shape, &p))
-        return 3;
-    const int32_t half_x = (tile->x1 - tile->x0) >> 1, half_y = (tile->y1 - tile->y0) >> 1;
-    for (int axis = 0; axis < 2; axis++) {
-        struct timemask_slopes s = smear_timemask_slopes(&shape, value[axis]);
-        int32_t low = min_i32(value[axis][0], min_i32(value[axis][1], value[axis][2]));
-        int32_t high = max_i32(value[axis][0], max_i32(value[axis][1], value[axis][2]));
-        int64_t middle = value[axis][0] - (((int64_t)s.dx * p.x[0] + (int64_t)s.dy * p.y[0]) >> 8);
-        for (int i = 0; i < 4; i++) {
-            int64_t at = middle + (int64_t)s.dx * (i & 1 ? half_x : -half_x)
-                       + (int64_t)s.dy * (i & 2 ? half_y : -half_y);
-            out[i][axis] = (int32_t)(at < low ? low : at > high ? high : at);
-        }
-    }
-    return 4;
-}
-
-static void flow_add(struct flow *f, const struct job *j, const struct moving *m)
-{
-    int32_t d[4][2], low = INT32_MAX, high = INT32_MIN;
-    const int places = displacements(d, j, m);
-    for (int axis = 0; axis < 2; axis++) {
-        int32_t from = d[0][axis], to = from;
-        for (int i = 1; i < places; i++) {
-            from = min_i32(from, d[i][axis]);
-            to = max_i32(to, d[i][axis]);
-        }
-        f->least[axis] = min_i32(f->least[axis], from > 0 ? from : to < 0 ? -to : 0);
-        f->most[axis] = max_i32(f->most[axis], max_i32(-from, to));
-    }
-    for (int i = 0; i < 3; i++) {
-        const int32_t *middle = m->record[i], *open = middle + m->segment->motion,
-                      *close = open + PATH_POSE_WORDS;
-        low = min_i32(low, min_i32(middle[PATH_DEPTH], min_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
-        high = max_i32(high, max_i32(middle[PATH_DEPTH], max_i32(open[PATH_DEPTH], close[PATH_DEPTH])));
-    }
-    /* Parabolas leave the range of their places by at most an
-     * eighth of it; planes of slivers are less exact. */
-    low = max_i32(low - ((high - low) >> 2), 0);
-    f->farthest = min_i32(f->farthest, depth_code(low >> 7) - 2);
-    f->nearest = max_i32(f->nearest, m->bounds->nearest + 2);
-}
-
-/* Samples lie apart where all moving triangles of the tile go far along an axis, and not much along the other. */
-static void choose_samples(struct job *j)
-{
-    const struct smear_moving_tile *t = j->tile;
-    struct flow f = { { INT32_MAX, INT32_MAX }, { 0, 0 }, 0, 65535 };
-    j->across_log2 = j->down_log2 = 0;
-    if (j->settings->sparse == 0)
-        return;
-    const int32_t one = j->settings->sparse << 8;
-    for (uint32_t i = 0; i < t->moving_count; i++) {
-        struct moving m;
-        if (!moving_is_in(&t->moving[i], t))
-            continue;
-        moving_take(&m, j, i);
-        flow_add(&f, j, &m);
-        if (max_i32(f.least[0], f.least[1]) < 2 * one)
-            return;
-    }
-    j->front = f.nearest;
-    j->back = f.farthest;
-    const int u = f.least[0] >= f.least[1] ? 0 : 1;
-    int log2 = 0, aside_log2 = 0;
-    while (log2 < SPARSE_LOG2_MAX && f.least[u] >= one << (log2 + 1))
-        log2++;
-    if (f.least[1 - u] > f.least[u] >> 1 && f.least[1 - u] >= 2 * one) {
-        log2 = min_i32(log2, 2);
-        aside_log2 = 1;
-    }
-    j->across_log2 = u == 0 ? log2 : aside_log2;
-    j->down_log2 = u == 0 ? aside_log2 : log2;
-    j->swapped = j->across_log2 > j->down_log2;
-}
-
 /* ------------------------------------------------------------------ triangles */
 
-/* The triangle at a time, 0 .. SHUTTER_CLOSE, in the distances between samples. Most often it is
- * asked for one of the places that are kept. */
+/* The triangle at a time, 0 .. SHUTTER_CLOSE, as the block sees it. Most often it is asked for one of the places that
+ * are kept. */
 static void pose_at(struct timemask_pose *p, const struct job *j, const struct moving *m, int32_t time)
 {
-    int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
-    int32_t *across = j->swapped ? p->y : p->x, *down = j->swapped ? p->x : p->y;
-    if ((time & (SHUTTER_CLOSE / 2 - 1)) == 0) {
-        int at = time == SHUTTER_CLOSE / 2 ? 0 : m->segment->motion + (time != 0 ? PATH_POSE_WORDS : 0);
-        for (int i = 0; i < 3; i++) {
-            const int32_t *place = m->record[i] + at;
-            across[i] = (place[PATH_X] - x) >> j->across_log2;
-            down[i] = (place[PATH_Y] - y) >> j->down_log2;
-            p->depth[i] = place[PATH_DEPTH];
-        }
-        return;
-    }
+    const int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
+    const bool is_kept = (time & (SHUTTER_CLOSE / 2 - 1)) == 0;
+    const int at = time == SHUTTER_CLOSE / 2 ? 0 : m->segment->motion + (time != 0 ? PATH_POSE_WORDS : 0);
     for (int i = 0; i < 3; i++) {
-        int32_t place[3];
-        path_at(place, m->record[i], m->segment, time);
-        across[i] = (place[PATH_X] - x) >> j->across_log2;
-        down[i] = (place[PATH_Y] - y) >> j->down_log2;
-        p->depth[i] = clamp_i32(place[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);      /* a parabola overshoots */
+        int32_t between[3];
+        const int32_t *place = m->record[i] + at;
+        if (!is_kept) {
+            path_at(between, m->record[i], m->segment, time);
+            between[2] = clamp_i32(between[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);     /* a parabola overshoots */
+            place = between;
+        }
+        p->x[i] = place[PATH_X] - x;
+        p->y[i] = place[PATH_Y] - y;
+        p->depth[i] = place[PATH_DEPTH];
     }
 }
 
@@ -346,9 +200,6 @@ struct painter {
     int32_t time_shift;         /* from twice a slot to time */
 };
 
-/* Depths of no still scene. */
-static const uint16_t nothing[TIMEMASK_WIDTH] = { 0 };
-
 /* The fragments of a block. */
 SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p,
                             bool plain, bool turns)
@@ -368,9 +219,7 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
             continue;
         const struct timemask_here row = timemask_here(&depth, 0, y);
         const uint32_t pixel = (uint32_t)(y * j->stride);
-        const uint16_t *still = nothing;
-        if (!is_sparse(j))
-            still = target->depth + still_at(&target->window_rows, target, j->x, j->y + y);
+        const uint16_t *still = target->depth + still_at(&target->window_rows, target, j->x, j->y + y);
         for (int32_t i = 0; i < n; i++) {
             int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]),
                     to = timemask_run_to(run[i]);
@@ -424,8 +273,7 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
     if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
-                         (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c,
-                         max_i32(j->settings->tap >> max_i32(j->across_log2, j->down_log2), 1));
+                         (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
     if (m->bounds->interval != 0) {    /* its ends may lie before the near plane, where
                                      * depths end: its middle tells */
         s.depth.change = s.depth.change_dx = s.depth.change_dy = s.depth.curve = 0;
@@ -490,7 +338,7 @@ static void draw_moving(struct job *j, uint32_t i)
     struct moving m;
     moving_take(&m, j, i);
     const struct smear_path_bounds *b = m.bounds;
-    if (b->x0 > j->last_x || b->x1 <= j->x || b->y0 > j->last_y || b->y1 <= j->y)
+    if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
         return;
     if (b->interval == 0)
         draw_whole(j, &m);
@@ -512,61 +360,35 @@ static void draw_listed(struct job *j)
 
 /* ------------------------------------------------------------------ blocks */
 
-/* Pixels [x, x + width) and rows [y, y + height) of the tile. */
-struct block {
-    int32_t width, height;
-};
-
-static void finish_block(const struct job *j, const struct block *b)
+static void finish_block(const struct job *j)
 {
     const struct smear_moving_tile *t = j->tile;
     const struct smear_raster_target *still = &t->still;
-    struct timemask_spread spread;
-    if (is_sparse(j)) {
-        spread.slots = &j->slots;
-        spread.right = j->swapped ? j->stride : 1;
-        spread.down = j->swapped ? 1 : j->stride;
-        spread.across_log2 = j->across_log2;
-        spread.down_log2 = j->down_log2;
-        spread.width = b->width;
-        spread.front = j->front;
-        spread.back = j->back;
-    }
-    for (int32_t y = 0; y < b->height; y++) {
+    for (int32_t y = 0; y < j->height; y++) {
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
         uint32_t *out = t->out + (j->y + y - still->y0) * t->pitch + (j->x - still->x0);
-        if (is_sparse(j)) {
-            smear_timemask_spread(&spread, y, out, color,
-                                  still->depth + still_at(&still->window_rows, still, j->x, j->y + y));
-            continue;
-        }
-        for (int32_t x = 0; x < b->width; x++) {
+        for (int32_t x = 0; x < j->width; x++) {
             uint32_t at = (uint32_t)(y * j->stride + x);
             out[x] = j->slots.count[at] == 0 ? color[x] : smear_timemask_samples_mean(&j->slots, at, color[x]);
         }
     }
 }
 
-/* Samples that n pixels need: where they lie apart, one at or beyond the last pixel. */
-static inline int32_t samples_for(int32_t n, int32_t log2)
+/* Draws the block's moving triangles, as many at a time as the list has room for. */
+static void draw_block(struct job *j)
 {
-    return ((n - 1) >> log2) + (log2 != 0 ? 2 : 1);
-}
-
-/* The largest block whose samples fit, halving the tile. */
-static void choose_block(struct job *j, struct block *b, int32_t pixels)
-{
-    int32_t width = j->tile->tile, height = width;      /* along and across the block's rows */
-    const int32_t width_log2 = j->swapped ? j->down_log2 : j->across_log2;
-    const int32_t height_log2 = j->swapped ? j->across_log2 : j->down_log2;
-    while (samples_for(width, width_log2) > TIMEMASK_WIDTH)
-        width >>= 1;
-    j->stride = samples_for(width, width_log2);
-    while (samples_for(height, height_log2) > TIMEMASK_HEIGHT
-           || samples_for(height, height_log2) * j->stride > pixels)
-        height >>= 1;
-    b->width = j->swapped ? height : width;
-    b->height = j->swapped ? width : height;
+    smear_timemask_samples_clear(&j->slots);
+    if (j->first != 0) {        /* they did not fit at once: from the start */
+        j->next = 0;
+        list_moving(j);
+    }
+    for (;;) {
+        draw_listed(j);
+        if (j->next == j->tile->moving_count)
+            break;
+        list_moving(j);
+    }
+    finish_block(j);
 }
 
 /* Log2 of the entries that the memory is enough for. */
@@ -585,43 +407,28 @@ size_t smear_timemask_work(int32_t tile)
     return timemask_samples_bytes(1u << PIXELS_LOG2) + LISTED * sizeof(uint32_t);
 }
 
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t,
-                             const struct smear_timemask_settings *settings, bool *is_smooth)
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
 {
     const int log2 = pixels_log2(t->work_bytes);
+    const struct smear_raster_target *still = &t->still;
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
-    struct block most;
     smear_timemask_samples_place(&j.slots, j.list + LISTED, log2,
                                31 - count_leading_zeros((uint32_t)settings->slots),
                                frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
-    choose_samples(&j);
-    *is_smooth = is_sparse(&j);
-    choose_block(&j, &most, 1 << log2);
     list_moving(&j);
-    for (j.y = t->still.y0; j.y < t->still.y1; j.y += most.height)
-        for (j.x = t->still.x0; j.x < t->still.x1; j.x += most.width) {
-            const struct block b = { min_i32(t->still.x1 - j.x, most.width),
-                                     min_i32(t->still.y1 - j.y, most.height) };
-            const int32_t across = samples_for(b.width, j.across_log2),
-                          down = samples_for(b.height, j.down_log2);
-            j.last_x = j.x + ((across - 1) << j.across_log2);
-            j.last_y = j.y + ((down - 1) << j.down_log2);
-            j.width = j.swapped ? down : across;
-            j.height = j.swapped ? across : down;
-            smear_timemask_samples_clear(&j.slots);
-            if (j.first != 0) {         /* did not fit at once: from the start */
-                j.next = 0;
-                list_moving(&j);
-            }
-            for (;;) {
-                draw_listed(&j);
-                if (j.next == t->moving_count)
-                    break;
-                list_moving(&j);
-            }
-            finish_block(&j, &b);
+    /* The largest blocks whose entries fit: halves of the tile. */
+    int32_t height = t->tile;
+    for (j.stride = t->tile; j.stride > TIMEMASK_WIDTH;)
+        j.stride >>= 1;
+    while (height > TIMEMASK_HEIGHT || height * j.stride > 1 << log2)
+        height >>= 1;
+    for (j.y = still->y0; j.y < still->y1; j.y += height)
+        for (j.x = still->x0; j.x < still->x1; j.x += j.stride) {
+            j.width = min_i32(still->x1 - j.x, j.stride);
+            j.height = min_i32(still->y1 - j.y, height);
+            draw_block(&j);
         }
     return j.fragments;
 }

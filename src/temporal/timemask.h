@@ -16,13 +16,9 @@ struct smear_timemask_settings {
     int32_t edge;               /* what an edge may err where it turns: 2^-edge px of contrast
                                  * squared, per px of its length */
     int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
-    int32_t sparse;             /* px of travel per px between samples: fewer are taken
-                                 * where all moves far; 0: never */
 };
 
-/* Opaque moving triangles. Cutouts and blended draws are for subframes.h. Returns the fragments taken;
- * `is_smooth`: whether samples were taken apart. */
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t,
-                             const struct smear_timemask_settings *settings, bool *is_smooth);
+/* Draws a tile of opaque moving triangles. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
+uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings);
 
 #endif

@@ -264,39 +264,3 @@ uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t 
     green += (still >> 8 & 0xffu) * rest;
     return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
 }
-
-/* ------------------------------------------------------------------ sums */
-
-/* Adds n slots of a colour. */
-static inline void sum_add(uint32_t sum[TIMEMASK_SUM_WORDS], uint32_t color, uint32_t n, bool linear)
-{
-    if (linear) {
-        sum[0] += n * smear_srgb_decode[pixel_red(color)];
-        sum[1] += n * smear_srgb_decode[pixel_green(color)];
-        sum[2] += n * smear_srgb_decode[pixel_blue(color)];
-        sum[3] += n;
-    } else {
-        sum[0] += (color & 0xff00ffu) * n;
-        sum[1] += (pixel_green(color) << 16 | 1u) * n;
-    }
-}
-
-void smear_timemask_samples_sum(const struct timemask_samples *b, uint32_t pixel,
-                              uint32_t sum[TIMEMASK_SUM_WORDS])
-{
-    sum[0] = sum[1] = sum[2] = sum[3] = 0;
-    for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2)
-        sum_add(sum, b->color[at], count_bits(b->held[at]), b->linear);
-}
-
-void smear_timemask_samples_sum_before(const struct timemask_samples *b, uint32_t pixel, int32_t code,
-                                     uint32_t sum[TIMEMASK_SUM_WORDS])
-{
-    const int32_t last_slot = (1 << b->slots_log2) - 1;
-    sum[0] = sum[1] = sum[2] = sum[3] = 0;
-    for (uint32_t i = 0, at = pixel; i < b->count[pixel]; i++, at += 1u << b->pixels_log2) {
-        int32_t nearer = ((int32_t)b->depth[at] - code) * 32, slope = timemask_slope_of(b->color[at]);
-        sum_add(sum, b->color[at], count_bits(nearer_slots(nearer, slope, b->held[at], last_slot)),
-                b->linear);
-    }
-}

@@ -108,15 +108,4 @@ int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t 
 /* The pixel over the still scene's colour. */
 uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t still);
 
-/* What entries add up to, in slots x codes: red and blue, 16 bits each, green and slots; in linear light
- * red, green, blue (q16 of light) and slots. */
-enum { TIMEMASK_SUM_WORDS = 4 };
-
-void smear_timemask_samples_sum(const struct timemask_samples *b, uint32_t pixel,
-                              uint32_t sum[TIMEMASK_SUM_WORDS]);
-
-/* The same of what is nearer than a depth code. */
-void smear_timemask_samples_sum_before(const struct timemask_samples *b, uint32_t pixel, int32_t code,
-                                     uint32_t sum[TIMEMASK_SUM_WORDS]);
-
 #endif

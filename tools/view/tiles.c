@@ -35,8 +35,6 @@ static struct tile_note temporal_tile(const struct smear_probe *c, const struct 
     smear_tile_method_choose(&choice, &c->temporal->chooser, load);
     if (load_method(load) == TILE_SUBFRAMES)
         return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
-    if (load_method(load) == TILE_SMOOTH)
-        return (struct tile_note){ TILES_SMOOTH, TILES_UNIFORM, (uint16_t)choice.timemask.slots };
     return (struct tile_note){ TILES_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
 }
 
