@@ -237,7 +237,7 @@ endif
 # The chart without what measures.
 CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
-TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
+TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/unit/store.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
     $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What the suite of kernels calls: a family of kernels in each.

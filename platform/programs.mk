@@ -31,7 +31,7 @@ GOLDEN_OBJ  := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/golden.o
 SMALL_OBJ   := $(PLAYER_OBJ) $(BUILD)/$(TAPES)/small.o
 BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_bench.o $(BUILD)/platform/play.o \
                $(BUILD)/$(TAPES)/bench.o
-UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_unit.o $(BUILD)/tests/test.o $(BUILD)/tests/random.o \
+UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_unit.o $(BUILD)/tests/test.o $(BUILD)/tests/random.o $(BUILD)/tests/unit/store.o \
                $(UNIT_SUITES:%=$(BUILD)/tests/unit/test_%.o) $(KERNEL_TESTS:%.c=$(BUILD)/%.o)
 
 $(TAPES)/target_tapes: $(TAPES_SRC)

@@ -8,6 +8,7 @@
 #include "geometry/transform.h"
 #include "tests/random.h"
 #include "tests/test.h"
+#include "tests/unit/store.h"
 
 void suite_raster(void);
 
@@ -23,71 +24,26 @@ struct planes {
 
 static struct planes full, cut;
 
-static uint32_t pool[POOL_WORDS];
-static struct smear_segment segment[SEGMENTS];
-static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_bins geometry;
-static struct smear_raster_frame frame;
+static uint32_t store[POOL_WORDS];
 static uint8_t moving[W / 8];
 static uint32_t list_last;
 
-/* ------------------------------------------------------------------ random numbers */
-
 /* ------------------------------------------------------------------ lists made by hand */
 
-/* Empties the pool; segment i belongs to draw i and is flat, opaque and still unless a test says
- * otherwise (set_layout). All share one base, so offsets mean the same in each. */
 static void list_begin(void)
 {
-    geometry = (struct smear_bins){
-        .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
-        .segment_limit = SEGMENTS
-    };
-    for (int i = 0; i < SEGMENTS; i++) {
-        segment[i] = (struct smear_segment){
-            .draw = (uint16_t)i, .stride = VERTEX_BASE_WORDS, .shade = SHADE_FLAT
-        };
-        draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
-    }
-    frame = (struct smear_raster_frame){
-        .bins = &geometry, .draw = draw, .width = W, .height = H, .velocity_scale = 32768,
-        .inspect_scale = 65536, .reach_q3 = 15 * 8
-    };
+    store_begin(store, POOL_WORDS, SEGMENTS, W, H, false);
     list_last = SMEAR_NO_TRIANGLE;
-}
-
-/* Lays out the vertices of a segment: what they carry. */
-static void set_layout(int at, bool uv, bool color, int moves, enum smear_shade_mode shade)
-{
-    struct smear_segment *s = &segment[at];
-    int words = VERTEX_BASE_WORDS;
-    s->uv = s->color = s->motion = 0;
-    if (uv)
-        s->uv = (uint8_t)words++;
-    if (color) {
-        s->color = (uint8_t)words;
-        words += 2;
-    }
-    if (moves != 0) {
-        s->motion = (uint8_t)words;
-        words += moves * MOTION_WORDS;
-    }
-    s->moves = (uint8_t)moves;
-    s->shade = (uint8_t)shade;
-    s->stride = (uint8_t)words;
 }
 
 /* A new vertex; returns its offset. The words beyond the place are the caller's to fill. */
 static uint16_t add_vertex(int at, int32_t x, int32_t y, int32_t depth)
 {
-    uint32_t word = geometry.vertex_words;
-    geometry.vertex_words += segment[at].stride;
-    for (uint32_t i = word; i < geometry.vertex_words; i++)
-        pool[i] = 0;
+    uint16_t word = store_vertex(at);
     pool[word + VERTEX_X] = (uint32_t)x;
     pool[word + VERTEX_Y] = (uint32_t)y;
     pool[word + VERTEX_DEPTH] = (uint32_t)depth;
-    return (uint16_t)word;
+    return word;
 }
 
 /* Corners in any order: the raster wants them clockwise on the screen, and gets them so. */
@@ -146,12 +102,6 @@ static void draw_list(struct planes *p)
 }
 
 /* ------------------------------------------------------------------ exact coverage */
-
-/* e > 0 on the inner side of the edge a -> b of a triangle that is clockwise on the screen. */
-static int64_t edge_value(const int32_t a[2], const int32_t b[2], int32_t x, int32_t y)
-{
-    return (int64_t)(b[0] - a[0]) * (y - a[1]) - (int64_t)(b[1] - a[1]) * (x - a[0]);
-}
 
 static int64_t area_of(int32_t (*p)[2])
 {

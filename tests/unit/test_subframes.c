@@ -8,18 +8,14 @@
 #include "geometry/transform.h"
 #include "tests/random.h"
 #include "tests/test.h"
+#include "tests/unit/store.h"
 
 void suite_subframes(void);
 
 enum { W = 70, H = 44, RING = 51, POOL_WORDS = 16000, SEGMENTS = 10, MOVERS = 400, TILE_MAX = 64 };
 
 /* A scene: what is still, what moves, what is blended, in lists of one pool. */
-static uint32_t pool[POOL_WORDS];
-static struct smear_segment segment[SEGMENTS];
-static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_bins geometry;
-static struct smear_raster_frame frame;
-static struct smear_shutter_times shutter;
+static uint32_t store[POOL_WORDS];
 static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, still_head, still_last, blend_head, blend_last;
 static uint32_t texels[32 * 16];
@@ -36,48 +32,16 @@ static uint32_t instant_color[W * H], want[W * H];
 static uint16_t instant_depth[W * H];
 static uint32_t sum[W * H * 3];
 
-/* ------------------------------------------------------------------ random numbers */
-
 /* ------------------------------------------------------------------ scenes */
 
 static void scene_begin(bool linear)
 {
-    geometry = (struct smear_bins){
-        .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
-        .segment_limit = SEGMENTS
-    };
-    for (int i = 0; i < SEGMENTS; i++) {
-        segment[i] = (struct smear_segment){ .draw = (uint16_t)i, .stride = VERTEX_BASE_WORDS, .shade = SHADE_FLAT };
-        draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
-    }
-    frame = (struct smear_raster_frame){ .bins = &geometry, .draw = draw, .linear = linear, .width = W, .height = H };
+    store_begin(store, POOL_WORDS, SEGMENTS, W, H, linear);
     mover_count = 0;
     piece = 0;
     still_head = still_last = blend_head = blend_last = SMEAR_NO_TRIANGLE;
-    for (int i = 0; i <= SHUTTER_SAMPLES; i++)
-        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     for (int i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
-}
-
-static void set_layout(int at, bool uv, bool color, bool path, enum smear_shade_mode shade)
-{
-    struct smear_segment *s = &segment[at];
-    int words = VERTEX_BASE_WORDS;
-    s->uv = s->color = s->motion = 0;
-    if (uv)
-        s->uv = (uint8_t)words++;
-    if (color) {
-        s->color = (uint8_t)words;
-        words += 2;
-    }
-    if (path) {
-        s->motion = (uint8_t)words;
-        words += PATH_WORDS;
-    }
-    s->path = path;
-    s->shade = (uint8_t)shade;
-    s->stride = (uint8_t)words;
 }
 
 static void set_texture(int at, bool bilinear)
@@ -94,7 +58,7 @@ struct corners {
 static int64_t area_at(const struct corners *c, int pose)
 {
     const int32_t (*p)[3] = c->at[pose];
-    return (int64_t)(p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (int64_t)(p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
+    return edge_value(p[0], p[1], p[2][0], p[2][1]);
 }
 
 static bool has_room(void)
@@ -131,8 +95,7 @@ static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
     struct smear_triangle *t = bins_triangle(&geometry, i);
     *t = (struct smear_triangle){ .segment = (uint16_t)at, .next = SMEAR_NO_TRIANGLE, .color = color };
     for (int k = 0; k < 3; k++) {
-        uint32_t word = geometry.vertex_words;
-        geometry.vertex_words += s->stride;
+        uint32_t word = store_vertex(at);
         t->vertex[k] = (uint16_t)word;
         for (int j = 0; j < 3; j++) {
             pool[word + (uint32_t)j] = (uint32_t)c->at[1][k][j];
@@ -147,15 +110,6 @@ static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
             pool[word + s->color + j] = random_u32();
     }
     return i;
-}
-
-static void link_in(uint32_t *head, uint32_t *last, uint32_t i)
-{
-    if (*head == SMEAR_NO_TRIANGLE)
-        *head = i;
-    else
-        bins_triangle(&geometry, *last)->next = i;
-    *last = i;
 }
 
 /* Columns are counted in tiles of 8 px here; check_tiles() makes them those of its tile. */
@@ -204,8 +158,7 @@ static void pose_triangle(uint32_t i, int32_t time)
         place[k][1] = clamp_i32(place[k][1], H * 128 - guard, H * 128 + guard);
         place[k][2] = clamp_i32(place[k][2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
     }
-    if ((int64_t)(place[1][0] - place[0][0]) * (place[2][1] - place[0][1])
-        <= (int64_t)(place[2][0] - place[0][0]) * (place[1][1] - place[0][1]))
+    if (edge_value(place[0], place[1], place[2][0], place[2][1]) <= 0)
         return;
     uint32_t n = posed.triangle_count++;
     struct smear_triangle *t = bins_triangle(&posed, n);
@@ -439,7 +392,7 @@ static void random_scene(bool blends)
     scene_begin(chance(2));
     for (int i = 0; i < SEGMENTS; i++) {
         bool uv = random_u32() & 1u, color = random_u32() & 1u, path = i >= STILL_SEGMENTS;
-        set_layout(i, uv, color, path, color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
+        set_path_layout(i, uv, color, path, color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
         segment[i].flat_depth = chance(4);
         draw[i].alpha = (uint8_t)(i == 2 || i == 9 ? SMEAR_BLEND : chance(3) ? SMEAR_CUTOUT : SMEAR_OPAQUE);
         draw[i].cutoff = (uint8_t)between(1, 255);
@@ -485,7 +438,7 @@ static void test_tiles_are_the_mean_of_whole_frames(void)
 static void square_scene(bool linear, int32_t px)
 {
     scene_begin(linear);
-    set_layout(3, false, false, true, SHADE_FLAT);
+    set_path_layout(3, false, false, true, SHADE_FLAT);
     for (int half = 0; half < 2; half++) {
         struct corners c;
         for (int pose = 0; pose < 3; pose++) {
@@ -590,7 +543,7 @@ static void test_wide_gaps_of_many_instants_keep_white(void)
     for (int linear = 0; linear < 2; linear++)
         for (int32_t n = 1; n <= 64; n++) {
             scene_begin(linear);
-            set_layout(3, false, false, true, SHADE_FLAT);
+            set_path_layout(3, false, false, true, SHADE_FLAT);
             add_mover(3, &all, 0xffffffu);
             mover[0].first = 0;
             mover[0].last = 3;
@@ -814,7 +767,7 @@ static void test_more_panes_than_a_tile_remembers(void)
 {
     /* What moves comes last, and is all that moves. */
     scene_begin(false);
-    set_layout(9, false, false, true, SHADE_FLAT);
+    set_path_layout(9, false, false, true, SHADE_FLAT);
     draw[2].alpha = draw[9].alpha = SMEAR_BLEND;
     const struct corners pane = sheet(1 << 28);
     for (int i = 0; i < 140; i++) {

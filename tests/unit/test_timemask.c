@@ -8,6 +8,7 @@
 #include "geometry/transform.h"
 #include "tests/random.h"
 #include "tests/test.h"
+#include "tests/unit/store.h"
 
 void suite_timemask(void);
 
@@ -16,12 +17,7 @@ enum {
     FLAT = 0, GOURAUD = 1, TEXTURED = 2, LIT = 3            /* segments */
 };
 
-static uint32_t pool[POOL_WORDS];
-static struct smear_segment segment[SEGMENTS];
-static struct smear_raster_draw draw[SEGMENTS];
-static struct smear_bins geometry;
-static struct smear_raster_frame frame;
-static struct smear_shutter_times shutter;
+static uint32_t store[POOL_WORDS];
 static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, list_last;
 
@@ -35,8 +31,6 @@ static int32_t instant_depth[W * H];
 
 static uint32_t texels[32 * 32];
 
-/* ------------------------------------------------------------------ random numbers */
-
 /* ------------------------------------------------------------------ scenes made by hand */
 
 /* A vertex at three times: x, y in q8 px, depth in units q11. */
@@ -45,32 +39,11 @@ struct path { struct place open, middle, close; };
 
 static void scene_begin(bool linear)
 {
-    geometry = (struct smear_bins){
-        .pool = pool, .pool_words = POOL_WORDS, .segment = segment, .segment_count = SEGMENTS,
-        .segment_limit = SEGMENTS
-    };
+    store_begin(store, POOL_WORDS, SEGMENTS, W, H, linear);
     for (int i = 0; i < SEGMENTS; i++) {
-        bool uv = i >= TEXTURED, color = i == GOURAUD || i == LIT;
-        int at = VERTEX_BASE_WORDS;
-        struct smear_segment *s = &segment[i];
-        *s = (struct smear_segment){ .draw = (uint16_t)i, .path = 1 };
-        s->shade = i == TEXTURED ? SHADE_NONE : color ? SHADE_GOURAUD : SHADE_FLAT;
-        if (uv)
-            s->uv = (uint8_t)at++;
-        if (color) {
-            s->color = (uint8_t)at;
-            at += 2;
-        }
-        s->motion = (uint8_t)at;
-        s->stride = (uint8_t)(at + PATH_WORDS);
-        draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
+        bool color = i == GOURAUD || i == LIT;
+        set_path_layout(i, i >= TEXTURED, color, true, i == TEXTURED ? SHADE_NONE : color ? SHADE_GOURAUD : SHADE_FLAT);
     }
-    frame = (struct smear_raster_frame){
-        .bins = &geometry, .draw = draw, .width = W, .height = H, .linear = linear, .velocity_scale = 32768,
-        .inspect_scale = 65536, .reach_q3 = 120
-    };
-    for (int i = 0; i <= SHUTTER_SAMPLES; i++)
-        shutter.time[i] = i * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     mover_count = 0;
     list_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i < W * H; i++) {
@@ -93,9 +66,8 @@ static void set_texture(bool bilinear, uint32_t width, uint32_t height)
 static uint16_t add_vertex(int at, const struct path *p)
 {
     const struct smear_segment *s = &segment[at];
-    uint32_t word = geometry.vertex_words;
+    uint16_t word = store_vertex(at);
     int32_t *r = (int32_t *)pool + word;
-    geometry.vertex_words += s->stride;
     r[VERTEX_X] = p->middle.x;
     r[VERTEX_Y] = p->middle.y;
     r[VERTEX_DEPTH] = p->middle.depth;
@@ -106,7 +78,7 @@ static uint16_t add_vertex(int at, const struct path *p)
         m[PATH_Y] = pose[i].y;
         m[PATH_DEPTH] = pose[i].depth;
     }
-    return (uint16_t)word;
+    return word;
 }
 
 static uint32_t *vertex_words(uint16_t v) { return pool + v; }
@@ -157,8 +129,7 @@ static struct smear_path_bounds bounds_of(int at, const int32_t *const v[3])
 static void add_mover(int at, uint16_t a, uint16_t b, uint16_t c, uint32_t color)
 {
     const int32_t *v[3] = { (int32_t *)pool + a, (int32_t *)pool + b, (int32_t *)pool + c };
-    int64_t area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1])
-                 - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
+    int64_t area = edge_value(v[0], v[1], v[2][0], v[2][1]);
     const struct smear_path_bounds bounds = bounds_of(at, v);
     struct smear_triangle *t = bins_add_path(&geometry, &list_last, &bounds);
     t->vertex[0] = a;
@@ -215,12 +186,6 @@ static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
 }
 
 /* ------------------------------------------------------------------ the truth */
-
-/* e > 0 on the inner side of a -> b of a triangle that is clockwise on the screen. */
-static int64_t edge_value(const int32_t *a, const int32_t *b, int32_t x, int32_t y)
-{
-    return (int64_t)(b[0] - a[0]) * (y - a[1]) - (int64_t)(b[1] - a[1]) * (x - a[0]);
-}
 
 /* The top-left rule at q8 px; edge functions opposite to the vertices. Only triangles that face the eye. */
 static bool covers(int32_t (*p)[3], int32_t x, int32_t y, int64_t e[3])
