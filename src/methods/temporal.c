@@ -24,9 +24,9 @@ int32_t smear_strip_columns(int32_t strip, int32_t width)
     return strip >= width ? strip : SMEAR_STRIP_COLUMNS(strip);
 }
 
-static bool is_static(const struct smear_tile_load *load)
+static bool is_static(const struct smear_tile_travel *tile)
 {
-    return (load->flags & (TILE_MOVES | PATH_WITHOUT_MASK)) == 0;
+    return (tile->flags & (TILE_MOVES | PATH_WITHOUT_MASK)) == 0;
 }
 
 /* ------------------------------------------------------------------ tiles */
@@ -40,9 +40,9 @@ static void background_job(void *argument, int job, int worker)
 }
 
 /* Draws blended triangles over a tile without moving ones. */
-static void blend_static(const struct smear_moving_tile *t, const struct smear_rows *rows)
+static void blend_static(const struct smear_tile_run *t, const struct smear_rows *rows)
 {
-    const struct smear_raster_target *s = &t->still;
+    const struct smear_raster_target *s = &t->background;
     for (int32_t y = s->y0; y < s->y1; y++) {
         const uint32_t *in = s->color + target_row(&s->color_rows, s, y) + s->x0;
         for (int32_t i = 0; i < s->x1 - s->x0; i++)
@@ -55,26 +55,26 @@ static void blend_static(const struct smear_moving_tile *t, const struct smear_r
 }
 
 /* Describes tiles [first, end) of the row to a method. */
-static struct smear_moving_tile tiles_of(const struct finish *f, int first, int end, int worker)
+static struct smear_tile_run tiles_of(const struct finish *f, int first, int end, int worker)
 {
     const struct smear_temporal *self = f->self;
     const struct smear_rows *rows = f->row.rows;
     const int32_t pitch = smear_strip_columns(self->strip, rows->window.width);
-    struct smear_moving_tile t = {
-        .frame = &rows->raster, .shutter = &self->shutter, .still = f->background,
+    struct smear_tile_run t = {
+        .frame = &rows->raster, .shutter = &self->shutter, .background = f->background,
         .moving = self->moving.moving, .moving_count = self->moving.count,
         .column = first, .last_column = end - 1, .blend = rows->blend,
         .out = rows->scratch + worker * pitch * rows->window.tile, .pitch = pitch, .tile = rows->window.tile,
         .work = self->work + (uint32_t)worker * self->work_bytes, .work_bytes = self->work_bytes
     };
-    t.x0 = t.still.x0 = tile_left(rows, first);
-    t.x1 = t.still.x1 = tile_right(rows, end - 1);
+    t.x0 = t.background.x0 = tile_left(rows, first);
+    t.x1 = t.background.x1 = tile_right(rows, end - 1);
     return t;
 }
 
-static void hand_on(const struct finish *f, const struct smear_moving_tile *t)
+static void hand_on(const struct finish *f, const struct smear_tile_run *t)
 {
-    struct smear_raster_target out = t->still;
+    struct smear_raster_target out = t->background;
     out.color = t->out;
     out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
     smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
@@ -84,7 +84,7 @@ static void hand_on(const struct finish *f, const struct smear_moving_tile *t)
 static int finish_static(const struct finish *f, int first, int end)
 {
     int next = first;
-    while (next < end && is_static(&f->self->moving.load[next]))
+    while (next < end && is_static(&f->self->moving.travel[next]))
         next++;
     smear_band_convert_rows(&f->row, &f->background, tile_left(f->row.rows, first), tile_right(f->row.rows, next - 1));
     return next;
@@ -92,7 +92,7 @@ static int finish_static(const struct finish *f, int first, int end)
 
 /* Returns the columns beyond a strip's border in which its moving triangles are drawn, too, so that gaps of its last
  * tile, which moving triangles go on from by `step`, close with what is there. `neighbour`: the tile beyond, or null. */
-static int32_t margin_of(const struct finish *f, const struct smear_step *step, const struct smear_tile_load *neighbour)
+static int32_t margin_of(const struct finish *f, const struct smear_step *step, const struct smear_tile_travel *neighbour)
 {
     enum { GAP_SEEN = 2 * 16 };
     const int32_t strip = f->self->strip, most = (smear_strip_columns(strip, f->row.rows->window.width) - strip) / 2;
@@ -100,37 +100,37 @@ static int32_t margin_of(const struct finish *f, const struct smear_step *step, 
     return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
 }
 
-static void widen(struct smear_moving_tile *t, const struct finish *f, const struct smear_step *step)
+static void widen(struct smear_tile_run *t, const struct finish *f, const struct smear_step *step)
 {
-    const struct smear_tile_load *load = f->self->moving.load;
+    const struct smear_tile_travel *travel = f->self->moving.travel;
     const struct smear_window *w = &f->row.rows->window;
     const int first = t->column, last = t->last_column;
-    t->still.x0 -= margin_of(f, &step[0], first > 0 ? &load[first - 1] : NULL);
-    t->still.x1 += margin_of(f, &step[last - first], last + 1 < w->columns ? &load[last + 1] : NULL);
-    t->still.x1 = min_i32(t->still.x1, w->width);
-    t->column -= t->still.x0 < t->x0;
-    t->last_column += t->still.x1 > t->x1;
+    t->background.x0 -= margin_of(f, &step[0], first > 0 ? &travel[first - 1] : NULL);
+    t->background.x1 += margin_of(f, &step[last - first], last + 1 < w->columns ? &travel[last + 1] : NULL);
+    t->background.x1 = min_i32(t->background.x1, w->width);
+    t->column -= t->background.x0 < t->x0;
+    t->last_column += t->background.x1 > t->x1;
 }
 
 /* Tiles beside each other share instants: as many as the one that needs most. */
 static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
 {
     const struct smear_temporal *self = f->self;
-    struct smear_tile_load *load = self->moving.load;
+    struct smear_tile_travel *travel = self->moving.travel;
     struct smear_step step[STRIP_TILES_MAX];
     struct smear_tile_choice choice;
     int next = first + 1;
-    load_set_method(&load[first], TILE_SUBFRAMES);
-    for (; next < end && !is_static(&load[next]); next++) {
-        smear_tile_method_choose(&choice, &self->chooser, &load[next]);
+    travel_set_method(&travel[first], TILE_SUBFRAMES);
+    for (; next < end && !is_static(&travel[next]); next++) {
+        smear_tile_method_choose(&choice, &self->chooser, &travel[next]);
         if (choice.method != TILE_SUBFRAMES)
             break;
-        load_set_method(&load[next], TILE_SUBFRAMES);
+        travel_set_method(&travel[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);
     }
     for (int i = first; i < next; i++)
-        smear_tile_method_step(&step[i - first], &self->chooser, &load[i], instants);
-    struct smear_moving_tile t = tiles_of(f, first, next, worker);
+        smear_tile_method_step(&step[i - first], &self->chooser, &travel[i], instants);
+    struct smear_tile_run t = tiles_of(f, first, next, worker);
     const bool fills = smear_shutter_is_box(&self->shutter);
     if (fills)
         widen(&t, f, step);
@@ -142,10 +142,10 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
 static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
 {
     struct smear_rows *rows = f->row.rows;
-    struct smear_moving_tile t = tiles_of(f, column, column + 1, worker);
+    struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
     if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
         rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask);
-        load_set_method(&f->self->moving.load[column], TILE_TIMEMASK);
+        travel_set_method(&f->self->moving.travel[column], TILE_TIMEMASK);
     } else {
         blend_static(&t, rows);
     }
@@ -160,13 +160,13 @@ static void finish_job(void *argument, int strip, int worker)
     const int tiles = f->self->strip >> w->tile_shift,
               end = min_i32((strip + 1) * tiles, (job_right(&f->row) + w->tile - 1) >> w->tile_shift);
     for (int column = max_i32(strip * tiles, job_left(&f->row) >> w->tile_shift); column < end;) {
-        const struct smear_tile_load *load = &f->self->moving.load[column];
+        const struct smear_tile_travel *tile = &f->self->moving.travel[column];
         struct smear_tile_choice choice;
-        if (is_static(load)) {
+        if (is_static(tile)) {
             column = finish_static(f, column, end);
             continue;
         }
-        smear_tile_method_choose(&choice, &f->self->chooser, load);
+        smear_tile_method_choose(&choice, &f->self->chooser, tile);
         if (choice.method == TILE_SUBFRAMES)
             column = finish_subframes(f, column, end, choice.instants, worker);
         else
@@ -179,7 +179,7 @@ static void finish_job(void *argument, int strip, int worker)
 static void count_tiles(const struct smear_temporal *self, const struct smear_rows *rows)
 {
     for (int32_t i = 0; i < rows->window.columns; i++) {
-        const enum smear_tile_method method = load_method(&self->moving.load[i]);
+        const enum smear_tile_method method = travel_method(&self->moving.travel[i]);
         smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : TILE_COMPLEX,
                         method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
     }
@@ -188,7 +188,7 @@ static void count_tiles(const struct smear_temporal *self, const struct smear_ro
 static bool run_is_static(const struct smear_temporal *self, const struct smear_damage_run *run)
 {
     for (int i = run->first; i < run->end; i++)
-        if (!is_static(&self->moving.load[i]))
+        if (!is_static(&self->moving.travel[i]))
             return false;
     return true;
 }
@@ -259,7 +259,7 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
 static int32_t target_within_budget(const struct smear_temporal *self, const struct smear_rows *rows, int first, int end)
 {
     const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
-    struct smear_way_areas areas = { .interval_area = 0 };
+    struct smear_travel_areas areas = { .interval_area = 0 };
     for (int row = first; row < end; row++)
         smear_add_areas(&areas, &rows->bins, rows->bins.moving_last[row]);
     uint32_t work;

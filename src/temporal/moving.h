@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* moving.h - the moving triangles of a tile row, and a tile in which some are seen. */
+/* moving.h - the moving triangles of a tile row, and a run of tiles in which some are seen. */
 #ifndef SMEAR_MOVING_H
 #define SMEAR_MOVING_H
 
@@ -13,26 +13,26 @@ struct smear_moving_triangle {
     uint16_t nearest;           /* depth code it does not exceed: larger is nearer */
 };
 
-/* A tile, or some beside each other, to be finished by a time-resolved method. */
-struct smear_moving_tile {
+/* A run of tiles beside each other, or one tile, to be finished by a method that looks at several instants. */
+struct smear_tile_run {
     const struct smear_raster_frame *frame;
     const struct smear_shutter_times *shutter;
-    struct smear_raster_target still;   /* the still scene, drawn; y0, y1 are the tiles', x0, x1, too, or
-                                         * a little beyond. Only read. */
-    int32_t x0, x1;                     /* the tiles' */
-    const struct smear_moving_triangle *moving;    /* of the row: those whose columns meet these are seen here */
+    struct smear_raster_target background;      /* what does not move, drawn; only read. Its y0, y1 are the tiles', its
+                                                 * x0, x1, too, or a little beyond */
+    int32_t x0, x1;                             /* columns of pixels of the tiles */
+    const struct smear_moving_triangle *moving; /* of the row: those whose columns meet these are seen here */
     uint32_t moving_count;
-    int32_t column, last_column;
-    uint32_t blend;                     /* blended draws of the row, still and moving
-                                         * ones; or SMEAR_NO_TRIANGLE */
-    uint32_t *out;                      /* finished working pixels, rows `pitch` apart */
+    int32_t column, last_column;                /* tiles */
+    uint32_t blend;                             /* blended triangles of the row, static and moving ones, or
+                                                 * SMEAR_NO_TRIANGLE */
+    uint32_t *out;                              /* finished working pixels, rows `pitch` apart */
     int32_t pitch;
-    int32_t tile;                       /* edge, pixels */
-    void *work;                         /* memory of the worker's own */
-    uint32_t work_bytes;                /* timemask: 0 is what it asks for */
+    int32_t tile;                               /* edge, pixels */
+    void *work;                                 /* memory of the worker's own */
+    uint32_t work_bytes;                        /* read by the time mask: 0 is what it asks for */
 };
 
-static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_moving_tile *t)
+static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_tile_run *t)
 {
     return m->first <= t->last_column && m->last >= t->column;
 }

@@ -8,10 +8,10 @@ struct range {
     int32_t low, high;              /* [low, high) */
 };
 
-/* How a moving triangle goes from open to close, 1/16 px: least and most of its vertices. Of a large one
- * whose vertices go unlike ways also what tells the way from place to place: weights in the
+/* The displacements of a moving triangle from open to close, 1/16 px: the least and the largest of its vertices. For a
+ * large one whose vertices differ, the rest tells the displacement from place to place: weights of the vertices in the
  * middle of the exposure give weights at its ends. */
-struct way {
+struct displacements {
     int32_t x0, x1, y0, y1, curvature;
     bool large;
     int32_t x[3], y[3];             /* vertices in the middle of the exposure, px */
@@ -22,13 +22,13 @@ struct way {
 };
 
 enum {
-    WAY_PX = 24,                    /* smaller triangles lie in few tiles */
-    WAY_ALIKE = 8 * 16,             /* ways that need not be told apart */
-    WAY_BITS = 14,                  /* of weights */
-    MEAN_MAX = 512 * 16             /* longer ways count as this one in a mean */
+    LARGE_PX = 24,                  /* smaller triangles lie in few tiles */
+    ALIKE = 8 * 16,                 /* displacements need not be told apart */
+    WEIGHT_BITS = 14,
+    MEAN_MAX = 512 * 16             /* longer displacements count as this one in a mean */
 };
 
-/* Of two depths, q8, within 1/16 .. 16. */
+/* Returns a / b, two depths, in q8 within 1/16 .. 16. */
 static int32_t depth_ratio(int32_t a, int32_t b)
 {
     const uint32_t depth = (uint32_t)b | 1u;
@@ -39,12 +39,12 @@ static int32_t depth_ratio(int32_t a, int32_t b)
                      16, 4096);
 }
 
-static struct way way_of(const struct smear_bins *g, uint32_t triangle)
+static struct displacements displacements_of(const struct smear_bins *g, uint32_t triangle)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
     const struct smear_path_bounds *b = bins_bounds(g, triangle);
-    struct way w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .curvature = b->curvature };
+    struct displacements w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .curvature = b->curvature };
     const int32_t *v[3];
     for (int i = 0; i < 3; i++) {
         v[i] = bins_vertex(g, s, t->vertex[i]);
@@ -55,8 +55,8 @@ static struct way way_of(const struct smear_bins *g, uint32_t triangle)
         w.y0 = min_i32(w.y0, y);
         w.y1 = max_i32(w.y1, y);
     }
-    w.large = (b->x1 - b->x0 > WAY_PX || b->y1 - b->y0 > WAY_PX)
-           && (w.x1 - w.x0 > WAY_ALIKE || w.y1 - w.y0 > WAY_ALIKE);
+    w.large = (b->x1 - b->x0 > LARGE_PX || b->y1 - b->y0 > LARGE_PX)
+           && (w.x1 - w.x0 > ALIKE || w.y1 - w.y0 > ALIKE);
     for (int i = 0; w.large && i < 3; i++) {
         w.x[i] = v[i][VERTEX_X] >> 8;
         w.y[i] = v[i][VERTEX_Y] >> 8;
@@ -72,12 +72,12 @@ static struct way way_of(const struct smear_bins *g, uint32_t triangle)
 
 static int shift_to(int32_t largest)
 {
-    return max_i32(32 - count_leading_zeros((uint32_t)largest | 1u) - WAY_BITS, 0);
+    return max_i32(32 - count_leading_zeros((uint32_t)largest | 1u) - WEIGHT_BITS, 0);
 }
 
-/* Weights of the vertices at a pixel; of one beside the triangle, at the nearest place of the
- * side it is beyond of most, which is then `at`. */
-static void weigh(int32_t e[3], const struct way *w, int32_t at[2])
+/* Finds the weights of the vertices at a pixel. Beside the triangle they are those of the nearest place on the side that
+ * the pixel is farthest beyond; `at` becomes that place. */
+static void weigh(int32_t e[3], const struct displacements *w, int32_t at[2])
 {
     const int32_t x = at[0], y = at[1];
     static const int next[3] = { 1, 2, 0 }, last[3] = { 2, 0, 1 };
@@ -98,15 +98,15 @@ static void weigh(int32_t e[3], const struct way *w, int32_t at[2])
     at[1] = w->y[j] + dy * (e[k] >> 8) / max_i32(square >> 8, 1);
 }
 
-/* Where a way leads, and how far its middle lies off the chord, 1/16 px: eight times, as places beside the
- * one looked at curvature more, but no more than a vertex. */
-struct local_way {
+/* A displacement, and how far the path's middle lies off the chord, 1/16 px: eight times as far, as paths beside the one
+ * looked at may be more curved, but no farther than at a vertex. */
+struct displacement {
     int32_t x, y, curvature;
 };
 
-/* At a pixel of the triangle, or near one. Beyond those of the vertices, too: where a camera turns, what is
- * straight ahead goes less far than what is aside. */
-static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
+/* Returns the displacement at a pixel of the triangle, or near one. It may leave the range of the vertices: where a
+ * camera turns, what is straight ahead goes less far than what is aside. */
+static struct displacement displacement_at(const struct displacements *w, int32_t x, int32_t y)
 {
     int32_t e[3], at[2][2], middle[2] = { x, y };
     weigh(e, w, middle);
@@ -126,34 +126,36 @@ static struct local_way way_at(const struct way *w, int32_t x, int32_t y)
         at[k][1] /= sum;
     }
     const int32_t curvature = max_i32(abs_i32(at[0][0] + at[1][0] - 16 * middle[0]),
-                                 abs_i32(at[0][1] + at[1][1] - 16 * middle[1]));
-    return (struct local_way){ 2 * (at[1][0] - at[0][0]), 2 * (at[1][1] - at[0][1]), min_i32(8 * curvature, w->curvature) };
+                                      abs_i32(at[0][1] + at[1][1] - 16 * middle[1]));
+    return (struct displacement){ 2 * (at[1][0] - at[0][0]), 2 * (at[1][1] - at[0][1]),
+                                  min_i32(8 * curvature, w->curvature) };
 }
 
-static void load_way(struct smear_tile_load *load, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
-                     int32_t curvature)
+/* Adds displacements from (x0, y0) to (x1, y1) to those of a tile. */
+static void add_displacement(struct smear_tile_travel *tile, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                             int32_t curvature)
 {
     const int32_t x = clamp_i32((x0 + x1) >> 1, -MEAN_MAX, MEAN_MAX), y = clamp_i32((y0 + y1) >> 1, -MEAN_MAX, MEAN_MAX);
-    const int32_t weight = (max_i32(abs_i32(x), abs_i32(y)) >> 4) + 1, sum = load->weight + weight;
+    const int32_t weight = (max_i32(abs_i32(x), abs_i32(y)) >> 4) + 1, sum = tile->weight + weight;
     const int32_t part = (weight << 15) / sum;
-    load->x = (int16_t)(load->x + (((x - load->x) * part + (1 << 14)) >> 15));
-    load->y = (int16_t)(load->y + (((y - load->y) * part + (1 << 14)) >> 15));
-    load->weight = (uint16_t)min_i32(sum, UINT16_MAX);
-    load->curvature = (uint16_t)max_i32(load->curvature, curvature);
-    load->x0 = (int16_t)clamp_i32(x0, INT16_MIN, load->x0);
-    load->x1 = (int16_t)clamp_i32(x1, load->x1, INT16_MAX);
-    load->y0 = (int16_t)clamp_i32(y0, INT16_MIN, load->y0);
-    load->y1 = (int16_t)clamp_i32(y1, load->y1, INT16_MAX);
+    tile->x = (int16_t)(tile->x + (((x - tile->x) * part + (1 << 14)) >> 15));
+    tile->y = (int16_t)(tile->y + (((y - tile->y) * part + (1 << 14)) >> 15));
+    tile->weight = (uint16_t)min_i32(sum, UINT16_MAX);
+    tile->curvature = (uint16_t)max_i32(tile->curvature, curvature);
+    tile->x0 = (int16_t)clamp_i32(x0, INT16_MIN, tile->x0);
+    tile->x1 = (int16_t)clamp_i32(x1, tile->x1, INT16_MAX);
+    tile->y0 = (int16_t)clamp_i32(y0, INT16_MIN, tile->y0);
+    tile->y1 = (int16_t)clamp_i32(y1, tile->y1, INT16_MAX);
 }
 
-/* Ways at the left side of a column of tiles: x and y where the
- * row begins, where it ends, the larger curvature. */
+/* Displacements at the left side of a column of tiles: x where the row begins and where it ends, y likewise, and the
+ * larger curvature. */
 enum { SIDE_VALUES = 5 };
 
-static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t column, int32_t top, int shift)
+static void displacement_at_side(int32_t out[SIDE_VALUES], const struct displacements *w, int32_t column, int32_t top, int shift)
 {
-    const struct local_way upper = way_at(w, column << shift, top),
-                           lower = way_at(w, column << shift, top + (1 << shift));
+    const struct displacement upper = displacement_at(w, column << shift, top),
+                              lower = displacement_at(w, column << shift, top + (1 << shift));
     out[0] = upper.x;
     out[1] = lower.x;
     out[2] = upper.y;
@@ -161,18 +163,18 @@ static void way_at_side(int32_t out[SIDE_VALUES], const struct way *w, int32_t c
     out[4] = max_i32(upper.curvature, lower.curvature);
 }
 
-/* Ways of a large triangle in columns of tiles: found at some of their sides, in a line between. */
-static void load_ways(struct smear_row_moving *r, int32_t first, int32_t last, const struct way *way,
-                      int32_t top, int shift)
+/* Adds the displacements of a large triangle to columns of tiles: found at some of their sides, in a line between. */
+static void add_along_columns(struct smear_row_moving *r, int32_t first, int32_t last, const struct displacements *w,
+                              int32_t top, int shift)
 {
     enum { APART_PX = 64 };
     const int32_t apart = max_i32(APART_PX >> shift, 2);
     int32_t left[SIDE_VALUES], right[SIDE_VALUES];
-    way_at_side(left, way, first, top, shift);
+    displacement_at_side(left, w, first, top, shift);
     for (int32_t column = first; column <= last;) {
         const int32_t n = min_i32(last + 1 - column, apart), part = 256 / n;
         int32_t from[SIDE_VALUES], to[SIDE_VALUES], step[SIDE_VALUES];
-        way_at_side(right, way, column + n, top, shift);
+        displacement_at_side(right, w, column + n, top, shift);
         for (int i = 0; i < SIDE_VALUES; i++) {
             from[i] = left[i];
             step[i] = (right[i] - left[i]) * part;
@@ -180,10 +182,10 @@ static void load_ways(struct smear_row_moving *r, int32_t first, int32_t last, c
         for (int32_t k = 1; k <= n; k++) {
             for (int i = 0; i < SIDE_VALUES; i++)
                 to[i] = left[i] + (step[i] * k >> 8);
-            load_way(&r->load[column + k - 1], min_i32(min_i32(from[0], from[1]), min_i32(to[0], to[1])),
-                     max_i32(max_i32(from[0], from[1]), max_i32(to[0], to[1])),
-                     min_i32(min_i32(from[2], from[3]), min_i32(to[2], to[3])),
-                     max_i32(max_i32(from[2], from[3]), max_i32(to[2], to[3])), max_i32(from[4], to[4]));
+            add_displacement(&r->travel[column + k - 1], min_i32(min_i32(from[0], from[1]), min_i32(to[0], to[1])),
+                             max_i32(max_i32(from[0], from[1]), max_i32(to[0], to[1])),
+                             min_i32(min_i32(from[2], from[3]), min_i32(to[2], to[3])),
+                             max_i32(max_i32(from[2], from[3]), max_i32(to[2], to[3])), max_i32(from[4], to[4]));
             for (int i = 0; i < SIDE_VALUES; i++)
                 from[i] = to[i];
         }
@@ -193,10 +195,10 @@ static void load_ways(struct smear_row_moving *r, int32_t first, int32_t last, c
     }
 }
 
-/* Columns of pixels in which a large triangle may be seen in the row at some time,
- * about: those of its sides between rows that lie as much farther up and down as it
- * goes. Ways beyond them would be those of other rows. */
-static struct range columns_of(const struct way *w, const struct smear_path_bounds *b, int32_t top,
+/* Returns the columns of pixels in which a large triangle may be seen in the row at some time, about: those of its sides
+ * between rows that lie as much farther up and down as it goes. Displacements beyond them would be those of other
+ * rows. */
+static struct range columns_of(const struct displacements *w, const struct smear_path_bounds *b, int32_t top,
                                int32_t tile)
 {
     const int32_t reach_x = max_i32(w->x1, -w->x0) >> 5, reach_y = max_i32(w->y1, -w->y0) >> 5;
@@ -216,32 +218,32 @@ static struct range columns_of(const struct way *w, const struct smear_path_boun
     return (struct range){ max_i32(r.low - reach_x - 1, b->x0), min_i32(r.high + reach_x + 2, b->x1) };
 }
 
-/* What columns [x0, x1) of pixels hold; with bounds and a way, of one moving triangle. */
-static void load_tiles(const struct smear_window *w, struct smear_row_moving *r, int32_t x0, int32_t x1,
-                       const struct smear_path_bounds *b, const struct way *way, uint16_t flags, int32_t top)
+/* Adds what columns [x0, x1) of pixels hold to their tiles: flags, and with bounds a moving triangle. */
+static void add_to_tiles(const struct smear_window *window, struct smear_row_moving *r, int32_t x0, int32_t x1,
+                         const struct smear_path_bounds *b, const struct displacements *w, uint16_t flags, int32_t top)
 {
-    int32_t first = max_i32(x0, 0) >> w->tile_shift, last = (min_i32(x1, w->width) - 1) >> w->tile_shift;
+    const int shift = window->tile_shift;
+    int32_t first = max_i32(x0, 0) >> shift, last = (min_i32(x1, window->width) - 1) >> shift;
     for (int32_t column = first; column <= last; column++) {
-        struct smear_tile_load *load = &r->load[column];
-        load->flags |= flags;
+        struct smear_tile_travel *tile = &r->travel[column];
+        tile->flags |= flags;
         if (b == NULL)
             continue;
-        load->flags |= (uint16_t)(b->flags | TILE_MOVES);
+        tile->flags |= (uint16_t)(b->flags | TILE_MOVES);
         if (b->interval != 0)
             continue;
-        if (!way->large)
-            load_way(load, way->x0, way->x1, way->y0, way->y1, way->curvature);
+        if (!w->large)
+            add_displacement(tile, w->x0, w->x1, w->y0, w->y1, w->curvature);
     }
-    if (b == NULL || b->interval != 0 || !way->large)
+    if (b == NULL || b->interval != 0 || !w->large)
         return;
-    const struct range seen = columns_of(way, b, top, w->tile);
+    const struct range seen = columns_of(w, b, top, window->tile);
     if (seen.low < seen.high)
-        load_ways(r, seen.low >> w->tile_shift, (seen.high - 1) >> w->tile_shift, way, top, w->tile_shift);
+        add_along_columns(r, seen.low >> shift, (seen.high - 1) >> shift, w, top, shift);
 }
 
-/* Columns of pixels that a still triangle may cover. */
-static void still_columns(const struct smear_bins *g, const struct smear_triangle *t, int32_t *x0,
-                          int32_t *x1)
+/* Finds the columns of pixels that a static triangle may cover. */
+static void static_columns(const struct smear_bins *g, const struct smear_triangle *t, int32_t *x0, int32_t *x1)
 {
     *x0 = INT32_MAX;
     *x1 = INT32_MIN;
@@ -260,11 +262,11 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = bins_bounds(g, i);
-            const struct way way = way_of(g, i);
-            load_tiles(w, r, b->x0, b->x1, b, &way, TILE_BLENDED, top);
+            const struct displacements d = displacements_of(g, i);
+            add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top);
         } else {
-            still_columns(g, t, &x0, &x1);
-            load_tiles(w, r, x0, x1, NULL, NULL, TILE_BLENDED, top);
+            static_columns(g, t, &x0, &x1);
+            add_to_tiles(w, r, x0, x1, NULL, NULL, TILE_BLENDED, top);
         }
     }
 }
@@ -274,21 +276,23 @@ void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, c
 {
     const int shift = w->tile_shift;
     for (int32_t i = 0; i < w->columns; i++)
-        r->load[i] = (struct smear_tile_load){ .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX,
-                                               .y1 = INT16_MIN };
+        r->travel[i] = (struct smear_tile_travel){
+            .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX, .y1 = INT16_MIN
+        };
     r->count = 0;
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_path_bounds *b = bins_bounds(g, i);
         r->moving[r->count++] = (struct smear_moving_triangle){ i, (uint8_t)(b->x0 >> shift),
                                                                 (uint8_t)((b->x1 - 1) >> shift), b->nearest };
-        const struct way way = way_of(g, i);
-        load_tiles(w, r, b->x0, b->x1, b, &way, 0, top);
+        const struct displacements d = displacements_of(g, i);
+        add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top);
     }
 }
 
 /* ------------------------------------------------------------------ areas */
 
-/* Pixels of a moving triangle in the middle of the exposure, at least 1 and no more than the box of its way has. */
+/* Returns the pixels of a moving triangle in the middle of the exposure: at least 1 and no more than the box of its path
+ * has. */
 static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);
@@ -305,14 +309,14 @@ static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
     return area < box ? (uint32_t)area + 1 : box;
 }
 
-void smear_add_areas(struct smear_way_areas *areas, const struct smear_bins *g, uint32_t last)
+void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *g, uint32_t last)
 {
     for (uint32_t i = last; i != SMEAR_NO_TRIANGLE;) {
         i = bins_triangle(g, i)->next;
         const struct smear_path_bounds *b = bins_bounds(g, i);
-        const int32_t way = min_i32((b->travel + b->curvature) >> WAY_CLASS_SHIFT, WAY_CLASSES - 1);
-        uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[way], area = moving_area(g, i);
-        if (b->interval != 0)      /* which is there for one of so many parts of the exposure */
+        const int32_t class = min_i32((b->travel + b->curvature) >> TRAVEL_CLASS_SHIFT, TRAVEL_CLASSES - 1);
+        uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[class], area = moving_area(g, i);
+        if (b->interval != 0)      /* it is there in one of so many sub-intervals of the exposure */
             area = (area + PATH_INTERVALS - 1) / PATH_INTERVALS;
         *sum = min_u32(*sum, UINT32_MAX - area) + area;
         if (i == last)

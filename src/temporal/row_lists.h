@@ -9,7 +9,7 @@
 struct smear_row_moving {
     struct smear_moving_triangle *moving;
     uint32_t count;
-    struct smear_tile_load *load;               /* per tile */
+    struct smear_tile_travel *travel;           /* per tile */
 };
 
 /* Lists the moving triangles from `head` on, for the tile row whose first pixel row is `top`. */
@@ -21,6 +21,6 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *bin
                         uint32_t head, int32_t top);
 
 /* Adds the areas of a ring of moving triangles, before it is opened: `last` is its last. */
-void smear_add_areas(struct smear_way_areas *areas, const struct smear_bins *bins, uint32_t last);
+void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *bins, uint32_t last);
 
 #endif

@@ -204,7 +204,7 @@ static void average_packed(const struct gap_planes *planes, const struct stretch
 /* Averages a box, which lies in one tile: rows, cut where fewer pairs count. */
 static void average_tile(const struct subframes *f, const struct pixel_box *b, struct gap *gap)
 {
-    const struct smear_raster_target *s = &f->t->still;
+    const struct smear_raster_target *s = &f->t->background;
     const enum gap_cover cover = cover_of(f, b);
     const struct gap_planes planes = { f->work.color, f->work.depth, f->sums, f->nearest };
     for (int32_t y = b->y0; y < b->y1; y++) {
@@ -226,8 +226,8 @@ static void average_tile(const struct subframes *f, const struct pixel_box *b, s
 void smear_subframe_average(const struct subframes *f, const struct pixel_box *all, const struct smear_step *step)
 {
     static const struct smear_step none = { 0, 0 };
-    const struct smear_moving_tile *t = f->t;
-    const struct smear_raster_target *s = &t->still;
+    const struct smear_tile_run *t = f->t;
+    const struct smear_raster_target *s = &t->background;
     for (int32_t x = t->x0; x < t->x1; x += t->tile) {
         struct gap gap;
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - t->x0) / t->tile] : &none);

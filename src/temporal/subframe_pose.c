@@ -55,7 +55,7 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     const struct smear_raster_frame *frame = f->t->frame;
     const struct smear_triangle *t = bins_triangle(frame->bins, triangle);
     const struct smear_segment *s = &frame->bins->segment[t->segment];
-    const struct smear_raster_target *tile = &f->t->still;
+    const struct smear_raster_target *tile = &f->t->background;
     p->segment = s;
     p->color = t->color;
     if (s->path && !path_interval_time(&time, bins_bounds(frame->bins, triangle)->interval))

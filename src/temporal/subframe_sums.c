@@ -37,7 +37,7 @@ static void clear_row(const struct subframes *f, int32_t at, int32_t n)
 /* A gap's mean is taken up to GAP_PAIRS_MAX pixels beyond what was drawn, and reads as far beyond that. */
 SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct pixel_box *set)
 {
-    const struct smear_raster_target *s = &f->t->still;
+    const struct smear_raster_target *s = &f->t->background;
     const int32_t reach = 2 * GAP_PAIRS_MAX;
     const struct pixel_box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
                                  min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
@@ -56,7 +56,7 @@ SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const s
 
 void smear_subframe_sums_add(const struct subframes *f, const struct pixel_box *b, bool sets)
 {
-    const struct smear_raster_target *s = &f->t->still;
+    const struct smear_raster_target *s = &f->t->background;
     const int32_t n = b->x1 - b->x0;
     for (int32_t y = b->y0; y < b->y1; y++) {
         const uint32_t *background = s->color + target_row(&s->color_rows, s, y) + b->x0;

@@ -27,7 +27,7 @@ static inline bool box_is_empty(const struct pixel_box *b)
 }
 
 struct subframes {
-    const struct smear_moving_tile *t;
+    const struct smear_tile_run *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
     /* Planes of sums of what is not background: red, green, blue and the number of instants; or packed sums in
      * the memory of the first two. */
@@ -50,7 +50,7 @@ struct subframes {
 /* Index of the first of the box's pixels in row y of the work planes. */
 static inline int32_t work_row(const struct subframes *f, const struct pixel_box *b, int32_t y)
 {
-    return (y - f->t->still.y0) * f->t->pitch + (b->x0 - f->t->still.x0);
+    return (y - f->t->background.y0) * f->t->pitch + (b->x0 - f->t->background.x0);
 }
 
 /* Without linear light all sums are packed. */

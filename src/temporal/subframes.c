@@ -41,7 +41,7 @@ static inline bool is_seen(const struct subframes *f, const struct smear_moving_
 static bool touches(const struct subframes *f, uint32_t triangle)
 {
     const struct smear_bins *g = f->t->frame->bins;
-    const struct smear_raster_target *tile = &f->t->still;
+    const struct smear_raster_target *tile = &f->t->background;
     if (!g->segment[bins_triangle(g, triangle)->segment].path) {
         struct posed p;
         return smear_subframe_pose(&p, f, triangle, 0);
@@ -61,11 +61,11 @@ static void note(struct subframes *f, const struct smear_moving_triangle *m)
 /* Lists what may be seen. True when something moves. */
 static SMEAR_NOINLINE bool list(struct subframes *f)
 {
-    const struct smear_moving_tile *t = f->t;
+    const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
     uint32_t n = 0;
     bool moves = false;
-    const struct pixel_box whole = { t->still.x0, t->still.y0, t->still.x1, t->still.y1 };
+    const struct pixel_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
     const struct depth_range depths = smear_subframe_depths(f, &whole, 0);
     f->lowest = depths.least;
     f->highest = depths.most;
@@ -204,9 +204,9 @@ static uint32_t draw_instants(const struct subframes *f, struct pixel_box *all)
     return samples;
 }
 
-uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants, const struct smear_step *step)
+uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_step *step)
 {
-    const struct smear_raster_target *s = &t->still;
+    const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
     struct subframes f = {
         .t = t, .packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_INSTANTS_MAX),

@@ -21,7 +21,7 @@ size_t smear_subframes_work(int32_t width, int32_t height);
  * opaque surfaces are taken from `still`; moving triangles and all blended draws are drawn at every instant.
  * `step`, one per tile, or null: what lies between instants is filled in along the way, where
  * nothing is blended. Returns the samples taken. */
-uint32_t smear_subframes_tiles(const struct smear_moving_tile *t, int32_t instants,
+uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
                                const struct smear_step *step);
 
 #endif

@@ -8,15 +8,15 @@
 
 enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants (smear_desc.strip) */
 
-/* The moving triangles of a tile: all that may be seen there during the exposure. */
-struct smear_tile_load {
-    int16_t x0, x1, y0, y1;     /* from open to close, least and most, 1/16 px, of those whose way is known: none where
-                                 * x0 > x1 */
-    int16_t x, y;               /* their mean, in which longer ways weigh more */
+/* How the moving triangles that may be seen in a tile travel during the exposure, in 1/16 px. */
+struct smear_tile_travel {
+    int16_t x0, x1, y0, y1;     /* least and largest displacement from open to close of those whose displacement is
+                                 * known: none where x0 > x1 */
+    int16_t x, y;               /* their mean, in which longer ones weigh more */
     uint16_t weight;            /* of the mean so far */
-    uint16_t curvature;              /* largest, 1/16 px */
-    uint16_t flags;             /* of smear_path_bounds, or-ed; TILE_MOVES, TILE_BLENDED; smear_tile_method
-                                 * in the end, from TILE_METHOD on */
+    uint16_t curvature;         /* largest */
+    uint16_t flags;             /* flags of smear_path_bounds; TILE_MOVES, TILE_BLENDED; the tile's method in the end,
+                                 * from TILE_METHOD on */
 };
 
 enum {
@@ -28,15 +28,15 @@ enum {
 
 enum smear_tile_method { TILE_COPY, TILE_SUBFRAMES, TILE_TIMEMASK };
 
-static inline enum smear_tile_method load_method(const struct smear_tile_load *load)
+static inline enum smear_tile_method travel_method(const struct smear_tile_travel *tile)
 {
-    return (enum smear_tile_method)(load->flags >> TILE_METHOD);
+    return (enum smear_tile_method)(tile->flags >> TILE_METHOD);
 }
 
-/* Once. TILE_COPY is what it is without. */
-static inline void load_set_method(struct smear_tile_load *load, enum smear_tile_method method)
+/* Notes the tile's method, once: before, it is TILE_COPY. */
+static inline void travel_set_method(struct smear_tile_travel *tile, enum smear_tile_method method)
 {
-    load->flags |= (uint16_t)((unsigned)method << TILE_METHOD);
+    tile->flags |= (uint16_t)((unsigned)method << TILE_METHOD);
 }
 
 struct smear_tile_choice {
@@ -52,25 +52,27 @@ struct smear_chooser {
     bool fills;                 /* gaps between instants may be closed: the frame is not all border */
 };
 
-/* How much moves how far: areas of triangles in pixels, saturated. */
-enum { WAY_CLASSES = 32, WAY_CLASS_SHIFT = 6 };     /* of 4 px each, 1/16 px; the last: all longer ones */
+/* How much moves how far: areas of moving triangles in pixels, saturated, by classes of travel of 4 px each. The last
+ * class has all longer travels. */
+enum { TRAVEL_CLASSES = 32, TRAVEL_CLASS_SHIFT = 6 };   /* log2 of a class, 1/16 px */
 
-struct smear_way_areas {
-    uint32_t area[WAY_CLASSES], interval_area;     /* interval_area: of what passes through the near plane */
+struct smear_travel_areas {
+    uint32_t area[TRAVEL_CLASSES];
+    uint32_t interval_area;     /* of what passes through the near plane, whose travel is not known */
 };
 
-/* Of the chooser's target and coarser ones the first for which no more than `budget` pixels x instants are
- * expected, which is then *work; the coarsest in any case. */
-int32_t smear_tile_method_target(const struct smear_chooser *chooser, const struct smear_way_areas *areas, uint32_t budget,
-                            uint32_t *work);
+/* Returns the finest target, from the chooser's own on, whose predicted work fits `budget`, else the coarsest; stores
+ * the prediction, in pixels x instants, in *work. */
+int32_t smear_tile_method_target(const struct smear_chooser *chooser, const struct smear_travel_areas *areas,
+                                 uint32_t budget, uint32_t *work);
 
-/* The method of a tile: TILE_COPY, TILE_SUBFRAMES or TILE_TIMEMASK. */
+/* Chooses the method of a tile. */
 void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
-                  const struct smear_tile_load *load);
+                              const struct smear_tile_travel *tile);
 
-/* How a tile's moving triangles go on between `instants` that it shares: in the mean, but for those that hardly move, as
- * gaps between long streaks are seen more than slow things smeared a little. */
-void smear_tile_method_step(struct smear_step *step, const struct smear_chooser *chooser, const struct smear_tile_load *load,
-                       int32_t instants);
+/* Finds the step of a tile's moving triangles from one of `instants` to the next: in the mean, in which those that
+ * hardly move count little, as gaps between long streaks are seen more than slow things smeared a little. */
+void smear_tile_method_step(struct smear_step *step, const struct smear_chooser *chooser,
+                            const struct smear_tile_travel *tile, int32_t instants);
 
 #endif

@@ -21,7 +21,7 @@ enum {
 
 /* What the blocks of a tile share. */
 struct job {
-    const struct smear_moving_tile *tile;
+    const struct smear_tile_run *tile;
     const struct smear_timemask_settings *settings;
     struct timemask_samples slots;
     uint32_t *list;                             /* depth code, then place in the
@@ -76,7 +76,7 @@ static void sort_down(uint32_t *a, uint32_t n)
  * a pixel is hardly ever hidden by what comes later then. */
 static void list_moving(struct job *j)
 {
-    const struct smear_moving_tile *t = j->tile;
+    const struct smear_tile_run *t = j->tile;
     j->first = j->next;
     j->listed = 0;
     for (; j->next < t->moving_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
@@ -109,7 +109,7 @@ static int32_t shutter_bend(const struct smear_shutter_times *s, int log2)
 /* The fewest segments that do for all triangles of the tile, of the whole exposure. */
 static void choose_segments(struct job *j)
 {
-    const struct smear_moving_tile *t = j->tile;
+    const struct smear_tile_run *t = j->tile;
     int32_t curvature = 0, travel = 0;               /* q8 px */
     for (uint32_t i = 0; i < t->moving_count; i++) {
         const struct smear_path_bounds *b = bins_bounds(t->frame->bins, t->moving[i].triangle);
@@ -206,7 +206,7 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
 {
     /* Own copies: what is written might be anything. */
     const struct timemask_shade *s = p->shade;
-    const struct smear_raster_target *target = &j->tile->still;
+    const struct smear_raster_target *target = &j->tile->background;
     const struct timemask_timed depth = s->depth;
     const int32_t low = s->depth_low, high = s->depth_high, first = p->first, last_slot = p->last_slot + 1;
     const int32_t time_shift = p->time_shift;
@@ -362,8 +362,8 @@ static void draw_listed(struct job *j)
 
 static void finish_block(const struct job *j)
 {
-    const struct smear_moving_tile *t = j->tile;
-    const struct smear_raster_target *still = &t->still;
+    const struct smear_tile_run *t = j->tile;
+    const struct smear_raster_target *still = &t->background;
     for (int32_t y = 0; y < j->height; y++) {
         const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
         uint32_t *out = t->out + (j->y + y - still->y0) * t->pitch + (j->x - still->x0);
@@ -407,10 +407,10 @@ size_t smear_timemask_work(int32_t tile)
     return timemask_samples_bytes(1u << PIXELS_LOG2) + LISTED * sizeof(uint32_t);
 }
 
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings)
+uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings)
 {
     const int log2 = pixels_log2(t->work_bytes);
-    const struct smear_raster_target *still = &t->still;
+    const struct smear_raster_target *still = &t->background;
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
     smear_timemask_samples_place(&j.slots, j.list + LISTED, log2,
                                31 - count_leading_zeros((uint32_t)settings->slots),

@@ -6,7 +6,7 @@
 #include "temporal/moving.h"
 
 /* Bytes of work memory per worker: 7.6 kB, whatever the tile. Half or a quarter of it does, too, at the cost
- * of more set-up: tell by smear_moving_tile.work_bytes. */
+ * of more set-up: tell by smear_tile_run.work_bytes. */
 size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {
@@ -19,6 +19,6 @@ struct smear_timemask_settings {
 };
 
 /* Draws a tile of opaque moving triangles. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
-uint32_t smear_timemask_tile(const struct smear_moving_tile *t, const struct smear_timemask_settings *settings);
+uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings);
 
 #endif

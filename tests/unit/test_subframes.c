@@ -283,11 +283,11 @@ static void draw_still(void)
 
 static uint32_t samples;
 
-static struct smear_moving_tile tiles_at(int32_t tile, int32_t column, int32_t tiles, int32_t row, const struct smear_moving_triangle *movers)
+static struct smear_tile_run tiles_at(int32_t tile, int32_t column, int32_t tiles, int32_t row, const struct smear_moving_triangle *movers)
 {
-    return (struct smear_moving_tile){
+    return (struct smear_tile_run){
         .frame = &frame, .shutter = &shutter,
-        .still = ring_target(column * tile, row * tile, (column + tiles) * tile, (row + 1) * tile),
+        .background = ring_target(column * tile, row * tile, (column + tiles) * tile, (row + 1) * tile),
         .x0 = column * tile, .x1 = (column + tiles) * tile,
         .moving = movers, .moving_count = mover_count, .column = column, .last_column = column + tiles - 1,
         .blend = blend_head, .out = memory.out, .pitch = tiles * tile, .tile = tile, .work = memory.work
@@ -306,12 +306,12 @@ static bool check_tiles(int32_t tile, int32_t column, int32_t tiles, int32_t row
     size_t words = smear_subframes_work(tiles * tile, tile) / 4;
     for (size_t i = 0; i < sizeof memory / 4; i++)
         ((uint32_t *)&memory)[i] = 0xabcd0000u + (uint32_t)i;
-    const struct smear_moving_tile t = tiles_at(tile, column, tiles, row, movers);
+    const struct smear_tile_run t = tiles_at(tile, column, tiles, row, movers);
     samples += smear_subframes_tiles(&t, instants, NULL);
-    for (int32_t y = t.still.y0; y < t.still.y1; y++)
-        for (int32_t x = t.still.x0; x < t.still.x1; x++)
-            if (!CHECK(is_wanted(memory.out[(y - t.still.y0) * t.pitch + x - t.still.x0], y * W + x))) {
-                CHECK_EQ(memory.out[(y - t.still.y0) * t.pitch + x - t.still.x0] & 0xffffffu, want[y * W + x]);
+    for (int32_t y = t.background.y0; y < t.background.y1; y++)
+        for (int32_t x = t.background.x0; x < t.background.x1; x++)
+            if (!CHECK(is_wanted(memory.out[(y - t.background.y0) * t.pitch + x - t.background.x0], y * W + x))) {
+                CHECK_EQ(memory.out[(y - t.background.y0) * t.pitch + x - t.background.x0] & 0xffffffu, want[y * W + x]);
                 CHECK_EQ(x, -1);
                 CHECK_EQ(y, -1);
                 CHECK_EQ(tile, -1);
@@ -506,7 +506,7 @@ static int32_t closed_error(int32_t instants, const struct smear_step *step)
     }
     draw_still();
     draw_want(64);
-    struct smear_moving_tile t = tiles_at(16, 0, 4, 0, movers);
+    struct smear_tile_run t = tiles_at(16, 0, 4, 0, movers);
     smear_subframes_tiles(&t, instants, step);
     for (int32_t y = 12; y < 16; y++)
         for (int32_t x = 0; x < 60; x++)
@@ -548,7 +548,7 @@ static void test_wide_gaps_of_many_instants_keep_white(void)
             mover[0].first = 0;
             mover[0].last = 3;
             draw_still();
-            const struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+            const struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
             smear_subframes_tiles(&t, n, step);
             for (int32_t i = 0; i < 64 * 16; i++)
                 if (!CHECK_EQ(memory.out[i] & 0xffffffu, 0xffffffu))
@@ -566,7 +566,7 @@ static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
         mover[i].last = 3;
     }
     draw_still();
-    struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+    struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
     smear_subframes_tiles(&t, 4, step);
     for (int32_t x = 0; x < 32; x++)
         wide[x] = memory.out[14 * t.pitch + x];
@@ -574,7 +574,7 @@ static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
         draw_still();
         t = tiles_at(16, 0, 2, 0, mover);
         t.pitch = 64;
-        t.still.x1 += margin;
+        t.background.x1 += margin;
         t.last_column += margin != 0;
         smear_subframes_tiles(&t, 4, step);
         for (int32_t x = 0; x < 32; x++)
@@ -591,7 +591,7 @@ static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
     for (uint32_t i = 0; i < mover_count; i++)
         mover[i].nearest = 20000;
     draw_still();
-    struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+    struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
     for (int32_t y = 0; y < 16; y++)        /* a post */
         for (int32_t x = 24; x < 27; x++) {
             int32_t at = (y + 20) % RING * W + x;
@@ -618,7 +618,7 @@ static void test_a_still_surface_between_movers_keeps_its_edges_beside_closed_ga
         square_scene(linear, 24);
         for (int with = 0; with < 2; with++) {
             draw_still();
-            struct smear_moving_tile t = tiles_at(16, 0, 4, 0, mover);
+            struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
             for (uint32_t i = 0; i < mover_count; i++) {
                 mover[i].first = 0;
                 mover[i].last = 3;

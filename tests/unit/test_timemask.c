@@ -159,16 +159,16 @@ static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
         work[i] = 0xdeadbeefu;
     for (int32_t y = 0; y < H; y += tile)
         for (int32_t x = 0; x < W; x += tile) {
-            struct smear_moving_tile t = {
+            struct smear_tile_run t = {
                 .frame = &frame, .shutter = &shutter, .moving = mover, .moving_count = mover_count, .column = x / tile,
                 .last_column = x / tile, .blend = SMEAR_NO_TRIANGLE, .out = out, .pitch = tile, .tile = tile, .work = work + CANARY
             };
-            t.still = (struct smear_raster_target){
+            t.background = (struct smear_raster_target){
                 .x0 = x, .y0 = y, .x1 = min_i32(x + tile, W), .y1 = min_i32(y + tile, H), .color = still_color,
                 .color_rows = rows, .depth = still_depth, .window_rows = rows
             };
             /* The target's first row is that of y0. */
-            t.still.color_rows.ring_row = t.still.window_rows.ring_row = y;
+            t.background.color_rows.ring_row = t.background.window_rows.ring_row = y;
             for (int i = 0; i < TILE_MAX * TILE_MAX; i++)
                 out[i] = 0xabababu;
             smear_timemask_tile(&t, &settings);

@@ -27,13 +27,13 @@ void tiles_close(struct tiles *t)
 static const struct tile_note still = { TILES_NONE, TILES_STILL, 1 };
 
 /* The chooser is asked again for what it has said of this tile. */
-static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_load *load)
+static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_travel *tile)
 {
     struct smear_tile_choice choice;
-    if (load_method(load) == TILE_COPY)
+    if (travel_method(tile) == TILE_COPY)
         return still;
-    smear_tile_method_choose(&choice, &c->temporal->chooser, load);
-    if (load_method(load) == TILE_SUBFRAMES)
+    smear_tile_method_choose(&choice, &c->temporal->chooser, tile);
+    if (travel_method(tile) == TILE_SUBFRAMES)
         return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
     return (struct tile_note){ TILES_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
 }
@@ -77,7 +77,7 @@ static struct tile_note tile_of(const struct smear_probe *c, int row, int column
     case SMEAR_SUBFRAMES:
     case SMEAR_TIMEMASK:
     case SMEAR_AUTO:
-        return temporal_tile(c, &c->temporal->moving.load[column]);
+        return temporal_tile(c, &c->temporal->moving.travel[column]);
     case SMEAR_OBJECT:
     case SMEAR_LAYERED:
         return layers_tile(c, column);
