@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* arc.c - interpolation of poses by rotation: once per draw and pose, so 64-bit products are fine here.
+/* arc.c - interpolation of poses by rotation. It is done once per draw and pose, so 64-bit products are fine here.
  *
  * With Q the rotation from `before` to `now`, a pose at time t is Q^t (now + t (now - Q before)): what is
  * left when the turn is taken out changes linearly, then the turn is put back. */
@@ -17,7 +17,7 @@ static const int32_t arctangent[CORDIC_STEPS] = {          /* of 2^-i */
     667544, 333772, 166886, 83443, 41722, 20861, 10430, 5215, 2608, 1304, 652, 326, 163, 81, 41, 20
 };
 
-/* Angle of (x, y), both >= 0, of length 2^29 to 2^30: 0 .. a quarter turn. Good to 2^-24 radians. */
+/* Returns the angle of (x, y), both >= 0 and of a length of 2^29 to 2^30: 0 .. a quarter turn, to 2^-24 radians. */
 static uint32_t angle_of(int32_t x, int32_t y)
 {
     int32_t angle = 0;
@@ -36,10 +36,10 @@ static uint32_t angle_of(int32_t x, int32_t y)
     return (uint32_t)max_i32(angle, 0);
 }
 
-/* Cosine and sine, q30. Good to 2^-24. */
+/* Finds cosine and sine, q30, to 2^-24. */
 static void cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
 {
-    /* Half turns away, what is left lies within a quarter. */
+    /* Without a half turn, what is left lies within a quarter to either side. */
     bool turned = angle - 0x40000000u < 0x80000000u;
     int32_t rest = (int32_t)(turned ? angle - 0x80000000u : angle), x = CORDIC_GAIN, y = 0;
     for (int i = 0; i < CORDIC_STEPS; i++) {
@@ -65,8 +65,8 @@ struct turn {
     uint32_t angle;         /* q32 turns, 0 .. half a turn; others wrap by themselves */
 };
 
-/* `in`, brought to length one, q30. `length` is what it was after a shift to 30 bits: left, or
- * right if negative. False when it has none. */
+/* Brings a vector to length one, q30. *length is what it was after a shift to 30 bits by *shift: left, or right if
+ * negative. Returns false for a vector without length. */
 static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int *shift)
 {
     uint64_t largest = 0;
@@ -90,14 +90,14 @@ static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int
     return true;
 }
 
-/* Products of q30 vectors, q30. */
+/* Returns the dot product of q30 vectors, q30. */
 static int32_t dot(const int32_t a[3], const int32_t b[3])
 {
     return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> 30);
 }
 
-/* The axes of a pose, their scales taken out: axis[j] is where x, y or
- * z points. False unless they are orthogonal. */
+/* Finds the axes of a pose without their scales: axis[j] is where x, y or z points. Returns false unless they are
+ * orthogonal. */
 static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform *t)
 {
     for (int j = 0; j < 3; j++) {
@@ -119,8 +119,8 @@ static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform 
     return true;
 }
 
-/* A quaternion of any length, w x y z, of a rotation in q28; its largest component is 4 c^2 >= 1, the others
- * 4 c times theirs, so nothing cancels. w >= 0: the shorter way. */
+/* Finds the quaternion w x y z, of any length, of a rotation in q28. Its largest component is 4 c^2 >= 1 and the others
+ * are 4 c times theirs, so nothing cancels. w >= 0: it turns by at most half a turn. */
 static void quaternion_of(int32_t q[4], int32_t m[3][3])
 {
     const int32_t one = 1 << 28;
@@ -147,7 +147,7 @@ static void quaternion_of(int32_t q[4], int32_t m[3][3])
             q[i] = -q[i];
 }
 
-/* The turn that takes `before` to `now`. False when there is none, or none to speak of. */
+/* Finds the turn that takes `before` to `now`. Returns false when there is none, or none to speak of. */
 static bool find_turn(struct turn *turn, const smear_transform *before, const smear_transform *now)
 {
     int32_t a[3][3], b[3][3], m[3][3], q[4];
@@ -171,7 +171,7 @@ static bool find_turn(struct turn *turn, const smear_transform *before, const sm
 
 /* ------------------------------------------------------------------ poses */
 
-/* Q - 1 for a turn by `angle` about `axis`, q29: sin [n] + (1 - cos) (n n' - 1). */
+/* Finds Q - 1 for a turn by `angle` about the axis n, q29: sin [n] + (1 - cos) (n n' - 1). */
 static void rotation(int32_t m[3][3], const int32_t axis[3], uint32_t angle)
 {
     int32_t c, s;
@@ -201,7 +201,7 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
     }
 }
 
-/* now + (now - before) time */
+/* Returns now + (now - before) time, time in q24. */
 static int32_t extended(int32_t before, int32_t now, int32_t time)
 {
     SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);

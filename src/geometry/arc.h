@@ -7,16 +7,15 @@
 
 #include "base/fixed.h"
 
-/* The pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
+/* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis
  * through the origin of the object, which itself moves along a straight line. Scales (along the
  * axes of the object, or all alike) change linearly.
  *
- * The turn is the shorter way round, up to 180 degrees; what turns further between the poses cannot be
- * told from it. At 180 degrees itself, either way.
+ * The turn is the shorter one of the two that lead from pose to pose, up to 180 degrees: an object that turns further
+ * cannot be told from it. At 180 degrees it may be either.
  *
- * With three poses, at shutter open, centre and close, each half is
- * such a pair: centre and open, centre and close.
+ * With three poses, at shutter open, centre and close, each half is such a pair: centre and open, centre and close.
  *
  * Where the axes of a pose are not at right angles (a shear), have no length, or where one pose
  * is mirrored and the other is not, everything is linear. Entries are within 2^-20 of the exact

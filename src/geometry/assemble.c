@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* assemble.c - the loop over a draw's triangles.
  *
- * Order of work, cheapest rejection first: share an outcode, need clipping, face away, touch no pixel centre.
- * Only then are vertices shaded, moved to the other poses and stored, once each. Triangles of one or two
- * plain pixels are finished here: they become points. */
+ * The cheapest rejection comes first: vertices share an outcode, the triangle faces away, it touches no pixel centre.
+ * Only then are vertices shaded, transformed to the other poses and stored, once each. Triangles that need clipping
+ * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
 #include "geometry/clip.h"
@@ -21,7 +21,7 @@ static void forget_all(struct smear_assembler *a)
 void smear_assembler_reset(struct smear_assembler *a)
 {
     a->path_count = 0;
-    if (a->serial == 0)         /* later, serial numbers tell old vertices from new ones */
+    if (a->serial == 0)         /* after that, serial numbers tell old vertices from new ones */
         forget_all(a);
 }
 
@@ -30,7 +30,7 @@ static uint32_t index_of(const struct smear_cached_vertex *v)
     return v->tag & 0xffffu;
 }
 
-/* Where the vertex is now, before the division: remembered, or found again. */
+/* Returns where the vertex is now, before the division: from the cache, or transformed again into *found. */
 static const struct smear_homogeneous *now_of(struct smear_homogeneous *found, const struct smear_assembly *d,
                                               const struct smear_cached_vertex *v)
 {
@@ -51,8 +51,7 @@ static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
 
-/* The words of MOTION_*: the point of the surface that is at `now`
- * on the screen, seen at `h` in another pose. */
+/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
 static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
                          const struct smear_homogeneous *h, const struct smear_homogeneous *now,
                          const struct smear_screen *screen, const struct smear_viewport *viewport)
@@ -72,7 +71,7 @@ static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly
     out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
-/* The display has not all tiles that it reaches into. */
+/* Whether the display lacks one of the tiles that the box reaches into; notes where triangles are seen. */
 static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
 {
     if (!assembler_has_damage(a))
@@ -204,16 +203,15 @@ static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cache
 
 /* ------------------------------------------------------------------ whole triangles */
 
-/* The pixel a triangle covers and its weights there. */
+/* A pixel that a triangle covers, and its edge functions there. */
 struct covered {
     int32_t x, y, e1, e2;
 };
 
-/* Triangles of up to this many covered pixels become points; in memory they
- * are no larger than a triangle with vertices. */
+/* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2, TINY_BOX = 2 };
 
-/* How many centres in the box a triangle covers; the first POINTS_MAX of them. */
+/* Returns how many centres in the box the triangle covers, and lists the first POINTS_MAX of them. */
 static inline int cover(struct covered out[POINTS_MAX], const struct tiny_edges *e, const struct box *box)
 {
     int count = 0;
@@ -255,7 +253,7 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
     return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }
 
-/* Stores a vertex; returns its first word. */
+/* Stores a vertex; returns the first word of its record. */
 static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct smear_cached_vertex *v,
                                             uint32_t triangle, bool back)
 {
@@ -285,7 +283,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     return word;
 }
 
-/* First word of the vertex's record; stores it when that has not been done. */
+/* Returns the first word of the vertex's record, which it stores where that has not been done. */
 static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
                                      bool back)
 {
@@ -327,8 +325,8 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     }
 }
 
-/* A triangle that lies within the guard band, clockwise on the screen. `cut`: it may reach beyond the part of
- * the frame that is being filled. False when there is no room. */
+/* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach beyond the
+ * part of the frame that is being filled. Returns false when there is no room. */
 static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
                                      struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
                                      uint32_t triangle, bool back, bool cut)
@@ -378,7 +376,7 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return true;
 }
 
-/* Transforms a vertex. */
+/* Transforms and projects a vertex. */
 static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
                                struct smear_cached_vertex *v, uint32_t tag)
 {
@@ -393,7 +391,7 @@ static inline void find_vertex(const struct smear_assembler *a, const struct sme
 }
 
 #ifndef __OPTIMIZE_SIZE__
-/* All of a mesh whose vertices find room: one after the other they cost less. */
+/* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
 static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
                                     uint32_t tag)
 {
@@ -403,7 +401,7 @@ static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struc
 }
 #endif
 
-/* Transforms a vertex that is not remembered. An index the mesh does not have gives OUT_UNKNOWN. */
+/* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
                                                       const struct smear_assembly *d, uint32_t tag,
                                                       const struct smear_cached_vertex *in_use1,
@@ -415,7 +413,7 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assemb
         spare->outcode = OUT_UNKNOWN;
         return spare;
     }
-    /* A slot that this triangle already uses for another vertex must not be overwritten. */
+    /* An entry that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
     find_vertex(a, d, v, tag);

@@ -5,7 +5,7 @@
 
 #include "geometry/vertex.h"
 
-/* Before the draws of a frame, or of a part of it. */
+/* Call before the draws of a frame, or of a part of it. */
 void smear_assembler_reset(struct smear_assembler *a);
 
 /* Adds the draw's triangles to the geometry. Returns false when the store is full: what

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* assemble_path.c - the loop over a moving draw's triangles: as assemble.c, at three instants at once.
  *
- * A triangle is kept if it may be seen at any time of the exposure. It is listed under the
- * first tile row it may touch, together with the bounds of its way (struct smear_path_bounds):
- * all that a tile needs to choose its method. */
+ * A triangle is kept if it may be seen at any time of the exposure. It is listed under the first tile row that it may
+ * touch, together with the bounds of its path (struct smear_path_bounds): all that a tile needs to choose its
+ * method. */
 #include "geometry/assemble_path.h"
 
 #include "geometry/clip.h"
@@ -13,12 +13,11 @@
 
 enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
 
-/* A vertex at all three instants, remembered under its index:
- * direct mapped, in the memory of the other cache. */
+/* A vertex at all three instants: an entry of a direct-mapped cache in the memory of the other one. */
 struct path_vertex {
-    uint32_t tag, stored;               /* as struct smear_cached_vertex */
+    uint32_t tag, stored;               /* as in struct smear_cached_vertex */
     struct smear_screen screen[KEYS];
-    uint32_t outcodes;                  /* a byte for each instant: code_at */
+    uint32_t outcodes;                  /* a byte for each instant, see code_at() */
 };
 
 static int code_at(uint32_t outcodes, int key)
@@ -52,14 +51,15 @@ static uint16_t sixteenths(int32_t q8)
     return (uint16_t)min_i32((q8 + 15) >> 4, 65535);
 }
 
-/* Nearest depth code of units q11, rounded up. */
+/* Returns the depth code of units q11, rounded up. */
 static uint16_t code_above(int32_t depth)
 {
     uint32_t units = ((uint32_t)depth >> 11) + 1u;
     return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65535u));
 }
 
-/* False when no pixel of the part of the frame that is being filled can be covered. */
+/* Finds a triangle's bounds. Returns false when it can't cover a pixel of the part of the frame that is being
+ * filled. */
 static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
                         const struct smear_assembly *d, const struct smear_screen *const corner[3])
 {
@@ -109,14 +109,13 @@ static void store_path(uint32_t *record, const struct smear_segment *s,
     store_place(record + s->motion + PATH_POSE_WORDS, &screen[CLOSE]);
 }
 
-/* A draw on its way. */
+/* What the loop over a draw's triangles needs for each of them. */
 struct path_batch {
     struct smear_assembler *a;
     const struct smear_assembly *d;
-    struct smear_segment *segment;
-    bool shares;                        /* vertices are the same for all faces */
-    int32_t apart;                      /* nothing of the draw that is nearer is seen:
-                                         * find_apart; 0 not looked for */
+    struct smear_segment *segment;      /* the newest */
+    bool shares;                        /* all faces of a vertex share its record */
+    int32_t apart;                      /* nothing of the draw that is nearer is seen: find_apart(); 0: not known yet */
 };
 
 static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
@@ -141,8 +140,8 @@ static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex
     return word;
 }
 
-/* It does not move by a step of its vertices (q8 px). */
-static bool is_still(const struct smear_path_bounds *bounds)
+/* Whether no vertex moves, not even by a step (q8 px). */
+static bool is_static(const struct smear_path_bounds *bounds)
 {
     return bounds->travel + bounds->curvature == 0;
 }
@@ -150,7 +149,7 @@ static bool is_still(const struct smear_path_bounds *bounds)
 static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
 {
     struct smear_bins *g = b->a->bins;
-    uint32_t *list = is_blend(b->d) ? g->blend_last : is_still(bounds) ? g->opaque_last : g->moving_last;
+    uint32_t *list = is_blend(b->d) ? g->blend_last : is_static(bounds) ? g->opaque_last : g->moving_last;
     return &list[bins_row(g, bounds->y0)];
 }
 
@@ -163,7 +162,7 @@ static bool has_room(struct path_batch *b)
     return true;
 }
 
-/* Tiles in which it is seen at some time. */
+/* Marks the tiles in which a triangle is seen at some time. */
 static void mark_tiles(const struct smear_damaged_tiles *d, const struct smear_path_bounds *b)
 {
     const struct smear_tile_box box = tile_box_of(d, b->x0, b->x1, b->y0, b->y1);
@@ -172,7 +171,7 @@ static void mark_tiles(const struct smear_damaged_tiles *d, const struct smear_p
             d->tile[row * (d->columns + 1) + column] |= TILE_DAMAGED_NOW;
 }
 
-/* There must be room. */
+/* Adds a triangle to its list. There must be room. */
 static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds, const uint16_t vertex[3],
                           const struct smear_face *face)
 {
@@ -189,13 +188,14 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     t->segment = (uint16_t)(b->segment - g->segment);
     t->color = color;
     b->a->path_count++;
-    b->a->path_static_count += is_still(bounds);
+    b->a->path_static_count += is_static(bounds);
     if (assembler_has_damage(b->a))
         mark_tiles(b->a->damaged, bounds);
     b->a->triangles_drawn++;
 }
 
-/* Three vertices, clockwise on the screen where the triangle is seen from the side that is drawn. */
+/* Adds a triangle whose vertices are clockwise on the screen where it is seen from the side that is drawn. Returns
+ * false where there is no room. */
 static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1,
                          struct path_vertex *v2, uint32_t triangle, bool back)
 {
@@ -217,14 +217,14 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
 
 /* ------------------------------------------------------------------ clipped */
 
-/* What a triangle is cut against: the exposure, or one of PATH_INTERVALS parts of it. */
+/* What a triangle is clipped against: the exposure, or one of PATH_INTERVALS parts of it. */
 struct cut {
     struct smear_projection projection[KEYS];
     int codes[KEYS];
-    uint8_t interval;          /* as in struct smear_path_bounds */
+    uint8_t interval;           /* as in struct smear_path_bounds */
 };
 
-/* Brings another pose into the place that is clipped, or back. */
+/* Exchanges the present pose, which is the one that is clipped, with another one. */
 static void exchange(struct smear_clip_polygon *p, int key)
 {
     for (int i = 0; i < p->count; i++) {
@@ -235,7 +235,7 @@ static void exchange(struct smear_clip_polygon *p, int key)
     }
 }
 
-/* Leaves what is in front of the near plane and within the guard band at all three instants. */
+/* Clips to what is in front of the near plane and within the guard band at all three instants. */
 static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
 {
     smear_clip_polygon(p, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
@@ -255,7 +255,7 @@ static void project_corner(struct smear_screen screen[KEYS], const struct smear_
     }
 }
 
-/* What is left of a triangle. */
+/* What clipping leaves of a triangle. */
 struct polygon {
     struct smear_clip_polygon clip;
     struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
@@ -283,7 +283,8 @@ static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int 
     return word;
 }
 
-/* One triangle of the fan, in the order that is clockwise when seen from its side. */
+/* Adds one triangle of the fan, whose corners are clockwise when it is seen from its side. Returns false where there is
+ * no room. */
 static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], const struct smear_face *face)
 {
     const struct smear_screen *const corner[3] = { p->screen[fan[0]], p->screen[fan[1]], p->screen[fan[2]] };
@@ -295,7 +296,7 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     bounds.interval = p->interval;
     if (p->interval != 0) {
         bounds.flags |= PATH_INTERVAL;
-        /* of the whole exposure */
+        /* The travel counts for the whole exposure. */
         bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_INTERVALS, 65535);
     }
     const struct smear_segment *s = b->segment;
@@ -306,8 +307,8 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     return true;
 }
 
-/* Adds what is left of a triangle, if it is seen from the side that is drawn
- * (`back`: counter-clockwise) at some instant. */
+/* Adds what is left of a triangle, if it is seen from the side that is drawn (face->back: counter-clockwise) at some
+ * instant. Returns false where there is no room. */
 static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
                     const struct smear_face *face)
 {
@@ -352,18 +353,18 @@ static void lower_scale(struct smear_projection *p, int scale)
         p->far_distance = scale_sat(p->far_distance, clamp_i32(-down, -31, 31));
 }
 
-/* Coordinate at time u (q16, -1 .. 1) of the way from open over middle to close. */
-static int32_t on_way(int64_t open, int64_t middle, int64_t close, int32_t u)
+/* Returns a coordinate at time u (q16, -1 .. 1) of the path from open over middle to close. */
+static int32_t on_path(int64_t open, int64_t middle, int64_t close, int32_t u)
 {
     int64_t along = (close - open) + ((open + close - 2 * middle) * u >> 16);
     return (int32_t)(middle + (along * u >> 17));
 }
 
-static void place_on_way(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
+static void place_on_path(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
 {
-    out->x = on_way(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
-    out->y = on_way(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
-    out->w = on_way(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
+    out->x = on_path(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
+    out->y = on_path(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
+    out->w = on_path(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
     out->distance = out->w;
 }
 
@@ -374,10 +375,10 @@ static void scale_homogeneous(struct smear_homogeneous *h, int down)
     h->w = scale_sat(h->w, clamp_i32(-down, -31, 31));
 }
 
-/* The near plane cuts the triangle at some instants, each time elsewhere: what is in front of it throughout
- * would be too little. In short parts of the exposure it is about what is in front in the middle; at their
- * ends a little of that may lie behind, though not behind the eye. */
-static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_clip_vertex corner[3],
+/* Adds a triangle that the near plane cuts at some instants, each time elsewhere: what is in front of the plane
+ * throughout would be too little. In a short interval of the exposure that is about what is in front in its middle; at
+ * its ends a little of that may lie behind, though not behind the eye. */
+static SMEAR_NOINLINE bool add_intervals(struct path_batch *b, const struct smear_clip_vertex corner[3],
                                       struct cut *cut, const struct smear_face *face)
 {
     /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
@@ -403,9 +404,9 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
         int32_t begin = interval * step - 65536;
         for (int i = 0; i < 3; i++) {
             part[i] = corner[i];
-            place_on_way(&part[i].pose[OPEN], at[i], begin);
-            place_on_way(&part[i].now, at[i], begin + step / 2);
-            place_on_way(&part[i].pose[CLOSE], at[i], begin + step);
+            place_on_path(&part[i].pose[OPEN], at[i], begin);
+            place_on_path(&part[i].now, at[i], begin + step / 2);
+            place_on_path(&part[i].pose[CLOSE], at[i], begin + step);
         }
         cut->interval = (uint8_t)(interval + 1);
         if (!add_cut(b, part, cut, face))
@@ -417,10 +418,10 @@ static SMEAR_NOINLINE bool add_pieces(struct path_batch *b, const struct smear_c
 /* ------------------------------------------------------------------ near the near plane */
 
 /* The ground under a camera passes through the near plane, but beside the frame. What is nearer
- * than some distance then needs not be drawn, and the rest is cut once, for all instants: its
+ * than some distance then need not be drawn, and the rest is clipped once, for all instants: its
  * corners are places of the surface like any vertex. */
 
-/* The triangle's places, without what is drawn of it. */
+/* Finds where the triangle's vertices are at the three instants. */
 static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d,
                           const uint16_t index[3])
 {
@@ -431,24 +432,25 @@ static void place_corners(struct smear_clip_vertex corner[3], const struct smear
     }
 }
 
-/* The same from here on is in front of the near plane at all times: near plus the longest way towards it. */
+/* Returns the distance from which on all of the triangle is in front of the near plane at all times: that of the plane
+ * plus the longest travel towards it. */
 static int32_t safe_distance(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
 {
     const struct smear_projection *now = &d->at.now;
-    int64_t way = 0;
+    int64_t travel = 0;
     for (int key = OPEN; key <= CLOSE; key++)
         for (int i = 0; i < 3; i++) {
             const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
             const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
                                          : (int64_t)corner[i].pose[key].w * ((int64_t)1 << up);
-            way = corner[i].now.w - there > way ? corner[i].now.w - there : way;
+            travel = corner[i].now.w - there > travel ? corner[i].now.w - there : travel;
         }
-    way += now->near_distance + (int64_t)8;
-    return way < 1 << 28 ? (int32_t)way : 1 << 28;
+    const int64_t safe = travel + now->near_distance + 8;
+    return safe < 1 << 28 ? (int32_t)safe : 1 << 28;
 }
 
-/* Whether a side of the frame hides all of the polygon: a pose's places lie at
- * sums of those known, so at all times. */
+/* Whether all of the polygon lies beyond one side of the frame at the three instants, and so at all times: places
+ * between are sums of those. */
 static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport *viewport)
 {
     int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
@@ -460,7 +462,7 @@ static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport 
     return beside != 0;
 }
 
-/* Nothing of the triangle that is nearer than this in the middle of the exposure is seen at any time. */
+/* Whether nothing of the triangle that is nearer than `distance` in the middle of the exposure is seen at any time. */
 static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
 {
     struct smear_clip_polygon polygon;
@@ -497,8 +499,8 @@ static bool passes_near(const struct path_batch *b, const uint16_t index[3])
     return behind != 0 && behind != 3 * KEYS;
 }
 
-/* One distance for all triangles of a draw, so that their edges still meet: the largest of some that
- * holds for all, but those for which none does. */
+/* Finds one distance for all triangles of a draw, so that their edges still meet: the largest of DOUBLINGS + 1 for
+ * which is_apart() holds for all triangles but those for which it never does. */
 static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
 {
     enum { DOUBLINGS = 5 };
@@ -506,7 +508,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
     struct smear_clip_vertex corner[3];
     int32_t least = 0;
     int doublings = DOUBLINGS;
-    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles in question lie between */
+    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles that pass the near plane lie between */
     for (int pass = 0; pass < 2; pass++) {
         uint32_t last = first;
         for (uint32_t i = first; i < end; i++) {
@@ -529,12 +531,13 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
         }
         end = last + 1;
     }
-    while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* none holds for any triangle */
+    while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* where it holds for no triangle */
         doublings--;
     return least << doublings;
 }
 
-/* `corner` as the mesh has them: counter-clockwise in front. */
+/* Adds a triangle that has to be clipped at some instant; its vertices are in the mesh's own order: counter-clockwise
+ * where its front is seen. Returns false where there is no room. */
 static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
                                             uint32_t triangle, uint32_t codes, bool back)
 {
@@ -561,7 +564,7 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
     if (b->apart == 0)
         b->apart = find_apart(b);
     if (safe_distance(corner, d) > b->apart || !is_apart(corner, b, b->apart))
-        return add_pieces(b, corner, &cut, &face);
+        return add_intervals(b, corner, &cut, &face);
     cut.projection[MIDDLE].near_distance = b->apart;
     for (int key = 0; key < KEYS; key++)
         cut.codes[key] = (cut.codes[key] & ~OUT_NEAR) | OUT_GUARD;
@@ -571,7 +574,7 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
 
 /* ------------------------------------------------------------------ the loop */
 
-/* The two caches share memory: what the other wrote is no vertex of ours. */
+/* Opens the cache, which shares its memory with the other one: what that one wrote is no vertex of this one. */
 static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
 {
     struct path_vertex *cache = (struct path_vertex *)(void *)a->cache;
@@ -620,7 +623,8 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
             return add_clipped_path(b, v, triangle, codes, false)
                 && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
     }
-    bool front = false, behind = !d->material->double_sided;    /* seen, or of no interest */
+    /* Which sides are seen at some instant; a side that is not drawn counts as seen. */
+    bool front = false, behind = !d->material->double_sided;
     struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
     for (int key = 0; key < KEYS && !(front && behind); key++) {
         int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);

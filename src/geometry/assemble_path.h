@@ -5,9 +5,9 @@
 
 #include "geometry/vertex.h"
 
-/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the guard band (or the near plane of
- * an orthographic camera) cuts at some instant lose what lies beyond it there, for the whole exposure. Those that pass
- * the near plane of a perspective are cut where nothing nearer is seen or, where that is nowhere, listed in intervals of
+/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the guard band (or the near plane of an
+ * orthographic camera) cuts at some instant lose what lies beyond it there, for the whole exposure. Those that pass the
+ * near plane of a perspective are cut where nothing nearer is seen or, where that is nowhere, listed in intervals of
  * the exposure (smear_path_bounds.interval). */
 bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *draw, bool drop);
 

@@ -25,7 +25,7 @@ struct smear_segment *smear_bins_open(struct smear_bins *g)
     return s;
 }
 
-/* True when the triangle covers a pixel centre at or below pixel row y. */
+/* Whether the triangle covers a pixel centre at or below pixel row y. */
 static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);

@@ -28,25 +28,25 @@ struct smear_triangle {
 
 enum { POINT_X, POINT_Y, POINT_DEPTH };      /* pixel and depth code of a point */
 
-/* In place of a segment: opaque, without motion. */
+/* The number of a segment that stands for a point, which is opaque and does not move. */
 #define SMEAR_POINT 0xffffu
 
-/* What is seen of a triangle with a path during the exposure: the entry before its own. */
+/* What is seen of a triangle with a path during the exposure. It lies in the entry before the triangle's own. */
 struct smear_path_bounds {
-    int16_t x0, y0, x1, y1; /* pixels whose centres may be covered, in the frame */
-    uint16_t travel;        /* longest way of a vertex from open to close, 1/16 px, saturated */
-    uint16_t curvature;          /* path_curvature of a vertex, at most, 1/16 px, saturated */
+    int16_t x0, y0, x1, y1; /* pixels of the frame whose centres may be covered */
+    uint16_t travel;        /* the longest travel of a vertex from open to close, 1/16 px, saturated */
+    uint16_t curvature;     /* the largest path_curvature of a vertex, 1/16 px, saturated */
     uint16_t nearest;       /* depth code that is not exceeded */
     uint8_t flags;          /* PATH_TEXTURED ... */
-    uint8_t interval;          /* 0: the whole exposure. k: its places are those at begin, middle and end of the
+    uint8_t interval;       /* 0: the whole exposure. k: its places are those at begin, middle and end of the
                              * k-th of PATH_INTERVALS parts of the exposure, and it is there only then */
 };
 
 enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
-    PATH_INTERVAL = 4,         /* there for a interval of the exposure only */
-    PATH_FLAT = 8          /* vertices of (nearly) one colour, which is the triangle's `color` */
+    PATH_INTERVAL = 4,      /* it is there for an interval of the exposure only */
+    PATH_FLAT = 8           /* vertices have (nearly) one colour, which is the triangle's `color` */
 };
 
 enum { PATH_INTERVALS = 16 };
@@ -65,14 +65,14 @@ struct smear_segment {
     uint8_t stride;
     uint8_t uv, color, motion;
     uint8_t shade;          /* smear_shade_mode */
-    uint8_t moves;          /* 0: still. 1: open pose differs. 2: close pose, too */
+    uint8_t moves;          /* 0: it is static. 1: the open pose differs. 2: the close pose, too */
     uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
     uint8_t flat;           /* its triangles are flat, though vertices had colours: all the same */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
                              * place of motion words; moves is 0 */
 };
 
-/* As they are, where the methods and surfaces that need them were compiled in. */
+/* These are false at compile time where the methods and surfaces that need them were left out. */
 static inline bool segment_flat_depth(const struct smear_segment *s)
 {
     return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth;
@@ -88,7 +88,8 @@ static inline bool segment_gouraud(const struct smear_segment *s)
     return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
 }
 
-/* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size counts. */
+/* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size
+ * counts. */
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_FIND_FLAT 0
 #else
@@ -114,8 +115,8 @@ static inline int segment_moves(const struct smear_segment *s)
 /* Words of a vertex record. */
 enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
 
-/* Of one pose in `motion`, for a vertex at X = x/w now and (x', y', w') in the pose: how the two depths
- * compare, r = w'/w, and x'/w - r X: the displacement times r. Nothing is divided by w', so a pose may lie
+/* Words of one pose in `motion`. For a vertex at X = x/w now and (x', y', w') in the pose they are r = w'/w, by which
+ * the two depths compare, and x'/w - r X, the displacement times r. Nothing is divided by w', so a pose may lie
  * behind the eye; a pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
 enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
 
@@ -126,10 +127,9 @@ struct smear_bins {
     uint32_t triangle_count;        /* in use, from the top */
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
-    /* Per tile row: last triangle of each ring, or none. Moving triangles: opaque and cut out, with a path. */
+    /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
-    int moving_rows;                 /* rows of mover_last beyond row_count: 0, or 2
-                                     * with blurred layers (layer.h) */
+    int moving_rows;                /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
@@ -157,7 +157,7 @@ static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_wor
 /* Empties the store for the tile rows [first, end). */
 void smear_bins_reset(struct smear_bins *g, int first, int end);
 
-/* Tile row of pixel row y < 2048. Exact: the reciprocal is too large by less than row_px / 2^22. */
+/* Returns the tile row of pixel row y < 2048. It is exact: the reciprocal is too large by less than row_px / 2^22. */
 static inline int bins_row(const struct smear_bins *g, int32_t y)
 {
     return (int)((uint32_t)y * g->row_recip >> 22);
@@ -166,7 +166,7 @@ static inline int bins_row(const struct smear_bins *g, int32_t y)
 /* Starts a segment at the next free vertex word; null when the table is full. */
 struct smear_segment *smear_bins_open(struct smear_bins *g);
 
-/* The next free entry, linked into the list of tile row `row`. There must be room. */
+/* Takes the next free entry and links it into the ring whose last triangle is *last_of_row. There must be room. */
 static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *last_of_row)
 {
     uint32_t i = g->triangle_count++, last = *last_of_row;
@@ -182,7 +182,7 @@ static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *la
     return t;
 }
 
-/* The same for a triangle with a path. There must be room for two entries. */
+/* Takes two entries for a triangle with a path and links the second one. There must be room. */
 static inline struct smear_triangle *bins_add_path(struct smear_bins *g, uint32_t *last_of_row,
                                                        const struct smear_path_bounds *bounds)
 {
@@ -202,7 +202,7 @@ static inline const struct smear_path_bounds *bins_bounds(const struct smear_bin
  * new head; lists end with SMEAR_NO_TRIANGLE. */
 uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row);
 
-/* The same for who looks further up: drops only what ends above pixel row y. */
+/* Moves a list on like smear_bins_advance, for who looks further up: drops only what ends above pixel row y. */
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
                               int32_t y);
 

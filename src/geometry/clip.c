@@ -6,7 +6,7 @@
 
 enum plane { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANES };
 
-/* Signed distance, negative outside; |.| < 2^43. */
+/* Returns the signed distance from a plane: negative outside, below 2^43. */
 static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear_projection *p,
                            enum plane plane)
 {
@@ -21,7 +21,7 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
     }
 }
 
-/* Its sign alone: a < -2048 w where floor(a / 2048) < -w. */
+/* Tells the sign of the distance: a < -2048 w where floor(a / 2048) < -w. */
 static bool is_outside(const struct smear_clip_vertex *v, const struct smear_projection *p, enum plane plane)
 {
 #if SMEAR_ONE_COPY
@@ -40,7 +40,7 @@ static bool is_outside(const struct smear_clip_vertex *v, const struct smear_pro
 #endif
 }
 
-/* a + (b - a) t, t q30, to nearest. */
+/* Returns a + (b - a) t to nearest, t in q30. */
 static int32_t mix(int32_t a, int32_t b, int32_t t)
 {
 #if SMEAR_HAS_MUL64
@@ -71,7 +71,7 @@ static void settle(struct smear_homogeneous *h, const struct smear_projection *p
     }
 }
 
-/* The point where the edge from `in` to `out` meets the plane. */
+/* Finds the vertex where the edge from `in` to `out` meets the plane. */
 static void cut(struct smear_clip_polygon *polygon, struct smear_clip_vertex *result,
                 const struct smear_clip_vertex *in, const struct smear_clip_vertex *out,
                 const struct smear_projection *p, enum plane plane)
@@ -107,10 +107,10 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
             order[result++] = polygon->order[i];
         if (is_out == (outside >> next & 1u) || result == SMEAR_CLIP_MAX || fresh == SMEAR_CLIP_ROOM)
             continue;
-        const int slot = polygon->order[fresh++];
-        cut(polygon, &polygon->vertex[slot], clip_corner(polygon, is_out ? next : i),
+        const uint8_t corner = polygon->order[fresh++];
+        cut(polygon, &polygon->vertex[corner], clip_corner(polygon, is_out ? next : i),
             clip_corner(polygon, is_out ? i : next), p, plane);
-        order[result++] = (uint8_t)slot;
+        order[result++] = corner;
     }
     while (fresh < SMEAR_CLIP_ROOM)
         order[--unused] = polygon->order[fresh++];
@@ -119,7 +119,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
     polygon->count = result < 3 ? 0 : result;
 }
 
-/* Some corner lies beyond one of the four sides at least: most polygons stay within. */
+/* Whether some corner may lie beyond one of the four sides: most polygons stay within. */
 static bool leaves_guard(struct smear_clip_polygon *p)
 {
 #ifndef __OPTIMIZE_SIZE__

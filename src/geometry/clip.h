@@ -5,25 +5,24 @@
 
 #include "geometry/transform.h"
 
-/* Values in use; an array has room for one at least. */
+/* How many poses and colour channels are in use. */
 enum {
     CLIP_POSES = SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SUBFRAMES ? 2 : 0,
     CLIP_COLORS = SMEAR_WITH_GOURAUD ? 4 : 0
 };
+/* Arrays have room for one at least. */
 #define CLIP_ROOM(count) ((count) > 0 ? (count) : 1)
 
 /* All that is interpolated along a cut edge. Poses other than the present one are cut at the same place of
  * the surface, so that velocities stay right up to the near plane. */
 struct smear_clip_vertex {
     struct smear_homogeneous now;
-    struct smear_homogeneous pose[CLIP_ROOM(CLIP_POSES)];   /* open, close: each in its own
-                                                             * projection's scale */
+    struct smear_homogeneous pose[CLIP_ROOM(CLIP_POSES)];   /* open, close; each in its own projection's scale */
     int32_t uv[2];                                          /* mesh units */
     int32_t color[CLIP_ROOM(CLIP_COLORS)];                  /* 0 .. 65535 */
 };
 
-/* A triangle cut by six planes has at most nine corners. Cut in three poses,
- * it may have more, of which none is likely. */
+/* A triangle cut by six planes has at most nine corners. Cut in three poses it may have more, but hardly ever has. */
 #define SMEAR_CLIP_MAX (SMEAR_WITH_SUBFRAMES ? 12 : 9)
 
 /* A cut makes two corners before those outside it are given up; one that rounding bent makes a few more. */
@@ -33,8 +32,8 @@ struct smear_clip_vertex {
  * that are free: nothing is moved when a corner goes. */
 struct smear_clip_polygon {
     int count;
-    uint8_t poses;              /* so many of a vertex's poses are in use */
-    bool textured, colored;     /* and these of its other attributes */
+    uint8_t poses;              /* how many of a vertex's poses are in use */
+    bool textured, colored;     /* uv and colours are in use */
     uint8_t order[SMEAR_CLIP_ROOM];
     struct smear_clip_vertex vertex[SMEAR_CLIP_ROOM];
 };
@@ -44,7 +43,7 @@ static inline struct smear_clip_vertex *clip_corner(struct smear_clip_polygon *p
     return &p->vertex[p->order[i]];
 }
 
-/* A triangle of vertex[0 .. 2], which the caller fills in. */
+/* Starts with the triangle of vertex[0 .. 2], which the caller fills in. */
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored);
 
 /* Clips the polygon; `count` is 0 when nothing is left. `codes` is the union of the outcodes of its corners: only

@@ -18,19 +18,19 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
-/* One copy for this file, with a name of its own for linker scripts that choose what lies in fast memory. */
+/* This file has one copy, whose name linker scripts can choose for fast memory. */
 static SMEAR_RARE uint32_t length_from(uint64_t square)
 {
     return sqrt_floor_64(square);
 }
 
-/* By how much to shift right for `largest` to have that many bits; negative: left. */
+/* Returns by how much to shift right for `largest` to have that many bits; negative: left. */
 static int shift_to(uint64_t largest, int bits)
 {
     return 64 - count_leading_zeros_64(largest) - bits;
 }
 
-/* Columns of equal length at right angles, within 1/256: the matrix is a rotation times a scale. */
+/* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
 static bool keeps_lengths(int32_t m[3][3])
 {
     int64_t length = 0;
@@ -48,7 +48,8 @@ static bool keeps_lengths(int32_t m[3][3])
     return true;
 }
 
-/* Normals of the object to the world's: cofactors of the basis, without the sign of its determinant. */
+/* Makes the matrix that takes normals of the object to the world: cofactors of the basis, without the sign of its
+ * determinant. */
 static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 {
     int32_t b[9];
@@ -108,7 +109,7 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     }
 }
 
-/* max(0, cosine) of an object-space normal of any length, components up to 2^14.
+/* Returns max(0, cosine) for an object-space normal of any length, components up to 2^14.
  *
  * The normal in the world, h 2^12 + l, has 24 bits: sums of products of the halves fit into 32. */
 static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
@@ -153,7 +154,7 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
 
 static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
 
-/* The normal of edges of any length. */
+/* Returns the light of a face with edges of any length. */
 static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
 {
     int32_t n[3];
@@ -199,13 +200,13 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
     return light_of_long(s, u, v);
 }
 
-/* a b with 65535 as one, for both. */
+/* Returns a b, where 65535 is one. */
 static uint32_t times_lin(uint32_t a, uint32_t b)
 {
     return a * (b + (b >> 15)) >> 16;
 }
 
-/* Colours of vertices and faces alone do not want a table of 4 kB. */
+/* Encodes linear light. Colours of vertices and faces alone do not want a table of 4 kB. */
 static uint32_t encode(uint32_t light)
 {
     return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);

@@ -27,22 +27,22 @@ struct smear_color {
     uint16_t channel[4];
 };
 
-/* has_normals: smear_light_normal() will be asked. */
+/* Makes a draw's shading; with has_normals, smear_light_normal() may be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *material, bool has_normals, bool linear);
 
-/* 0 .. 65536: max(0, n.l) for an object-space normal of length 127 (vertex). */
+/* Returns max(0, n.l), 0 .. 65536, for an object-space normal of length 127. */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);
 
-/* The same for the face of three vertices, counter-clockwise in front (in object space). */
+/* Returns max(0, n.l) for the face of three vertices, counter-clockwise in front (in object space). */
 uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
                           const int16_t c[3]);
 
-/* factor x color (sRGB r g b and alpha; null: white) x (0.30 + 0.70 cosine), cosine 0 .. 65536. */
+/* Shades: factor x color (sRGB r g b and alpha; null: white) x (0.30 + 0.70 cosine), cosine 0 .. 65536. */
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
 
-/* To 0xAARRGGBB, r g b as sRGB codes. */
+/* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */
 uint32_t smear_color_pack(const struct smear_color *color, bool linear);
 
 #endif

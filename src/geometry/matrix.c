@@ -12,19 +12,19 @@ static uint64_t magnitude(int64_t a)
     return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
 }
 
-/* Bits of |a|; 0 for 0. */
+/* Returns how many bits |a| has; 0 for 0. */
 static int bit_length(int64_t a)
 {
     return a == 0 ? 0 : 64 - count_leading_zeros_64(magnitude(a));
 }
 
-/* a 2^-down to nearest, down 1 .. 62. */
+/* Returns a 2^-down to nearest, down 1 .. 62. */
 static inline int64_t scale_down(int64_t a, int down)
 {
     return ((a >> (down - 1)) + 1) >> 1;
 }
 
-/* a 2^shift, rounded to nearest, clamped to 32 bits less one. */
+/* Returns a 2^shift, rounded to nearest and clamped to +-(2^31 - 1). */
 static int32_t scale_to_i32(int64_t a, int shift)
 {
     if (shift < 0)
@@ -34,7 +34,7 @@ static int32_t scale_to_i32(int64_t a, int shift)
     return narrow_sat((int64_t)((uint64_t)a << shift));
 }
 
-/* The same; mostly it shrinks, and needs no call. */
+/* Does what scale_to_i32 does, without a call where the number shrinks, as it mostly does. */
 static inline int32_t scale_inline(int64_t a, int shift)
 {
 #ifndef __OPTIMIZE_SIZE__
@@ -44,7 +44,7 @@ static inline int32_t scale_inline(int64_t a, int shift)
     return scale_to_i32(a, shift);
 }
 
-/* a 2^shift in 64 bits, clamped to +-2^52 so that sums of a few stay exact. */
+/* Returns a 2^shift, clamped to +-2^52 so that sums of a few stay exact. */
 static int64_t scale_to_i52(int64_t a, int shift)
 {
     const int up = clamp_i32(shift, 0, 53);
@@ -111,7 +111,7 @@ static struct factor factor_from(int64_t value, int exponent)
     return (struct factor){ scale_to_i32(value, shift), exponent - shift };
 }
 
-/* log2 of a bound on |row| for every int16 vertex, of a row of the view times `by`. */
+/* Returns the log2 of a bound on |row| for every int16 vertex, where the row is the view's times `by`. */
 static int row_bits(const struct smear_view *view, int row, struct factor by)
 {
     uint64_t sum = 0;
@@ -122,7 +122,7 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
     return bits + 1 + 30 + by.exponent;
 }
 
-/* One row of the projection: the view's row times `by`, scaled by 2^scale. */
+/* Fills a row of the projection: the view's row times `by`, scaled by 2^scale. */
 static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
                      int scale)
 {
@@ -134,11 +134,11 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
 
-/* Near and far plane and the factor of depth units, for the scale of `distance`. */
+/* Sets the near and far plane and the factor of depth units, in the scale of `distance`. */
 static void set_distances(struct smear_projection *p, const smear_camera *camera)
 {
     int scale = p->distance_scale;
-    /* Rows stay below 2^30: what is farther is in front of the plane either way. */
+    /* Rows stay below 2^30, so what lies farther is in front of a plane that is clamped there. */
     p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
     p->far_distance = camera->far_plane == 0 ? INT32_MAX
                     : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
@@ -205,7 +205,7 @@ static int rows_of(const struct smear_projection *p)
     return is_orthographic(p) ? 4 : 3;
 }
 
-/* m weight 2^shift for a whole projection. */
+/* Multiplies a projection by a weight (q24) and brings it to new scales. */
 static void weigh(struct smear_projection *p, int32_t weight, int scale, int distance_scale)
 {
     for (int row = 0; row < rows_of(p); row++) {

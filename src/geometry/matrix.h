@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* matrix.h - from a draw's transform and a camera to the integer rows that project its vertices.
  *
- * Done once per draw and pose, so 64-bit arithmetic is fine here; what comes out needs none. */
+ * This is done once per draw and pose, so 64-bit arithmetic is fine here; the rows need none. */
 #ifndef SMEAR_MATRIX_H
 #define SMEAR_MATRIX_H
 
@@ -24,7 +24,7 @@ struct smear_projection {
                                  * 2^depth_shift, see transform.c */
     int16_t depth_shift;
     int16_t scale;              /* log2 of X, Y, W per pixel or unit; negative for huge scenes */
-    int16_t distance_scale;     /* the same of `distance` */
+    int16_t distance_scale;     /* log2 of `distance` per unit */
     bool orthographic;
 };
 
@@ -33,9 +33,9 @@ static inline bool is_orthographic(const struct smear_projection *p)
     return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic;
 }
 
-/* The mesh's own scale and the place of the draw, seen from a camera: camera space in blocks. */
+/* A draw's transform and its mesh's scale, seen from a camera: mantissas with one exponent. */
 struct smear_view {
-    int32_t basis[3][3];        /* camera x, y, z of one mesh step: basis 2^basis_exp */
+    int32_t basis[3][3];        /* one mesh step is basis 2^basis_exp along the camera's x, y, z */
     int64_t origin[3];          /* q32 world units */
     int basis_exp;
 };
@@ -43,14 +43,13 @@ struct smear_view {
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
                         const smear_mesh *mesh, const smear_transform *camera);
 
-/* height_px: of the frame. The far plane is taken from the camera. */
+/* Makes the projection of a view for frames of height_px rows. */
 void smear_projection_make(struct smear_projection *projection, const struct smear_view *view,
                            const smear_camera *camera, int height_px);
 
-/* Poses between the known ones: `count` projections of one draw become terms of the sum
- * sum weight[i] x projection[i], linear in clip space; weights in q24 add up to one. All
- * get one scale, with room for the sum of vertices that differ from pose to pose; the
- * distances of projection[0] then hold for the sum. */
+/* Makes the terms of a pose between known ones: the sum of weight[i] x projection[i], which is linear in clip space.
+ * The `count` projections are of one draw; weights in q24 add up to one. All projections get one scale, with room for
+ * the sum of vertices that differ from pose to pose; the distances of projection[0] then hold for the sum. */
 void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
                             const smear_camera *camera);
 

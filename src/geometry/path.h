@@ -8,31 +8,31 @@
 
 #include "geometry/bins.h"
 
-/* Time in the exposure, q16: 0 is open, SHUTTER_CLOSE is close. */
+/* Time in the exposure is q16: 0 is open, SHUTTER_CLOSE is close. */
 #define SHUTTER_CLOSE 65536
 
-/* Slots of equal weight in which time is counted. */
+/* How many time samples of equal weight the exposure has. */
 #define SHUTTER_SAMPLES 32
 
-/* When each slot begins, time[SHUTTER_SAMPLES] when the last one ends. A box shutter has even steps; where a
- * shutter lets through less light, slots are longer. */
+/* When each time sample begins; time[SHUTTER_SAMPLES] is when the last one ends. A box shutter has even steps; where a
+ * shutter lets through less light, samples are longer. */
 struct smear_shutter_times {
     int32_t time[(SMEAR_WITH_SUBFRAMES ? SHUTTER_SAMPLES : 0) + 1];
 };
 
-/* Record of a vertex with a path (struct smear_segment.path): the place in the middle at
- * VERTEX_X .. VERTEX_DEPTH, then at segment->motion those at open and at close, in the
- * same units: q8 px, q8 px, q11 depth units. */
+/* The record of a vertex with a path (struct smear_segment.path) has the place in the middle of the exposure at
+ * VERTEX_X .. VERTEX_DEPTH, and at segment->motion those at open and at close, in the same units: q8 px, q8 px, q11
+ * depth units. */
 enum { PATH_X, PATH_Y, PATH_DEPTH, PATH_POSE_WORDS, PATH_WORDS = 2 * PATH_POSE_WORDS };
 
-/* A time as the parabola wants it: -1 at open, 1 at close, q30. */
+/* Returns the phase of a time: -1 at open, 1 at close, q30. */
 static inline int32_t path_phase(int32_t time)
 {
     return (time - SHUTTER_CLOSE / 2) * 32768;
 }
 
-/* floor(a u / 2^32) of a phase, of which only the upper 17 bits are set: two products of 16 bits
- * where there are no wide ones. */
+/* Returns floor(a u / 2^32) for a phase u, which has only its upper 17 bits set: two products of 16 bits do where there
+ * are no wide ones. */
 static inline int32_t phase_times(int32_t a, int32_t u)
 {
 #if SMEAR_HAS_MUL64
@@ -43,23 +43,23 @@ static inline int32_t phase_times(int32_t a, int32_t u)
 #endif
 }
 
-/* A coordinate on its way: middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to
- * nearest: a floor would move all edges up and left by half a step. Places lie within the guard
- * band, so differences have 21 bits; sums in q6. */
+/* Returns a coordinate on its path, middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a
+ * floor would move all edges up and left by half a step. Places lie within the guard band, so differences have 21 bits;
+ * sums are in q6. */
 static inline int32_t path_coordinate(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t slope = close - open, curvature = open + close - 2 * middle;
     return middle + ((phase_times((slope * 64 + phase_times(curvature * 256, u)) * 8, u) + 128) >> 8);
 }
 
-/* The same for a depth, q11 units below 2^30.1, good to 8 steps. */
+/* Returns a depth on its path, in q11 units below 2^30.1, good to 8 steps. */
 static inline int32_t path_depth(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t curvature = (int32_t)(((uint32_t)open + (uint32_t)close) >> 1) - middle;         /* halved */
     return middle + phase_times((((close - open) >> 3) + phase_times(curvature, u)) * 4, u) * 4;
 }
 
-/* The vertex at a time of the exposure: x, y, depth. */
+/* Finds x, y and depth of a vertex at a time of the exposure. */
 static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
 {
     const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS, u = path_phase(time);
@@ -68,8 +68,8 @@ static inline void path_at(int32_t out[3], const int32_t *record, const struct s
     out[PATH_DEPTH] = path_depth(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], u);
 }
 
-/* Time within the part of the exposure for which a triangle's places hold (struct
- * smear_path_bounds.interval); false at other times. */
+/* Turns a time of the exposure into one of the interval for which a triangle's places hold (struct
+ * smear_path_bounds.interval). Returns false where it lies outside. */
 static inline bool path_interval_time(int32_t *time, int interval)
 {
     if (interval == 0)
@@ -78,8 +78,8 @@ static inline bool path_interval_time(int32_t *time, int interval)
     return (uint32_t)*time < SHUTTER_CLOSE;
 }
 
-/* How far the middle lies off the chord, twice, in q8 px:
- * |open + close - 2 middle|, the larger of x and y. */
+/* Returns twice the distance of the middle from the chord, in q8 px: |open + close - 2 middle|, the larger of x and
+ * y. */
 static inline int32_t path_curvature(const int32_t *record, const struct smear_segment *s)
 {
     const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* shutter.c - inverts the integral of the openness: every slot lets the same light through. */
+/* shutter.c - inverts the integral of the openness: every time sample lets the same light through. */
 #include "geometry/shutter.h"
 
 #include "smear.h"
 
 #include "base/fixmath.h"
 
-/* Light up to point i of the table, in units of 1/2 x openness x step. */
+/* Returns the light up to point i of the table, in units of 1/2 x openness x step. */
 static uint32_t light_to(const uint8_t *openness, int i)
 {
     uint32_t sum = 0;
@@ -15,9 +15,9 @@ static uint32_t light_to(const uint8_t *openness, int i)
     return sum;
 }
 
-/* Where in a interval that opens from a to b a share of its light, `light` of a + b, has come through: q16 of
- * the interval. Halves an interval: the light up to u is 2 a u + (b - a) u^2. */
-static int32_t time_in_piece(int32_t a, int32_t b, uint32_t light_q8)
+/* Returns when light_q8 of the light a + b has come through an interval that opens from a to b, q16 of the interval.
+ * The light up to time u is 2 a u + (b - a) u^2; u is found by bisection. */
+static int32_t time_in_interval(int32_t a, int32_t b, uint32_t light_q8)
 {
     int32_t low = 0, high = 65536;
     while (high - low > 1) {
@@ -34,39 +34,39 @@ static int32_t time_in_piece(int32_t a, int32_t b, uint32_t light_q8)
 bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness)
 {
     const int steps = SMEAR_SHUTTER_POINTS - 1;
-    for (int slot = 0; slot <= SHUTTER_SAMPLES; slot++)
-        shutter->time[slot] = slot * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
+    for (int sample = 0; sample <= SHUTTER_SAMPLES; sample++)
+        shutter->time[sample] = sample * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     if (openness == NULL)
         return true;
     uint32_t all = light_to(openness, steps);
     if (all == 0)
         return false;
-    for (int slot = 1; slot < SHUTTER_SAMPLES; slot++) {
-        uint32_t wanted_q8 = (all * (uint32_t)slot << 8) / SHUTTER_SAMPLES, before = 0;
+    for (int sample = 1; sample < SHUTTER_SAMPLES; sample++) {
+        uint32_t wanted_q8 = (all * (uint32_t)sample << 8) / SHUTTER_SAMPLES, before = 0;
         int i = 0;
         while (i < steps - 1 && (before + openness[i] + openness[i + 1]) << 8 <= wanted_q8) {
             before += (uint32_t)openness[i] + openness[i + 1];
             i++;
         }
-        int32_t in = time_in_piece(openness[i], openness[i + 1], wanted_q8 - (before << 8));
-        shutter->time[slot] = (i * 65536 + in) / steps;
+        int32_t in = time_in_interval(openness[i], openness[i + 1], wanted_q8 - (before << 8));
+        shutter->time[sample] = (i * 65536 + in) / steps;
     }
     return true;
 }
 
 int32_t smear_shutter_instant(const struct smear_shutter_times *shutter, int32_t i, int32_t n)
 {
-    /* In slots, q16: (i + 1/2) 32 / n. */
+    /* Counted in samples, q16: (i + 1/2) 32 / n. */
     uint32_t at = (uint32_t)(2 * i + 1) * (SHUTTER_SAMPLES << 15) / (uint32_t)n;
-    uint32_t slot = at >> 16, rest = at & 0xffffu;
-    int32_t begin = shutter->time[slot], length = shutter->time[slot + 1] - begin;
+    uint32_t sample = at >> 16, rest = at & 0xffffu;
+    int32_t begin = shutter->time[sample], length = shutter->time[sample + 1] - begin;
     return begin + (int32_t)((uint32_t)length * rest >> 16);
 }
 
 bool smear_shutter_is_box(const struct smear_shutter_times *shutter)
 {
-    for (int slot = 0; slot < SHUTTER_SAMPLES; slot++)
-        if (shutter->time[slot] != slot * (SHUTTER_CLOSE / SHUTTER_SAMPLES))
+    for (int sample = 0; sample < SHUTTER_SAMPLES; sample++)
+        if (shutter->time[sample] != sample * (SHUTTER_CLOSE / SHUTTER_SAMPLES))
             return false;
     return true;
 }

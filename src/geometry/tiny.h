@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* tiny.h - triangles of a few pixels: covered centres by edge functions, which are also the weights of the
- * three vertices there. That costs less than gradients. The assembler and the raster share it. */
+/* tiny.h - triangles of a few pixels: edge functions tell the covered centres and are also the weights of the three
+ * vertices there. That costs less than gradients. The assembler and the raster share it. */
 #ifndef SMEAR_TINY_H
 #define SMEAR_TINY_H
 
@@ -16,15 +16,14 @@ struct tiny_edges {
     int32_t down0, down1, down2;
 };
 
-/* A centre on an edge counts for edges that go up (left ones) and
- * those that go right (top ones): 0, else -1. */
+/* Returns 0 for edges that go up (left ones) or right (top ones), whose centres count, else -1. */
 static inline int32_t tiny_bias(int32_t dx, int32_t dy)
 {
     return ~(dy * 65536 - dx) >> 31;
 }
 
-/* At pixel (x, y), from v[0]'s place and the edges (x1, y1) and (x2,
- * y2) to v[1] and v[2], q8, and twice the area. */
+/* Starts at pixel (x, y), for v[0]'s place and the edges (x1, y1) and (x2, y2) to v[1] and v[2], all q8, and twice the
+ * area. */
 static inline void tiny_start(struct tiny_edges *e, int32_t vx, int32_t vy, int32_t x1, int32_t y1,
                               int32_t x2, int32_t y2, int32_t area, int32_t x, int32_t y)
 {
@@ -53,14 +52,14 @@ static inline struct tiny_scale tiny_scale_make(int32_t area)
     return (struct tiny_scale){ (recip_norm((uint32_t)area << up) >> 14) - 1u, up };
 }
 
-/* e / area in q16, rounded down by up to 2^-14: three weights that add up to one are never negative, so
+/* Returns e / area in q16, rounded down by up to 2^-14: three weights that add up to one are never negative, so
  * what they weigh stays between its vertices. */
 static inline uint32_t tiny_weight(struct tiny_scale s, int32_t e)
 {
     return ((uint32_t)e << s.up >> 16) * s.recip >> 15;
 }
 
-/* floor(a w / 2^16) for a weight below one. */
+/* Returns floor(a w / 2^16) for a weight below one. */
 static inline int32_t tiny_times(int32_t a, uint32_t w)
 {
 #if SMEAR_HAS_MUL64
@@ -70,7 +69,7 @@ static inline int32_t tiny_times(int32_t a, uint32_t w)
 #endif
 }
 
-/* Depth code to nearest (smear_depth_units) at weights w1 and w2, from units q11. */
+/* Returns the nearest depth code (smear_depth_units) at weights w1 and w2, from units q11. */
 static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w1, uint32_t w2)
 {
     int32_t units = q0 + tiny_times(q1 - q0, w1) + tiny_times(q2 - q0, w2);
@@ -78,22 +77,21 @@ static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w
                                : ((uint32_t)units + ((32768u - 2048u) << 15) + 0x4000u) >> 15;
 }
 
-/* The depths differ so little that colours may be mixed on the
- * screen: off by at most 1/128 of their range. */
+/* Whether depths differ so little that colours may be mixed on the screen: off by at most 1/128 of their range. */
 static inline bool tiny_is_even(int32_t q0, int32_t q1, int32_t q2)
 {
     int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
     return high - low <= low >> 5;
 }
 
-/* A channel of the vertices (16 bits each) at weights q14; 2^14 is one. */
+/* Mixes a channel of the vertices (16 bits each) by weights q14; 2^14 is one. */
 static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w1, int32_t w2)
 {
     return (c0 << 14) + (uint32_t)(((int32_t)c1 - (int32_t)c0) * w1
                                    + ((int32_t)c2 - (int32_t)c0) * w2);
 }
 
-/* Channels as tiny_mix gives them, to a pixel. Linear light is looked up by its floor, codes are rounded:
+/* Makes a pixel of channels that tiny_mix gives. Linear light is looked up by its floor, codes are rounded:
  * they are the upper byte, so they are at most 0xff00 and stay below 2^30. */
 static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, bool linear)
 {
@@ -104,7 +102,7 @@ static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, b
     return pixel_make(0, (red + half) >> 22, (green + half) >> 22, (blue + half) >> 22);
 }
 
-/* Pixel from the colour words of three vertices (struct smear_segment) at weights w1 and w2. */
+/* Makes a pixel of the colour words of three vertices (struct smear_segment) at weights w1 and w2. */
 static inline uint32_t tiny_color(const uint32_t *c0, const uint32_t *c1, const uint32_t *c2,
                                   uint32_t w1, uint32_t w2, bool linear)
 {

@@ -7,8 +7,8 @@ void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_pr
     transform_inline(out, p, v);
 }
 
-/* a r 2^shift with r = 2^61 / m in [2^29, 2^30]: the high product
- * first, so nothing is lost but the last bits. */
+/* Returns a r 2^shift with r = 2^61 / m in [2^29, 2^30]. The high product comes first, so only the last bits are
+ * lost. */
 static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
 {
     int32_t high = mulh_i32(a, (int32_t)r);

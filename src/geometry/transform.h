@@ -31,6 +31,14 @@ struct smear_homogeneous {
     int32_t distance;       /* w for perspective */
 };
 
+static inline void homogeneous_add(struct smear_homogeneous *sum, const struct smear_homogeneous *term)
+{
+    sum->x += term->x;
+    sum->y += term->y;
+    sum->w += term->w;
+    sum->distance += term->distance;
+}
+
 struct smear_screen {
     i32q8 x;                /* from the top left corner of the frame */
     i32q11 depth;           /* units: proportional to 1/w for perspective */
@@ -41,8 +49,8 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* See struct smear_projection. Without a wide multiply, the two halves of the factors are summed one by one:
- * the lower ones have 14 bits, so three products fit. */
+/* Returns a row of struct smear_projection for a vertex. Without a wide multiply, the two halves of the factors are
+ * summed one by one: the lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
 #if SMEAR_HAS_MUL64
@@ -65,14 +73,15 @@ static inline void transform_inline(struct smear_homogeneous *out, const struct 
     out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
 }
 
-/* The same as a call. */
+/* Does what transform_inline does, as a call. */
 void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_projection *p, const int16_t v[3]);
 
-/* Divides. w > 0 is promised. |x| and |y| stay below 2^30, far outside the guard band: sums of two fit. */
+/* Divides a position by its w, which must be positive. |x| and |y| of the result stay below 2^30, far outside the guard
+ * band: sums of two fit. */
 void smear_project(struct smear_screen *out, const struct smear_projection *p,
                    const struct smear_homogeneous *in, const struct smear_viewport *viewport);
 
-/* The same without a call for what a camera with a perspective mostly sees. */
+/* Does what smear_project does, without a call for what a camera with a perspective mostly sees. */
 static inline void project_inline(struct smear_screen *out, const struct smear_projection *p,
                                   const struct smear_homogeneous *in, const struct smear_viewport *viewport)
 {
@@ -100,8 +109,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
 #define project project_inline
 #endif
 
-/* The sides of a vertex that has no place on the screen: of the planes through the eye and the frame's
- * borders. All that lies beyond one of them is not seen, also where it reaches in front of the near plane. */
+/* Returns the sides of a vertex that has no place on the screen: those of the planes through the eye and the frame's
+ * borders that it lies beyond. All that lies beyond one of them is not seen, in front of the near plane or not. */
 int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport);
 
 /* Brings a place that rounding left outside the guard band back to its border. */

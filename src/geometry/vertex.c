@@ -13,15 +13,12 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
     for (int i = 0; i < p->extra_count; i++) {
         struct smear_homogeneous term;
         smear_transform_vertex(&term, &p->extra[i], p->extra_position[i] + 3 * index);
-        h->x += term.x;
-        h->y += term.y;
-        h->w += term.w;
-        h->distance += term.distance;
+        homogeneous_add(h, &term);
     }
 }
 
-/* Of `sides` those that all corners of the mesh's bounds lie beyond. All that is between corners does, too: before
- * they are divided by w, places are sums of theirs. */
+/* Returns those of `sides` that all corners of the mesh's bounds lie beyond. All that is between corners does, too:
+ * before they are divided by w, its places are sums of theirs. */
 static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport,
                         int sides)
 {
@@ -86,7 +83,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
 }
 
 #if SMEAR_FIND_FLAT
-/* Looked at for all triangles of all draws of each frame: without loops or branches of its own. */
+/* Normals are compared for all triangles of all draws of each frame: without a loop or branch. */
 static inline bool same_normal(const uint8_t *a, const uint8_t *b)
 {
     return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
@@ -121,7 +118,7 @@ bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 
 #endif
 
-/* Light at a vertex with a normal. */
+/* Returns the cosine of the light at a vertex with a normal, or at its back. */
 static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool flip)
 {
     const int8_t *n = d->mesh->normal + 3 * index;
@@ -130,7 +127,7 @@ static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool f
     return smear_light_normal(&d->shading, flip ? back : n);
 }
 
-/* Light and colour of a vertex of the face. */
+/* Finds the lit colour of a vertex of the face. */
 SMEAR_INLINE void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
                                const struct smear_face *face)
 {
@@ -187,7 +184,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
     return smear_color_pack(&color, shading_is_linear(&d->shading));
 }
 
-/* The code of channel c (r g b) of a vertex, as pixels get it (see channel_value in setup.h). */
+/* Returns the code of channel c (r g b) of a vertex as pixels get it (see channel_value in setup.h). */
 static uint32_t channel_code(const struct smear_segment *s, const int32_t *record, int c, bool linear)
 {
     uint32_t word = (uint32_t)record[s->color + (c >> 1)];

@@ -10,25 +10,34 @@
 
 /* ------------------------------------------------------------------ a draw */
 
-/* A transformed vertex, remembered under its index: direct mapped. */
+/* A transformed vertex: an entry of a direct-mapped cache. */
 struct smear_cached_vertex {
     uint32_t tag;                   /* draw serial << 16 | vertex index */
     uint32_t stored;                /* its record in the pool: word + 1, or 0 */
     struct smear_screen screen;
     int32_t outcode;
-#if !SMEAR_FAST_STACK               /* else made again where it is needed */
+#if !SMEAR_FAST_STACK               /* where it is, few vertices need this, and those are transformed again */
     struct smear_homogeneous now;
 #endif
 };
 
-/* Tiles of the frame that something reaches into: columns and rows x0 .. x1 and y0 .. y1; none where x0 > x1. */
+/* What the three vertices of a triangle share. */
+struct smear_face {
+    bool back;                      /* it is seen from behind, and double-sided */
+    const uint8_t *color;
+    const uint8_t *vertex_color;    /* the colour of all three vertices, where the draw is flat */
+    uint32_t cosine;                /* of the light, where it is flat */
+};
+
+/* Tiles of the frame that something reaches into: columns x0 .. x1 and rows y0 .. y1, both ends included; none where
+ * x0 > x1. */
 struct smear_tile_box {
     uint8_t x0, x1, y0, y1;
 };
 
-/* With smear_desc.buffer_age: which tiles are drawn at all. For each, row by row, 0: the display has it. */
+/* Which tiles are drawn at all, with smear_desc.buffer_age. */
 struct smear_damaged_tiles {
-    uint8_t *tile;
+    uint8_t *tile;                  /* row by row; 0: the display shows it already */
     uint8_t columns, shift;         /* tiles of a row, less one; log2 of their size */
     bool only;                      /* triangles beyond damaged tiles are left out */
     struct smear_tile_box *seen;    /* grows by where triangles are seen, or null */
@@ -36,7 +45,8 @@ struct smear_damaged_tiles {
 
 enum { TILE_DAMAGED_NOW = 0x80 };       /* a moving triangle is seen in it */
 
-static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1,
+                                                int32_t y0, int32_t y1)
 {
     return (struct smear_tile_box){ (uint8_t)(x0 >> d->shift), (uint8_t)((x1 - 1) >> d->shift),
                                     (uint8_t)(y0 >> d->shift), (uint8_t)((y1 - 1) >> d->shift) };
@@ -59,20 +69,20 @@ static inline void tile_box_add(struct smear_tile_box *all, struct smear_tile_bo
     all->y1 = box.y1 > all->y1 ? box.y1 : all->y1;
 }
 
+/* What all draws of a frame share. */
 struct smear_assembler {
     struct smear_viewport viewport;
     struct smear_bins *bins;
     struct smear_cached_vertex *cache;
     uint32_t cache_mask;
-    uint32_t serial;                /* of the draw within the context's life;
-                                     * tags of older draws never match */
+    uint32_t serial;                /* number of the draw within the context's life: tags of older ones never match */
     bool cache_has_paths;           /* it holds vertices of assemble_path.c */
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
-    uint32_t path_count, path_limit;    /* triangles with a path that are listed, and that may be */
+    uint32_t path_count, path_limit;    /* triangles with a path: listed, and at most */
+    uint32_t path_static_count;     /* those of them whose path has no length: they are listed among the static ones */
     uint32_t triangles_drawn, triangles_dropped;
-    uint32_t path_static_count;      /* triangles with paths of no length: listed among those that stand still */
-    const struct smear_damaged_tiles *damaged;    /* with smear_desc.buffer_age, else null: where moving triangles mark their tiles */
+    const struct smear_damaged_tiles *damaged;  /* where moving triangles mark their tiles; null without buffer_age */
 };
 
 /* Where a draw's vertices are at one instant: a projection, or a sum of some (smear_projection_weigh)
@@ -80,7 +90,7 @@ struct smear_assembler {
 struct smear_placement {
     struct smear_projection now;
     const int16_t *position;
-    int extra_count;                    /* further terms */
+    int extra_count;                    /* further terms of the sum */
     struct smear_projection extra[SMEAR_WITH_DEFORM ? 2 : 1];
     const int16_t *extra_position[SMEAR_WITH_DEFORM ? 2 : 1];
 };
@@ -91,28 +101,39 @@ struct smear_assembly {
     const smear_material *material;     /* never null */
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
-    bool path;                          /* `key` holds, and records get a path (path.h); moves is 0 */
+    bool path;                          /* `key` is set, and records get a path (path.h); moves is 0 */
     bool flat;                          /* triangles have one colour each, though vertices have normals or colours */
     bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
-    /* velocity is measured between these (one: and the drawn instant) */
+    /* Velocity is measured between these poses or, where there is one, between it and the drawn instant. */
     struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
     const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
-    bool has_rest;                      /* what the mesh's own vertices add to them,
-                                         * where deformation is scaled: */
+    bool has_rest;                      /* deformation is scaled: the mesh's own vertices are added by `rest` */
     struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_SCALES ? 2 : 1];
     struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
 
-/* As they are, where the methods and surfaces that need them were compiled in. */
-static inline bool assembler_keeps_motion(const struct smear_assembler *a) { return SMEAR_WITH_RECONSTRUCT && a->keep_motion; }
-static inline bool assembler_keeps_paths(const struct smear_assembler *a) { return SMEAR_WITH_SUBFRAMES && a->keep_paths; }
-static inline bool assembler_has_damage(const struct smear_assembler *a) { return SMEAR_WITH_DAMAGE && a->damaged != NULL; }
+/* These are false at compile time where the methods and surfaces that need them were left out. */
+static inline bool assembler_keeps_motion(const struct smear_assembler *a)
+{
+    return SMEAR_WITH_RECONSTRUCT && a->keep_motion;
+}
+
+static inline bool assembler_keeps_paths(const struct smear_assembler *a)
+{
+    return SMEAR_WITH_SUBFRAMES && a->keep_paths;
+}
+
+static inline bool assembler_has_damage(const struct smear_assembler *a)
+{
+    return SMEAR_WITH_DAMAGE && a->damaged != NULL;
+}
+
 static inline bool assembly_has_path(const struct smear_assembly *d) { return SMEAR_WITH_SUBFRAMES && d->path; }
 
-/* Adds the further terms. */
+/* Adds a placement's further terms to its first. */
 void smear_placement_add(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index);
 
 static inline bool assembly_is_flat(const struct smear_assembly *d) { return SMEAR_FIND_FLAT && d->flat; }
@@ -125,7 +146,7 @@ static inline void placement_transform(struct smear_homogeneous *h, const struct
         smear_placement_add(h, p, index);
 }
 
-/* A vertex in a pose of the assembly. */
+/* Transforms a vertex as it is in a pose of the assembly. */
 static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
                                   uint32_t index)
 {
@@ -133,14 +154,11 @@ static inline void pose_transform(struct smear_homogeneous *h, const struct smea
     if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
         struct smear_homogeneous rest;
         transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
-        h->x += rest.x;
-        h->y += rest.y;
-        h->w += rest.w;
-        h->distance += rest.distance;
+        homogeneous_add(h, &rest);
     }
 }
 
-/* Transforms and projects; returns the outcode. Nothing is projected before the near plane. */
+/* Transforms and projects a vertex; returns its outcode. A vertex behind the near plane is not projected. */
 static inline int placement_project(struct smear_screen *screen, struct smear_homogeneous *h,
                                     const struct smear_placement *p, uint32_t index,
                                     const struct smear_viewport *viewport)
@@ -153,7 +171,7 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
     return h->distance > p->now.far_distance ? code | OUT_FAR : code;
 }
 
-/* The bounds of the mesh lie beyond one side of the view wherever the assembly has it. */
+/* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
 
 static inline bool assembly_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
@@ -203,7 +221,6 @@ void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uin
                               bool back);
 
 struct smear_clip_vertex;
-struct smear_face;
 
 /* Fills in what is interpolated when a triangle is clipped, but not its places: the uv and colour of vertex `index`
  * that the segment's records have. */
@@ -213,28 +230,20 @@ void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_a
 /* Stores those attributes. */
 void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v);
 
-/* Whether three stored vertices have one colour, or nearly, and there is no texture. */
+/* Finds the colour of three stored vertices. Returns false unless they have one, or nearly, and no texture. */
 bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
                         bool linear);
 
 /* ------------------------------------------------------------------ faces */
 
-/* What a triangle has in common. */
-struct smear_face {
-    bool back;                  /* seen from behind: double-sided */
-    const uint8_t *color;
-    const uint8_t *vertex_color;        /* of all three vertices, where the draw is flat */
-    uint32_t cosine;            /* flat light */
-};
-
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back);
 
-/* 0xAARRGGBB of segments with SHADE_FLAT; others: white. */
+/* Returns the face's colour, 0xAARRGGBB, where the segment's triangles have SHADE_FLAT, else white. */
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
                           const struct smear_face *face);
 
-/* Twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2),
- * positive when clockwise on the screen (y down). */
+/* Returns twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when it is
+ * clockwise on the screen (y down). */
 static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {
 #if !SMEAR_HAS_MUL64
@@ -295,7 +304,8 @@ static inline bool shares_vertices(const struct smear_assembly *d, const struct 
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 
-/* Room for one more triangle with three new vertices; opens a new segment where offsets run out. */
+/* Makes room for `entries` more triangles with three new vertices: returns the segment, or a new one where offsets run
+ * out, or null where the store is full. */
 static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
                                               struct smear_segment *s, uint32_t entries)
 {

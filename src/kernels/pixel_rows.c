@@ -64,8 +64,8 @@ void smear_row_rgb565_unrolled(uint16_t *out, const uint32_t *in, int32_t n, boo
 /* ------------------------------------------------------------------ 16 bits, dithered */
 
 #ifndef __OPTIMIZE_SIZE__
-/* Of thresholds 4 k + 2 in 256, six bits of a level's fraction tell all, and level and fraction of two channels fit into
- * a word, where one sum adds k to both. A column's step is k at both places. */
+/* With thresholds 4 k + 2 of 256, six bits of a level's fraction tell all. Level and fraction of two channels fit into
+ * a word, where one sum adds k to both; a column's step is k at both places. */
 enum { ORDERED_HIGH = 20, ORDERED_LOW = 9, ORDERED_LEVEL = ORDERED_LOW + 6, ORDERED_WIDTH = 8 };
 
 /* The last colour of a row, ready for steps. */

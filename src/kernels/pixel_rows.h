@@ -109,8 +109,8 @@ enum row_16bit { ROW_555, ROW_565, ROW_565_SWAPPED };
 
 /* Stores n >= 0 dithered pixels from column x on; column c has the threshold[c & mask], in 1/256 of a level. Memory
  * does not overlap. Runs of one colour share its levels: only thresholds differ. */
-static inline void row_dithered_reference(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
-                                          int32_t mask, enum row_16bit format)
+static inline void row_dithered_reference(uint16_t *out, const uint32_t *in, int32_t n, int32_t x,
+                                          const uint8_t *threshold, int32_t mask, enum row_16bit format)
 {
     const bool is_555 = SMEAR_WITH_RGB555 && format == ROW_555, swapped = format == ROW_565_SWAPPED;
     uint32_t last = n > 0 ? ~*in : 0, high = 0, green = 0, low = 0;

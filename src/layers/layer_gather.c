@@ -186,8 +186,8 @@ static inline struct weighed_sum *sum_of(struct seen *s, uint32_t depth, bool mi
     return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
 }
 
-/* Sums up the taps of a pixel. Where its own surface moves (`own`) and a tap meets one that does not come here, that one
- * either is hidden by a nearer surface or has left a farther one uncovered. */
+/* Sums up the taps of a pixel. Where its own surface moves (`own`) and a tap meets one that does not come here, that
+ * one either is hidden by a nearer surface or has left a farther one uncovered. */
 SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t background_depth,
                          bool linear, bool mixed)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layer_gather.h - a blurred layer by the velocities of its pixels, over the background: the reconstruction filter where
- * what lies behind is known. */
+/* layer_gather.h - a blurred layer by the velocities of its pixels, over the background: the reconstruction filter
+ * where what lies behind is known. */
 #ifndef SMEAR_LAYER_GATHER_H
 #define SMEAR_LAYER_GATHER_H
 
@@ -39,8 +39,8 @@ void smear_gather_cells(const struct smear_gather_area *a);
 /* Merges the area; returns the taps taken. */
 uint32_t smear_gather_merge(const struct smear_gather_area *a);
 
-/* Merges the mean of `samples` places along one displacement (q8 px): the two-camera approach as it is. Returns the taps
- * taken. */
+/* Merges the mean of `samples` places along one displacement (q8 px): the two-camera approach as it is. Returns the
+ * taps taken. */
 uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy);
 
 #endif
