@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* arena.h - cuts the caller's memory into aligned pieces; the only allocator.
+/* arena.h - cuts the caller's memory into aligned blocks; the only allocator.
  *
- * The same walk over the pieces first measures and then cuts: with no memory it only counts. */
+ * One walk over the blocks serves to measure and to cut: with no memory it only counts. */
 #ifndef SMEAR_ARENA_H
 #define SMEAR_ARENA_H
 
@@ -12,12 +12,12 @@ struct smear_arena {
     size_t used;
 };
 
-/* The next `count` x `size` bytes, 8-byte aligned; null while measuring. */
+/* Takes the next `count` x `size` bytes, 8-byte aligned; returns null while measuring. */
 static inline void *arena_take(struct smear_arena *a, size_t count, size_t size)
 {
-    void *piece = a->memory != NULL ? a->memory + a->used : NULL;
+    void *block = a->memory != NULL ? a->memory + a->used : NULL;
     a->used += (count * size + 7u) & ~(size_t)7u;
-    return piece;
+    return block;
 }
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* base.h - the few words every file uses. Bottom layer: includes nothing of ours but the configuration. */
+/* base.h - the few words that every file uses. It is the bottom layer and includes only the configuration. */
 #ifndef SMEAR_BASE_H
 #define SMEAR_BASE_H
 
@@ -9,23 +9,23 @@
 
 #include "smear_config.h"
 
-/* A broken promise of ours, never of the caller. Stops at once when checks are on, costs nothing when off. */
+/* Stops at once where a promise of the library itself, never of the caller, is broken; costs nothing when checks are
+ * off. */
 #if SMEAR_CHECK
 #define SMEAR_ASSERT(condition) ((condition) ? (void)0 : __builtin_trap())
 #else
 #define SMEAR_ASSERT(condition) ((void)0)
 #endif
 
-/* Inner loops that take constants: inlined so that each call site
- * becomes a loop of its own, unless size counts. */
+/* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. */
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_INLINE static inline
 #else
 #define SMEAR_INLINE static inline __attribute__((always_inline))
 #endif
 
-/* Helpers of fixed.h and fixmath.h that take many instructions on cores without wide products: where size
- * counts, one copy of each in fixmath.c; else inlined. */
+/* Helpers of fixed.h and fixmath.h take many instructions on cores without wide products: where size counts, fixmath.c
+ * has one copy of each; else they are inlined. */
 #if defined(__OPTIMIZE_SIZE__) && !SMEAR_HAS_MUL64
 #define SMEAR_ONE_COPY 1
 #define SMEAR_SHARED
@@ -35,7 +35,7 @@
 #endif
 #define SMEAR_NOINLINE __attribute__((noinline))
 
-/* Rarely called: not inlined into what is called often, unless size counts. */
+/* What is rarely called is not inlined into what is called often, unless size counts. */
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_RARE
 #else

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* fixed.h - fixed-point types and the only helpers that narrow, saturate, wrap or take high products.
  *
- * A type is storage plus fraction bits: i32q16 holds value x 2^16. No suffix: cannot overflow for the stated
- * ranges (a CHECK=1 build asserts it), rounds toward minus infinity. _rn: to nearest, ties up. _sat: clamps.
- * _wrap: overflow is meant, computed through unsigned. */
+ * A type is storage plus fraction bits: i32q16 holds value x 2^16. A helper without a suffix cannot overflow for the
+ * stated ranges (a CHECK=1 build asserts it) and rounds toward minus infinity. One with _sat clamps; with _wrap,
+ * overflow is meant and computed through unsigned. */
 #ifndef SMEAR_FIXED_H
 #define SMEAR_FIXED_H
 
@@ -33,7 +33,7 @@ int32_t mulh_i32(int32_t a, int32_t b);
 uint32_t mulh_u32(uint32_t a, uint32_t b);
 int32_t scale_sat(int32_t a, int shift);
 #else
-/* High word of the signed product: floor(a b / 2^32). */
+/* Returns the high word of the signed product: floor(a b / 2^32). */
 SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
 {
 #if SMEAR_HAS_MUL64
@@ -48,7 +48,7 @@ SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
 #endif
 }
 
-/* High word of the unsigned product. */
+/* Returns the high word of the unsigned product. */
 SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
 {
 #if SMEAR_HAS_MUL64
@@ -61,7 +61,7 @@ SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
 #endif
 }
 
-/* a 2^shift for shift in -31 .. 31, rounded to nearest when it shrinks, clamped when it grows. */
+/* Returns a 2^shift for shift in -31 .. 31, rounded to nearest when it shrinks, clamped when it grows. */
 SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 {
     if (shift <= 0) {
@@ -73,6 +73,9 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
     return a > limit ? INT32_MAX : a < -limit ? -INT32_MAX : shl_wrap(a, shift);
 }
 #endif
+
+/* Returns |a|, also for the least number. */
+static inline uint64_t magnitude(int64_t a) { return a < 0 ? 0u - (uint64_t)a : (uint64_t)a; }
 
 static inline int32_t narrow_sat(int64_t a)
 {

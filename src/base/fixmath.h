@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* fixmath.h - reciprocals, lengths and roots in fixed point.
- * Errors are stated and tested (test_fixmath.c). */
+/* fixmath.h - reciprocals, lengths and roots in fixed point. Errors are stated and tested (test_fixmath.c). */
 #ifndef SMEAR_FIXMATH_H
 #define SMEAR_FIXMATH_H
 
 #include "base/fixed.h"
 #include "base/tables.h"
 
-/* floor(a / b) and the remainder in [0, b), for b > 0. */
+/* Returns floor(a / b) for b > 0, and the remainder in [0, b). */
 static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
 {
     int32_t q = a / b, r = a - q * b;
@@ -37,7 +36,7 @@ int32_t ratio_q30(int64_t a, int64_t c);
 uint32_t sqrt_floor_64(uint64_t x);
 uint32_t sqrt_q3(uint32_t x);
 #else
-/* Leading zeros of x > 0. */
+/* Counts the leading zeros of x > 0. */
 SMEAR_SHARED int count_leading_zeros(uint32_t x)
 {
 #if SMEAR_HAS_CLZ
@@ -52,14 +51,14 @@ SMEAR_SHARED int count_leading_zeros(uint32_t x)
 #endif
 }
 
-/* Leading zeros of x > 0. */
+/* Likewise, of 64 bits. */
 SMEAR_SHARED int count_leading_zeros_64(uint64_t x)
 {
     uint32_t high = (uint32_t)(x >> 32);
     return high != 0 ? count_leading_zeros(high) : 32 + count_leading_zeros((uint32_t)x);
 }
 
-/* 2^61 / m for a normalised m in [2^31, 2^32); result in [2^29, 2^30]. Relative error below 2^-18.
+/* Returns 2^61 / m for a normalised m in [2^31, 2^32): a number in [2^29, 2^30], relative error below 2^-18.
  *
  * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton
  * step r (1 - e) squares the error. All products fit 32 bits: m is cut to 21 bits, r
@@ -71,7 +70,7 @@ SMEAR_SHARED uint32_t recip_norm(uint32_t m)
     return (uint32_t)((int32_t)(r << 19) + ((int32_t)r * (error >> 4) >> 8));
 }
 
-/* The same with relative error below 2^-26: one more Newton step on the high product. */
+/* Returns 2^61 / m with a relative error below 2^-26: one more Newton step, on the high product. */
 SMEAR_SHARED uint32_t recip_norm_precise(uint32_t m)
 {
     uint32_t r = recip_norm(m);
@@ -79,8 +78,7 @@ SMEAR_SHARED uint32_t recip_norm_precise(uint32_t m)
     return (uint32_t)((int32_t)r + ((int32_t)(r >> 12) * error >> 17));
 }
 
-/* a b / c with c > 0 as a ratio in [0, 1]: a <= c. Used where
- * few vertices are made (clipping). Result q30. */
+/* Returns a / c in q30 for 0 <= a <= c, c > 0. It is for loops over vertices, not over pixels. */
 SMEAR_SHARED int32_t ratio_q30(int64_t a, int64_t c)
 {
     SMEAR_ASSERT(a >= 0 && c > 0 && a <= c);
@@ -92,7 +90,7 @@ SMEAR_SHARED int32_t ratio_q30(int64_t a, int64_t c)
 }
 
 #ifdef __OPTIMIZE_SIZE__
-/* floor(sqrt(x)), exact. One bit per step. */
+/* Returns floor(sqrt(x)), exactly: one bit per step. */
 SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 {
     uint64_t root = 0, bit = (uint64_t)1 << 62;
@@ -110,7 +108,7 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
     return (uint32_t)root;
 }
 #else
-/* floor(sqrt(x)), exact.
+/* Returns floor(sqrt(x)), exactly.
  *
  * Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22
  * and less than what the quotients lack. What is left are a few steps of x's own root. */
@@ -136,7 +134,7 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 }
 #endif
 
-/* 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */
+/* Returns 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */
 SMEAR_SHARED uint32_t sqrt_q3(uint32_t x)
 {
     int shift = 0;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* jobs.h - independent jobs on one or several cores.
  *
- * Core 0 announces a stage (a function and a number of jobs); every worker w does jobs w, w + n,
- * w + 2n ... and reports. Only loads and stores of single words are needed, so cores without
- * atomic read-modify-write (Cortex-M0+) can play. */
+ * Core 0 announces a stage (a function and a number of jobs); worker w of n does jobs w, w + n, w + 2n ... and reports.
+ * Only loads and stores of single words are needed, so cores without atomic read-modify-write (Cortex-M0+) can take
+ * part. */
 #ifndef SMEAR_JOBS_H
 #define SMEAR_JOBS_H
 
@@ -39,7 +39,7 @@ void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, 
 /* Lets the other workers go. */
 void smear_jobs_end_frame(struct smear_jobs *jobs);
 
-/* What a worker other than 0 does until the frame is over. */
+/* Works as a worker other than 0 until the frame is over. */
 void smear_jobs_work(struct smear_jobs *jobs, int worker);
 
 #endif

@@ -3,7 +3,7 @@
  *
  * A working pixel is what the display would show, in 8 bits. Linear light is a matter of how values are
  * multiplied, interpolated and averaged (through smear_srgb_decode and back), not of how they are kept: so a
- * window costs the same in both modes, and a still pixel passes every filter unchanged. */
+ * window costs the same in both modes, and a pixel that nothing blurs passes every filter unchanged. */
 #ifndef SMEAR_PIXEL_H
 #define SMEAR_PIXEL_H
 
@@ -20,20 +20,20 @@ static inline uint32_t pixel_make(uint32_t a, uint32_t r, uint32_t g, uint32_t b
     return a << 24 | r << 16 | g << 8 | b;
 }
 
-/* a b / 255 to nearest, a and b codes; exact for all pairs. */
+/* Returns a b / 255 to nearest for codes a and b, exactly for all pairs. */
 static inline uint32_t code_times(uint32_t a, uint32_t b)
 {
     uint32_t t = a * b + 128u;
     return (t + (t >> 8)) >> 8;
 }
 
-/* A code times linear light (65535 is one), as a code again. */
+/* Multiplies a code's light by linear light (65535 is one); returns the code of the product. */
 static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
 {
     return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
 }
 
-/* smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
+/* Returns smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
  * of two codes' light; at three values that is off by one. */
 static inline uint32_t srgb_encode_searched(uint32_t light)
 {
@@ -44,7 +44,7 @@ static inline uint32_t srgb_encode_searched(uint32_t light)
     return code + (light == 527u || light == 1116u) - (light == 2146u);
 }
 
-/* src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
+/* Blends src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
 static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
 {
     uint32_t a = alpha + (alpha >> 7), b = 256u - a;
@@ -66,7 +66,8 @@ static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, b
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
-/* Nearest levels, red on top. Red and blue in one product: 255 x 249 + 1014 stays below 2^16. */
+/* Returns the nearest levels of 5, 6 and 5 bits, red on top: (249 c + 1014) >> 11 and (253 c + 505) >> 10, both exact
+ * for every code. Red and blue share a product: 255 x 249 + 1014 stays below 2^16. */
 static inline uint32_t rgb565_nearest(uint32_t p)
 {
     uint32_t rb = (p & 0xff00ffu) * 249u + 0x03f603f6u;
@@ -80,7 +81,7 @@ static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
     return narrow ? (void *)((uint16_t *)pixel + n) : (void *)((uint32_t *)pixel + n);
 }
 
-/* Pixels of any width, read or written a word at a time. */
+/* A word of pixels of any width. */
 typedef uint32_t __attribute__((may_alias)) pixel_word;
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* vector.h - four words at once, where the compiler and the core have them. Loops that use them
- * have a plain twin that gives the same bits. */
+/* vector.h - four words or eight halves at once, where the compiler and the core have them: the vocabulary of the
+ * vector variants in kernels/, each of which gives the same bits as its scalar reference. */
 #ifndef SMEAR_VECTOR_H
 #define SMEAR_VECTOR_H
 
@@ -43,7 +43,7 @@ static inline smear_v8i v8i_load(const uint16_t *p)
     return v;
 }
 
-/* Four; the others are 0. */
+/* Loads four halves; the others are 0. */
 static inline smear_v8i v4_of_8i_load(const uint16_t *p)
 {
     smear_v8i v = { 0, 0, 0, 0, 0, 0, 0, 0 };
@@ -67,7 +67,7 @@ static inline smear_v4i v4i_of_u16(const uint16_t *p)
 #endif
 }
 
-/* Per element: a where `which` is all ones, b where it is 0. */
+/* Chooses per element: a where `which` is all ones, b where it is 0. */
 static inline smear_v4u v4u_choose(smear_v4i which, smear_v4u a, smear_v4u b)
 {
     return (a & (smear_v4u)which) | (b & ~(smear_v4u)which);
@@ -78,7 +78,7 @@ static inline smear_v8i v8i_all(int16_t a)
     return (smear_v8i){ a, a, a, a, a, a, a, a };
 }
 
-/* Per element: a where `which` is all ones, b where it is 0. */
+/* Chooses per element: a where `which` is all ones, b where it is 0. */
 static inline smear_v8i v8i_choose(smear_v8i which, smear_v8i a, smear_v8i b)
 {
     return (a & which) | (b & ~which);
@@ -107,7 +107,7 @@ static inline void v8i_store(uint16_t *p, smear_v8i v)
     __builtin_memcpy(p, &v, sizeof v);
 }
 
-/* The upper halves of words of a, then of b. */
+/* Takes the upper halves of the words of a, then of b. */
 static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
 {
 #ifdef __SSE2__
@@ -118,7 +118,7 @@ static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
 #endif
 }
 
-/* Each of elements 0 .. 3 twice, and each of 4 .. 7. */
+/* Takes each of elements 0 .. 3 twice; v4i_twice_high each of 4 .. 7. */
 static inline smear_v4i v4i_twice_low(smear_v8i a)
 {
 #ifdef __SSE2__
@@ -137,7 +137,7 @@ static inline smear_v4i v4i_twice_high(smear_v8i a)
 #endif
 }
 
-/* Of 16-bit halves: a b, and a b / 2^16. */
+/* Multiplies 16-bit halves: a b modulo 2^16; v4u_mulh16 a b / 2^16. */
 static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b)
 {
     typedef uint16_t v8 __attribute__((vector_size(16)));

@@ -71,7 +71,7 @@ static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int
 {
     uint64_t largest = 0;
     for (int i = 0; i < 3; i++) {
-        uint64_t size = in[i] < 0 ? 0u - (uint64_t)in[i] : (uint64_t)in[i];
+        const uint64_t size = magnitude(in[i]);
         largest = size > largest ? size : largest;
     }
     if (largest == 0)

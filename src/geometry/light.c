@@ -67,7 +67,7 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
             int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
             int64_t c = (int64_t)b1[j1] * b2[j2] - (int64_t)b1[j2] * b2[j1];
             cofactor[3 * i + j] = c;
-            largest_cofactor |= (uint64_t)(c < 0 ? -c : c);
+            largest_cofactor |= magnitude(c);
         }
     shift = shift_to(largest_cofactor, 15);
     const int32_t row[3] = { b[0] >> 8, b[1] >> 8, b[2] >> 8 };
@@ -163,7 +163,7 @@ static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const in
     for (int i = 0; i < 3; i++) {
         int j = next_axis(i), k = next_axis(j);
         cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
-        largest |= cross[i] < 0 ? 0u - (uint64_t)cross[i] : (uint64_t)cross[i];
+        largest |= magnitude(cross[i]);
     }
     int shift = shift_to(largest, 14);
     for (int i = 0; i < 3; i++)

@@ -7,11 +7,6 @@
 
 #include "base/fixmath.h"
 
-static uint64_t magnitude(int64_t a)
-{
-    return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
-}
-
 /* Returns how many bits |a| has; 0 for 0. */
 static int bit_length(int64_t a)
 {

@@ -18,16 +18,11 @@ struct number {
     int e;
 };
 
-static uint64_t size_of(int64_t a)
-{
-    return a < 0 ? 0u - (uint64_t)a : (uint64_t)a;
-}
-
 static SMEAR_NOINLINE struct number number_of(int64_t value, int e)
 {
     if (value == 0)
         return (struct number){ 0, 0 };
-    int shift = 33 - count_leading_zeros_64(size_of(value));
+    int shift = 33 - count_leading_zeros_64(magnitude(value));
     if (shift < 0)
         return (struct number){ (int32_t)(value * ((int64_t)1 << -shift)), e + shift };
     return (struct number){ (int32_t)(value >> shift), e + shift };
@@ -54,7 +49,7 @@ static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
     int64_t value = a.m;
     if (shift < 0)
         value = shift < -40 ? 0 : (value + ((int64_t)1 << (-shift - 1))) >> -shift;
-    else if (value != 0 && (shift > 31 || size_of(value) > (uint64_t)limit >> shift))
+    else if (value != 0 && (shift > 31 || magnitude(value) > (uint64_t)limit >> shift))
         value = value < 0 ? -limit : limit;
     else
         value *= (int64_t)1 << min_i32(shift, 31);
@@ -323,10 +318,10 @@ bool smear_is_attached(const smear_transform *object, const smear_camera *camera
                     turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
                 way[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
             }
-            if (size_of(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
+            if (magnitude(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
                 return false;
         }
-        if (size_of(way[0] - way[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
+        if (magnitude(way[0] - way[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
             return false;
     }
     return true;

@@ -17,6 +17,7 @@
 #define mulh_i32 narrow_mulh_i32
 #define mulh_u32 narrow_mulh_u32
 #define scale_sat narrow_scale_sat
+#define magnitude narrow_magnitude
 #define narrow_sat narrow_narrow_sat
 #include "base/fixed.h"
 #undef add_wrap
@@ -26,6 +27,7 @@
 #undef mulh_i32
 #undef mulh_u32
 #undef scale_sat
+#undef magnitude
 #undef narrow_sat
 
 #include "tests/random.h"

@@ -22,6 +22,7 @@
 #define mulh_i32 poor_mulh_i32
 #define mulh_u32 poor_mulh_u32
 #define scale_sat poor_scale_sat
+#define magnitude poor_magnitude
 #define narrow_sat poor_narrow_sat
 #define count_leading_zeros poor_count_leading_zeros
 #define count_leading_zeros_64 poor_count_leading_zeros_64
@@ -39,6 +40,7 @@
 #undef mulh_i32
 #undef mulh_u32
 #undef scale_sat
+#undef magnitude
 #undef narrow_sat
 #undef count_leading_zeros
 #undef count_leading_zeros_64
