@@ -12,7 +12,7 @@ BEGIN {
     reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/ports/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
-    reach["src/raster/raster.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
+    reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
     if (root != "") {       # smear_jobs_run lies in its caller
         reach["src/frame.c"] = reach["src/base/jobs.c"]
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"

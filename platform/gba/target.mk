@@ -19,7 +19,7 @@ $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CF
 
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
 CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
-$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o: CFLAGS += -Os
+$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o: CFLAGS += -Os
 
 PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o

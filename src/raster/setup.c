@@ -100,14 +100,13 @@ static void plane_place(const struct setup *s, struct plane *p, int32_t a0)
     p->at = sub_wrap(here, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
-/* A plane through three values; values and their differences fit 32 bits. */
 void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2)
 {
     plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), s->area_recip, 0, 1 << 28);
     plane_place(s, p, a0);
 }
 
-void smear_setup_area(struct setup *s, uint64_t area)
+static void setup_area(struct setup *s, uint64_t area)
 {
     s->area_zeros = count_leading_zeros_64(area);
     s->area_recip = recip_norm_precise((uint32_t)(area << s->area_zeros >> 32));
@@ -115,7 +114,7 @@ void smear_setup_area(struct setup *s, uint64_t area)
 
 /* ------------------------------------------------------------------ depth */
 
-void smear_setup_depth(struct setup *s)
+static void setup_depth(struct setup *s)
 {
     int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
     smear_plane_make(s, &s->depth, q0, q1, q2);
@@ -137,7 +136,7 @@ static inline int32_t times_q16(int32_t a, int32_t q)
     return a * (q >> 16) + (int32_t)((uint32_t)a * ((uint32_t)q & 0xffffu) >> 16);
 }
 
-void smear_setup_color(struct setup *s)
+static void setup_color(struct setup *s)
 {
     s->even_color = s->perspective_color = false;
     s->color_block = 16;
@@ -419,7 +418,7 @@ static void setup_divided(struct setup *s, const struct corners *k)
     choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen.width, change);
 }
 
-void smear_setup_texture(struct setup *s)
+static void setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;
     struct corners k = { .low_q = INT32_MAX, .high_q = 0 };
@@ -453,4 +452,39 @@ void smear_setup_texture(struct setup *s)
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
     t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+/* Without a texture and opaque: one colour throughout, which is then
+ * s->color. Faces of boxes have such vertices. */
+static bool is_flat(struct setup *s)
+{
+    const int at = s->segment->color;
+    if (!ALWAYS_FLAT && (segment_textured(s->segment) || !draw_is_opaque(s->draw)))
+        return false;
+    if (!segment_gouraud(s->segment))
+        return true;
+    if (s->v[0][at] != s->v[1][at] || s->v[0][at] != s->v[2][at]
+        || (((s->v[0][at + 1] ^ s->v[1][at + 1]) | (s->v[0][at + 1] ^ s->v[2][at + 1])) & 0xffff) != 0)
+        return false;
+    uint32_t code[3];
+    for (int c = 0; c < 3; c++) {
+        uint32_t value = (uint32_t)channel_value(s, 0, c);
+        code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
+    }
+    s->color = pixel_make(0, code[0], code[1], code[2]);
+    return true;
+}
+
+void smear_setup(struct setup *s, uint64_t area)
+{
+    setup_area(s, area);
+    setup_depth(s);
+    s->flat = is_flat(s);
+    s->has_velocity = false;
+    if (!ALWAYS_FLAT && !s->flat)
+        setup_color(s);
+    if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
+        setup_texture(s);
 }

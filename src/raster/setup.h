@@ -31,6 +31,9 @@ enum depth_slope {          /* smear.h, smear_depth_units */
     SLOPE_BOTH
 };
 
+/* Nothing but opaque triangles of one colour was compiled in. */
+#define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA)
+
 #define SLOPE_BREAK (32768 << 11)       /* q11 units */
 
 /* How a triangle's texture coordinates follow from planes. */
@@ -137,7 +140,13 @@ static inline bool setup_writes_velocity(const struct setup *s)
     return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
 }
 
-/* Twice the area, q16. */
+/* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
+uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
+
+/* A plane through three values; values and their differences fit 32 bits. */
+void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
+
+/* Finds the edge vectors. Returns twice the area, q16. */
 static inline uint64_t setup_edges(struct setup *s)
 {
     s->x1 = s->v[1][VERTEX_X] - s->v[0][VERTEX_X];
@@ -153,17 +162,10 @@ static inline uint64_t setup_edges(struct setup *s)
     return (uint64_t)((int64_t)s->x1 * s->y2 - (int64_t)s->x2 * s->y1);
 }
 
-/* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
-uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
+/* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */
+void smear_setup(struct setup *s, uint64_t area);
 
-/* The parts of a setup, in the order in which they are needed. */
-void smear_setup_area(struct setup *s, uint64_t area);
-void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
-void smear_setup_depth(struct setup *s);
-void smear_setup_color(struct setup *s);
-void smear_setup_texture(struct setup *s);
-
-/* velocity.c */
+/* Makes the planes of its velocity: velocity.c. */
 void smear_setup_velocity(struct setup *s);
 
 #endif

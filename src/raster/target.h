@@ -64,6 +64,11 @@ static inline bool target_is_inspected(const struct smear_raster_target *t)
     return SMEAR_WITH_INSPECT && t->inspect != NULL;
 }
 
+static inline bool target_has_velocity(const struct smear_raster_target *t)
+{
+    return SMEAR_WITH_RECONSTRUCT && (t->velocity8 != NULL || t->velocity16 != NULL);
+}
+
 static inline bool target_is_direct(const struct smear_raster_target *t)
 {
     return SMEAR_DIRECT && t->direct != NULL;

@@ -1,0 +1,601 @@
+/* SPDX-License-Identifier: MIT */
+/* cover.c - which pixels a triangle covers, exactly.
+ *
+ * A pixel belongs to a triangle if its centre is inside, by the top-left rule. In row y an edge lies at
+ * x(y) = x0 + (yc - y0) dx / dy, an exact fraction that is stepped with its remainder; pixels from ceil(left)
+ * to ceil(right) - 1 are covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice
+ * or missed. Small triangles use edge functions instead, which say the same without a division. */
+#include "raster/cover.h"
+
+#include "kernels/flat_run.h"
+#include "raster/span.h"
+#include "raster/texture_rows.h"
+
+/* ------------------------------------------------------------------ rows */
+
+/* Where the pixels of a row lie, and depth at its pixel 0. */
+struct row {
+    int32_t y;
+    int32_t color_ring_row, window_ring_row;
+    int32_t color, window;          /* index of column 0 in the planes */
+    int32_t units;
+};
+
+static void row_start(struct row *r, const struct setup *s, int32_t y)
+{
+    const struct smear_raster_target *t = s->target;
+    const struct smear_plane_rows *c = &t->color_rows, *w = &t->window_rows;
+    r->y = y;
+    r->color_ring_row = c->ring_row + (y - t->y0);
+    r->window_ring_row = w->ring_row + (y - t->y0);
+    if (r->color_ring_row >= c->ring)
+        r->color_ring_row -= c->ring;
+    if (r->window_ring_row >= w->ring)
+        r->window_ring_row -= w->ring;
+    r->color = r->color_ring_row * c->stride - c->x0;
+    r->window = r->window_ring_row * w->stride - w->x0;
+    r->units = plane_at(&s->depth, 0, y);
+}
+
+static inline void row_next(struct row *r, const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    r->y++;
+    r->color += t->color_rows.stride;
+    r->window += t->window_rows.stride;
+    if (++r->color_ring_row == t->color_rows.ring) {
+        r->color_ring_row = 0;
+        r->color = -t->color_rows.x0;
+    }
+    if (++r->window_ring_row == t->window_rows.ring) {
+        r->window_ring_row = 0;
+        r->window = -t->window_rows.x0;
+    }
+    r->units = add_wrap(r->units, s->depth.dy);
+}
+
+/* ------------------------------------------------------------------ spans */
+
+/* A cutout's velocity goes where its texels were drawn: colours first, then velocities by their mask. */
+static SMEAR_NOINLINE void draw_cutout(const struct setup *s, struct span *p, smear_span_fn *write)
+{
+    uint32_t mask[SPAN_MAX / 32 + 1];
+    for (int32_t i = 0; i <= (p->b - p->a) >> 5; i++)
+        mask[i] = 0;
+    p->mask = mask;
+    write(s, p);
+    smear_span_velocity(s, p);
+}
+
+/* Pixels [p->a, p->b), which lie in one slope of the depth code and within the target's columns. */
+static inline void draw_piece(const struct setup *s, struct span *p, const struct row *r,
+                              enum depth_slope slope, int32_t units, smear_span_fn *write)
+{
+    const struct smear_raster_target *t = s->target;
+    p->at = r->window + p->a;
+    p->color = target_is_direct(t) ? (void *)(t->direct + p->at) : t->color + (r->color + p->a);
+    p->depth = t->depth + p->at;
+    p->z = code_from_units(units, slope);
+    p->dz = step_from_units(s->depth.dx, slope);
+    p->mask = NULL;
+    if (setup_writes_velocity(s)) {
+        if (draw_is_cutout(s->draw)) {
+            draw_cutout(s, p, write);
+            return;
+        }
+        smear_span_velocity(s, p);
+    }
+    write(s, p);
+}
+
+/* The code bends within the span: draws up to the first pixel beyond the break. Returns that pixel. */
+static SMEAR_NOINLINE int32_t draw_to_bend(const struct setup *s, struct span *p, const struct row *r,
+                                           int32_t units, smear_span_fn *write)
+{
+    enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+    int32_t a = p->a, b = p->b;
+    p->b = a + pixels_to_bend(units, s->depth.dx, b - a);
+    draw_piece(s, p, r, slope, units, write);
+    a = p->b;
+    p->b = b;
+    return a;
+}
+
+static inline void draw_span(const struct setup *s, const struct row *r, int32_t left, int32_t right,
+                             smear_span_fn *write)
+{
+    const struct smear_raster_target *t = s->target;
+    struct span p;
+    p.a = max_i32(left, t->x0);
+    p.b = min_i32(right, t->x1);
+    if (p.a >= p.b)
+        return;
+    p.left = left;
+    p.right = right;
+    p.y = r->y;
+    int32_t units = add_wrap(r->units, mul_wrap(s->depth.dx, p.a));
+    enum depth_slope slope = s->slope;
+    if (slope == SLOPE_BOTH) {
+        int32_t last = add_wrap(units, mul_wrap(s->depth.dx, p.b - 1 - p.a));
+        if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK)) {
+            p.a = draw_to_bend(s, &p, r, units, write);
+            units = add_wrap(r->units, mul_wrap(s->depth.dx, p.a));
+        }
+        slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+    }
+    draw_piece(s, &p, r, slope, units, write);
+}
+
+/* ------------------------------------------------------------------ large triangles */
+
+/* First pixel at or right of an edge, row by row: ceil((x - 1/2 px) / 1 px) of the exact fraction. */
+struct edge_walk {
+    int32_t x;              /* q8: the edge's place at this row's centres,
+                             * rounded up; 127 more for edge_pixel */
+    int32_t rest;           /* what was added by rounding, in 1/dy: -dy < rest <= 0 */
+    int32_t step, step_rest;
+    int32_t dy;
+};
+
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+/* divide_floor of what is known nearly. */
+static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *remainder)
+{
+    int32_t r = a - q * b;
+    for (; r < 0; r += b)
+        q--;
+    for (; r >= b; r -= b)
+        q++;
+    *remainder = r;
+    return q;
+}
+#endif
+
+/* From a down to b (b below a), starting at pixel row y, whose centre lies at or below a. */
+static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y)
+{
+    int32_t dx = b[VERTEX_X] - a[VERTEX_X];                     /* |dx| <= 2^20 */
+    int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
+    int32_t down = first * 256 + 128 - a[VERTEX_Y];             /* 0 .. 255 */
+    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
+    e->x = a[VERTEX_X] + 127;
+#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
+    if (e->dy >= 4 && (uint32_t)abs_i32(dx) < min_u32((uint32_t)e->dy * 32u, 1u << 15)) {
+        /* 1/dy = recip 2^(zeros - 46), good to 2^-14: quotients are off by less than two */
+        const int zeros = count_leading_zeros((uint32_t)e->dy), shift = 38 - zeros;
+        const int32_t over = dx * (int32_t)(recip_norm((uint32_t)e->dy << zeros) >> 15);
+        e->step = divide_near(over >> shift, dx * 256, e->dy, &e->step_rest);
+        e->x += divide_near((over >> 8) * down >> shift, dx * down, e->dy, &e->rest);
+    } else
+#endif
+    {
+        e->step = divide_floor(dx * 256, e->dy, &e->step_rest);
+        e->x += divide_floor(dx * down, e->dy, &e->rest);
+    }
+    uint32_t rows = (uint32_t)(y - first);
+    if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
+        uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
+        e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)e->dy);
+        e->rest = (int32_t)(rest % (uint32_t)e->dy);
+    }
+    if (e->rest > 0) {
+        e->rest -= e->dy;
+        e->x++;
+    }
+}
+
+static inline __attribute__((always_inline)) int32_t edge_pixel(const struct edge_walk *e)
+{
+    return e->x >> 8;
+}
+
+static inline __attribute__((always_inline)) void edge_step(struct edge_walk *e)
+{
+    e->x += e->step;
+    e->rest += e->step_rest;
+    if (e->rest > 0) {
+        e->rest -= e->dy;
+        e->x++;
+    }
+}
+
+/* A triangle's two sides on their way down. */
+struct sides {
+    const int32_t *top, *middle, *bottom;
+    int32_t y, knee, end;               /* rows still to come; the middle vertex; past the last */
+    struct edge_walk left, right;
+    bool whole_is_left;                 /* the side without the middle vertex */
+};
+
+/* False when no row lies in the target. */
+static bool sides_start(struct sides *d, const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    const int32_t *top = s->v[0], *middle = s->v[1], *bottom = s->v[2], *swap;
+    /* Clockwise from the top, the next vertex lies right of the long edge, so that is the
+     * left one; each swap turns the triangle over. */
+    bool whole_is_left = true;
+    if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+        swap = top;
+        top = middle;
+        middle = swap;
+        whole_is_left = false;
+    }
+    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) {
+        swap = middle;
+        middle = bottom;
+        bottom = swap;
+        whole_is_left = !whole_is_left;
+        if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+            swap = top;
+            top = middle;
+            middle = swap;
+            whole_is_left = !whole_is_left;
+        }
+    }
+    d->whole_is_left = whole_is_left;
+    d->top = top;
+    d->middle = middle;
+    d->bottom = bottom;
+    d->y = max_i32((top[VERTEX_Y] + 127) >> 8, t->y0);
+    d->end = min_i32((bottom[VERTEX_Y] + 127) >> 8, t->y1);
+    d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
+    if (d->y >= d->end)
+        return false;
+    edge_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
+    return true;
+}
+
+/* The short side of the rows that come now; returns the row in which it ends. */
+static int32_t sides_part(struct sides *d, int32_t y)
+{
+    bool upper = y < d->knee;
+    edge_start(d->whole_is_left ? &d->right : &d->left, upper ? d->top : d->middle,
+               upper ? d->middle : d->bottom, y);
+    return upper ? d->knee : d->end;
+}
+
+static void cover_large(const struct setup *s, smear_span_fn *write)
+{
+    struct sides d;
+    struct row r;
+    if (!sides_start(&d, s))
+        return;
+    row_start(&r, s, d.y);
+    while (r.y < d.end) {
+        int32_t stop = sides_part(&d, r.y);
+        do {
+            draw_span(s, &r, edge_pixel(&d.left), edge_pixel(&d.right), write);
+            edge_step(&d.left);
+            edge_step(&d.right);
+            row_next(&r, s);
+        } while (r.y < stop);
+    }
+}
+
+#if SMEAR_SPAN_ROWS
+/* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
+struct gather {
+    struct span_rows rows;
+    int32_t ring_row;           /* of the row that comes next */
+};
+
+static inline void gather_start(struct gather *g, const struct setup *s, int32_t y)
+{
+    const struct smear_raster_target *t = s->target;
+    g->ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (g->ring_row >= t->window_rows.ring)
+        g->ring_row -= t->window_rows.ring;
+    g->rows.y = y;
+    g->rows.count = 0;
+}
+
+static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
+{
+    g->rows.at = (g->ring_row - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
+    draw(s, &g->rows);
+    g->rows.y += g->rows.count;
+    g->rows.count = 0;
+    if (g->ring_row == s->target->window_rows.ring)
+        g->ring_row = 0;
+}
+
+/* Pixels of an edge in n > 0 rows: one edge after the other, in registers. */
+SMEAR_INLINE void gather_left(struct span_rows *r, struct edge_walk *edge, int32_t n)
+{
+    struct edge_walk e = *edge;
+    struct span_side *side = r->side, *const end = side + n;
+    do {
+        side->left = max_i32(edge_pixel(&e), 0);
+        edge_step(&e);
+    } while (++side != end);
+    *edge = e;
+}
+
+SMEAR_INLINE void gather_right(struct span_rows *r, struct edge_walk *edge, int32_t n, int32_t width)
+{
+    struct edge_walk e = *edge;
+    struct span_side *side = r->side, *const end = side + n;
+    do {
+        int32_t x = edge_pixel(&e);
+        side->right = min_i32(x, width);
+        side->edge = x;
+        edge_step(&e);
+    } while (++side != end);
+    *edge = e;
+}
+
+static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
+{
+    struct sides d;
+    struct gather g;
+    if (!sides_start(&d, s))
+        return;
+    gather_start(&g, s, d.y);
+    g.rows.cut = cut;
+    while (g.rows.y < d.end) {
+        int32_t stop = sides_part(&d, g.rows.y);
+        while (g.rows.y < stop) {
+            int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);
+            gather_left(&g.rows, &d.left, n);
+            gather_right(&g.rows, &d.right, n, s->frame->width);
+            g.rows.count = n;
+            g.ring_row += n;
+            gather_draw(&g, s, draw);
+        }
+    }
+}
+
+/* n pixels from index `at` on, of the colour as the target has it. */
+SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
+                              uint32_t dz, uint32_t color)
+{
+    if (target_is_direct(t))
+        flat_run(t->direct + at, t->depth + at, n, z, dz, color, true);
+    else
+        flat_run(t->color + at, t->depth + at, n, z, dz, color, false);
+}
+
+/* Pixels [a, b) of row y, of which some may lie in the other slope of the depth
+ * code. Column 0 of the row is at index `at`. */
+static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
+{
+    const struct smear_raster_target *t = s->target;
+    const int32_t dx = s->depth.dx;
+    int32_t units = plane_at(&s->depth, a, y);
+    while (a < b) {
+        enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+        int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
+        if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
+            n = pixels_to_bend(units, dx, n);
+        run_flat_at(t, at + a, n, code_from_units(units, slope), (uint32_t)step_from_units(dx, slope),
+                    target_pixel(t, s->color));
+        units = add_wrap(units, mul_wrap(dx, n));
+        a += n;
+    }
+}
+
+/* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth
+ * of opaque draws lie in the window's rows alike. `cut`: the target's columns may cut rows off;
+ * `bends`: depth codes may bend. */
+SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool bends)
+{
+    const struct smear_raster_target *t = s->target;
+    struct sides d;
+    if (!sides_start(&d, s))
+        return;
+    const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    const int32_t stride = t->window_rows.stride;
+    int32_t units = plane_at(&s->depth, 0, d.y);
+    uint32_t z = code_from_units(units, s->slope);
+    int32_t y = d.y, ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (ring_row >= t->window_rows.ring)
+        ring_row -= t->window_rows.ring;
+    int32_t knee = y;
+    while (y < d.end) {
+        if (y == knee)
+            knee = sides_part(&d, y);
+        /* Rows up to the middle vertex, or to the end of the ring. */
+        int32_t n = min_i32(knee - y, t->window_rows.ring - ring_row), at = ring_row * stride - t->window_rows.x0;
+        struct edge_walk left = d.left, right = d.right;
+        y += n;
+        ring_row += n;
+        if (ring_row == t->window_rows.ring)
+            ring_row = 0;
+        for (; n > 0; n--, at += stride) {
+            int32_t a = edge_pixel(&left), b = edge_pixel(&right);
+            const int32_t row_units = units;
+            const uint32_t row_z = z;
+            edge_step(&left);
+            edge_step(&right);
+            units = add_wrap(units, s->depth.dy);
+            z += dz_down;
+            if (cut) {
+                a = max_i32(a, t->x0);
+                b = min_i32(b, t->x1);
+            }
+            if (a >= b)
+                continue;
+            uint32_t first = row_z + dz * (uint32_t)a, step = dz;
+            if (bends) {
+                const int32_t here = add_wrap(row_units, mul_wrap(s->depth.dx, a)),
+                              last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
+                const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+                if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
+                    row_flat_bent(s, y - n, at, a, b);
+                    continue;
+                }
+                first = code_from_units(here, slope);
+                step = (uint32_t)step_from_units(s->depth.dx, slope);
+            }
+            run_flat_at(t, at + a, b - a, first, step, color);
+        }
+        d.left = left;
+        d.right = right;
+    }
+}
+
+static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
+{
+    cover_flat(s, false, false);
+}
+
+static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
+{
+    cover_flat(s, true, false);
+}
+
+static SMEAR_NOINLINE void cover_flat_bent(const struct setup *s)
+{
+    cover_flat(s, true, true);
+}
+#endif
+
+/* ------------------------------------------------------------------ small triangles */
+
+static inline void edges_start(struct tiny_edges *e, const struct setup *s, int32_t area, int32_t x,
+                               int32_t y)
+{
+    tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, area, x, y);
+}
+
+static void cover_small(const struct setup *s, const struct pixel_box *box, smear_span_fn *write)
+{
+    const int32_t area = s->x1 * s->y2 - s->x2 * s->y1;     /* edges are shorter than 9 px */
+    const int32_t left = box->left, right = box->right;
+    struct tiny_edges e;
+    struct row r;
+    edges_start(&e, s, area, left, box->top);
+    row_start(&r, s, box->top);
+    for (;;) {
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;
+        while (x < right && (e0 | e1 | e2) < 0) {
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+            x++;
+        }
+        int32_t first = x;
+        while (x < right && (e0 | e1 | e2) >= 0) {
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+            x++;
+        }
+        if (x > first)
+            draw_span(s, &r, first, x, write);
+        if (r.y + 1 >= box->bottom)
+            return;
+        row_next(&r, s);
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
+    }
+}
+
+/* ------------------------------------------------------------------ tiny triangles */
+
+/* Red, green and blue of v[0], 16 bits, and how those of v[1] and v[2] differ. */
+struct tiny_channels {
+    int32_t value[3], to1[3], to2[3];
+};
+
+static inline uint32_t channels_mix(const struct tiny_channels *c, uint32_t w1, uint32_t w2, bool linear)
+{
+    int32_t a = (int32_t)(w1 >> 2), b = (int32_t)(w2 >> 2);
+    return tiny_pixel(((uint32_t)c->value[0] << 14) + (uint32_t)(c->to1[0] * a + c->to2[0] * b),
+                      ((uint32_t)c->value[1] << 14) + (uint32_t)(c->to1[1] * a + c->to2[1] * b),
+                      ((uint32_t)c->value[2] << 14) + (uint32_t)(c->to1[2] * a + c->to2[2] * b), linear);
+}
+
+static void channels_start(struct tiny_channels *c, const struct setup *s)
+{
+    int at = s->segment->color;
+    for (int i = 0; i < 3; i++, at += i == 2) {
+        int shift = i == 1 ? 16 : 0;
+        int32_t value = (int32_t)((uint32_t)s->v[0][at] >> shift & 0xffffu);
+        c->value[i] = value;
+        c->to1[i] = (int32_t)((uint32_t)s->v[1][at] >> shift & 0xffffu) - value;
+        c->to2[i] = (int32_t)((uint32_t)s->v[2][at] >> shift & 0xffffu) - value;
+    }
+}
+
+void smear_cover_tiny(const struct setup *s, int32_t area, const struct pixel_box *box)
+{
+    const struct smear_raster_target *t = s->target;
+    const bool gouraud = segment_gouraud(s->segment);
+    const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
+    const int32_t x0 = max_i32(box->left, t->x0), x1 = min_i32(box->right, t->x1), top = box->top, bottom = box->bottom;
+    const struct tiny_scale scale = tiny_scale_make(area);
+    struct tiny_channels channels;
+    struct tiny_edges e;
+    edges_start(&e, s, area, x0, top);
+    if (gouraud)
+        channels_start(&channels, s);
+    int32_t ring_row = t->window_rows.ring_row + (top - t->y0);
+    for (int32_t y = top; y < bottom; y++, ring_row++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = x0;
+        while ((e0 | e1 | e2) < 0 && ++x < x1) {
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+        }
+        if (x == x1)
+            continue;
+        if (ring_row >= t->window_rows.ring)
+            ring_row -= t->window_rows.ring;
+        int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0, end = at + (x1 - x);
+        do {
+            uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
+            uint32_t code = tiny_depth(q0, q1, q2, w1, w2);
+            if (code > t->depth[at]) {
+                t->depth[at] = (uint16_t)code;
+                target_put(t, at,
+                           gouraud ? channels_mix(&channels, w1, w2, frame_is_linear(s->frame)) : s->color);
+                if (setup_writes_velocity(s))
+                    smear_velocity_still(t, at, s->velocity_unknown);
+            }
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+        } while (++at < end && (e0 | e1 | e2) >= 0);
+    }
+}
+
+/* ------------------------------------------------------------------ any triangle */
+
+void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
+{
+#if SMEAR_SPAN_ROWS
+    const struct smear_raster_target *target = s->target;
+    if (s->flat && !s->writes_velocity && !small) {
+        if (s->slope == SLOPE_BOTH)
+            cover_flat_bent(s);
+        else if (box->left < target->x0 || box->right > target->x1)
+            cover_flat_cut(s);
+        else
+            cover_flat_whole(s);
+        return;
+    }
+#endif
+    if (s->writes_velocity && !s->has_velocity) {
+        smear_setup_velocity(s);
+        s->has_velocity = true;
+    }
+#if SMEAR_SPAN_ROWS
+    if (!small) {
+        smear_rows_fn *rows = smear_rows_choose(s);
+        if (rows != NULL) {
+            cover_rows(s, rows,
+                       max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1);
+            return;
+        }
+    }
+#endif
+    smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
+    if (small)
+        cover_small(s, box, write);
+    else
+        cover_large(s, write);
+}
