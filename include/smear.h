@@ -1,33 +1,47 @@
 /* SPDX-License-Identifier: MIT */
 /* smear.h - motion-blurred 3D for machines without a GPU. The whole public interface.
  *
- * What it does. You give it meshes, a transform for each and a camera, once per frame. It remembers where
- * everything was in the frame before, draws triangles in fixed point through a small rolling window of
- * tile rows, blurs what moved, and hands finished bands of display pixels to your callback, top to bottom.
+ * What it does. You give it meshes, a transform for each and a camera, once per frame. It remembers where everything
+ * was in the frame before, draws triangles in fixed point through a few tile rows of memory, blurs what moved, and
+ * hands finished bands of display pixels to your callback, top to bottom.
  *
  * What it does not. No malloc, no files, no floating point, no global state, no full-frame buffer (but for
- * SMEAR_ACCUMULATE), no scene graph, no clock. It never reads the display back.
+ * SMEAR_ACCUMULATE and what you ask to be cached), no scene graph, no clock. It never reads the display back.
  *
- *     static uint64_t memory[SMEAR_MEMORY_SIZE(240, 240, 12, 600, 8) / 8];
+ *     #include <smear.h>
+ *     #include <smear_memory.h>
+ *     #include <smear_math.h>
+ *
+ *     #define SCREEN 240, 240, 600, 8         // width, height, triangles, draws
+ *     static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
  *
  *     static int flush(void *user, const smear_band *band) { ...send band->pixels...; return 0; }
  *
- *     smear_desc desc = { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8,
- *                         .format = SMEAR_RGB565, .flush = flush };
+ *     smear_desc desc = SMEAR_DESC(SCREEN);
+ *     desc.format = SMEAR_RGB565;
+ *     desc.flush = flush;
  *     smear_context *ctx;
- *     int error = smear_init(&ctx, &desc, memory, sizeof memory);
+ *     int result = smear_init(&ctx, &desc, memory, sizeof memory);
+ *     if (result != SMEAR_OK)
+ *         log(smear_error_text(result));
  *
+ *     smear_camera camera = smear_perspective(SMEAR_DEGREES(45), SMEAR_Q16(0.1), SMEAR_Q16(100));
+ *     smear_frame frame = { &camera };
  *     for (;;) {
- *         smear_begin(ctx, &(smear_frame){ .camera = &camera });
- *         smear_submit(ctx, &(smear_draw){ .id = 1, .mesh = &cube, .now = &pose });
- *         smear_render(ctx);
+ *         smear_transform pose = ...where the cube is now...;
+ *         smear_draw draw = { 1, &cube, &red, &pose };    // id, mesh, material, now
+ *         smear_begin(ctx, &frame);
+ *         smear_submit(ctx, &draw);
+ *         smear_render(ctx);                              // bands come to flush()
  *     }
  *
- * Numbers. Q16.16 is an int32_t holding value x 65536. A basis is Q8.24. The world is right-handed, +Y up; a
- * camera looks along its own -Z; the screen's origin is top left, pixel centres lie at +0.5.
+ * Numbers. Q16.16 is an int32_t holding value x 65536; a basis is Q8.24. smear_math.h makes both from constants and
+ * has rotations, look-at and the like. The world is right-handed, +Y up; a camera looks along its own -Z; the screen's
+ * origin is top left, pixel centres lie at +0.5.
  *
- * Zero in an optional field means its default, so `= {0}` is a good start for every struct. Functions return
- * SMEAR_OK or a negative smear_result; a context stays usable after any error. */
+ * Zero in an optional field means the default, which is the best picture in the least memory that is not slow, so
+ * `= {0}` is a good start for every struct. Functions return SMEAR_OK or a negative number, of which smear_error_text
+ * says what is wrong; a context stays usable after any error. */
 #ifndef SMEAR_H
 #define SMEAR_H
 
@@ -41,21 +55,33 @@ extern "C" {
 #endif
 
 #define SMEAR_VERSION_MAJOR 0
-#define SMEAR_VERSION_MINOR 1
+#define SMEAR_VERSION_MINOR 2
 #define SMEAR_VERSION_PATCH 0
 
+/* What a function returns. An argument that is wrong has a number of its own, SMEAR_ERR_FIELD or less, which says which
+ * field of what it is: smear_error_text puts it in words, smear_error_kind tells the kinds below apart. */
 typedef enum smear_result {
     SMEAR_OK         =  0,
-    SMEAR_ERR_ARG    = -1,  /* a required field is missing, or a value is outside its stated range */
-    SMEAR_ERR_MEMORY = -2,  /* fewer than smear_memory_size() bytes, or not 8-byte aligned */
-    SMEAR_ERR_ORDER  = -3,  /* a call out of turn: submit before begin, render twice */
-    SMEAR_ERR_FULL   = -4   /* more draws in a frame than desc.max_draws; this one is not drawn */
+    SMEAR_ERR_ARG    = -1,      /* a required argument is missing, or a value is outside its stated range */
+    SMEAR_ERR_MEMORY = -2,      /* fewer than smear_memory_size() bytes, or not 8-byte aligned */
+    SMEAR_ERR_ORDER  = -3,      /* a call out of turn: submit before begin, render twice */
+    SMEAR_ERR_FULL   = -4,      /* more draws in a frame than desc.max_draws; this one is not drawn */
+    SMEAR_ERR_FIELD  = -100     /* and below: SMEAR_ERR_ARG, with the field that is wrong */
 } smear_result;
+
+static inline int smear_error_kind(int result)
+{
+    return result <= SMEAR_ERR_FIELD ? (int)SMEAR_ERR_ARG : result;
+}
+
+/* One sentence without a full stop, as in "desc.width: not 1 to 2048 pixels"; never null. Where SMEAR_WITH_ERROR_TEXT
+ * is 0 it is short and always the same. */
+const char *smear_error_text(int result);
 
 /* ------------------------------------------------------------------ geometry */
 
-/* world = basis x object + origin. A basis may scale, shear and mirror (a negative determinant flips the
- * winding). Entries beyond +-127 do not fit: put large factors into the mesh's scale. */
+/* world = basis x object + origin. A basis may scale, shear and mirror (a negative determinant flips the winding).
+ * Entries beyond +-127 do not fit: put large factors into the mesh's scale. */
 typedef struct smear_transform {
     int32_t basis[9];           /* Q8.24, row by row */
     int32_t origin[3];          /* Q16.16, world units */
@@ -94,7 +120,7 @@ typedef enum smear_texel_format {
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;
 
 /* Row 0 is v = 0. SMEAR_TEXEL_565 is fastest where SMEAR_NONE draws RGB565 without dither in a context that
- * is `sharp`: with textures of that format alone and nothing blended, triangles are drawn as the display's
+ * has no other method: with textures of that format alone and nothing blended, triangles are drawn as the display's
  * pixels, and converted never. Powers of two are fastest; any size from 1 to 4096 works. |u| x width and
  * |v| x height must stay below 32768 texels, but for repeated powers of two, which may go on for ever. */
 typedef struct smear_texture {
@@ -149,14 +175,15 @@ typedef enum smear_billboard {
     SMEAR_BILLBOARD_UPRIGHT     /* the same, turned about the world's y only */
 } smear_billboard;
 
-/* One mesh in one place. Everything pointed to is read until smear_render returns.
+/* One mesh in one place. Transforms are copied by smear_submit; what else is pointed to is read until smear_render
+ * returns.
  *
- * Where it was: with smear_frame.shutter_poses, `open` and `close` are its poses at shutter open and close,
+ * Where it was: with smear_frame.shutter.poses, `open` and `close` are its poses at shutter open and close,
  * and `now` is that in the middle between them, whatever the exposure is. Otherwise `open` is its pose one
  * frame ago; when null, the library takes what it kept under `id`. A draw whose earlier pose is unknown
  * (first sight, cut, first frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
-    uint32_t id;                /* identity from frame to frame, unique in a frame; 0: none is kept */
+    uint32_t id;                /* identity from frame to frame, unique in a frame; 0: nothing is kept */
     const smear_mesh *mesh;
     const smear_material *material;     /* null: white, lit */
     const smear_transform *now;         /* null: identity */
@@ -172,60 +199,70 @@ typedef struct smear_draw {
     uint8_t layers;             /* bits: the layers it is in, see smear_layer; 0 means 1, the first */
 } smear_draw;
 
+/* How a frame is blurred. desc.methods says for which of them there is room. */
 typedef enum smear_method {
-    SMEAR_DEFAULT_METHOD,       /* SMEAR_AUTO with desc.timed; else SMEAR_RECONSTRUCT,
-                                 * or SMEAR_NONE without a window */
-    SMEAR_NONE,                 /* the sharp instant */
-    SMEAR_ACCUMULATE,           /* mean of `samples` sharp instants; needs desc.accumulate */
-    SMEAR_RECONSTRUCT,          /* tile-maximum reconstruction filter; needs the window */
-    SMEAR_SUBFRAMES,            /* tiles in which something moves: mean of instants, one per half pixel of
-                                 * travel, at most `samples`; needs desc.timed */
-    SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` slots
-                                 * (8, 16 or 32); needs desc.timed */
-    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their motion what
-                                 * lies between them; needs desc.timed */
-    SMEAR_CAMERA,               /* `filter` along the camera's motion alone, told from depth: nothing is
-                                 * done per vertex; needs the window */
-    SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong; needs desc.passes */
-    SMEAR_HALF,                 /* `filter` at half the size, over the whole frame by amount of motion; needs
-                                 * desc.half */
-    SMEAR_OBJECT,               /* each moving object along its one velocity, over the still scene, by sums
-                                 * whose cost does not grow with its length; those without one velocity as in
-                                 * SMEAR_LAYERED; needs desc.layers */
-    SMEAR_LAYERED               /* each blurred layer by velocities of its pixels,
-                                 * over the still scene; likewise */
+    SMEAR_DEFAULT_METHOD,       /* SMEAR_AUTO where desc.methods has it, else the first of those it has */
+    SMEAR_NONE,                 /* the sharp instant; always there */
+    SMEAR_ACCUMULATE,           /* mean of `samples` sharp instants of the whole frame */
+    SMEAR_RECONSTRUCT,          /* tile-maximum reconstruction filter */
+    SMEAR_SUBFRAMES,            /* tiles in which something moves: mean of instants, one per half pixel of travel, at
+                                 * most `samples` */
+    SMEAR_TIMEMASK,             /* the time each moving triangle covers each pixel, in `samples` time samples (8, 16
+                                 * or 32) */
+    SMEAR_AUTO,                 /* per tile as many instants as `target` asks for, and along their paths what lies
+                                 * between them */
+    SMEAR_CAMERA,               /* `filter.kind` along the camera's motion alone, told from depth: nothing is done per
+                                 * vertex */
+    SMEAR_PINGPONG,             /* few taps, two or three times over: see smear_pingpong */
+    SMEAR_HALF,                 /* `filter.kind` at half the size, over the whole frame by amount of motion */
+    SMEAR_OBJECT,               /* each moving object along its one displacement, over the static scene, by sums whose
+                                 * cost does not grow with its length; those without one displacement as in
+                                 * SMEAR_LAYERED */
+    SMEAR_LAYERED,              /* each blurred layer by velocities of its pixels, over the static scene */
+    SMEAR_METHOD_COUNT
 } smear_method;
 
-/* What a method needs of the desc: `timed`; a window (no `sharp`). */
+/* Sets of methods, for desc.methods: SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT). */
+#define SMEAR_SET(method) (1u << (method))
+#define SMEAR_SET_TEMPORAL (SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_TIMEMASK) | SMEAR_SET(SMEAR_AUTO))
+#define SMEAR_SET_LAYERS (SMEAR_SET(SMEAR_OBJECT) | SMEAR_SET(SMEAR_LAYERED))
+#define SMEAR_SET_FILTERS \
+    (SMEAR_SET(SMEAR_RECONSTRUCT) | SMEAR_SET(SMEAR_CAMERA) | SMEAR_SET(SMEAR_PINGPONG) | SMEAR_SET(SMEAR_HALF))
+/* Stands for SMEAR_ACCUMULATE with 12 bytes per pixel of a band, not of the frame: rows are assembled anew at every
+ * instant. Small and slow. */
+#define SMEAR_SET_ACCUMULATE_BANDS (1u << 15)
+
+/* Methods that look at several instants of what moves. */
 static inline uint8_t smear_method_is_temporal(int method)
 {
     return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;
 }
 
+/* Methods that filter a window of rows by the velocities of pixels: they have a reach. */
 static inline uint8_t smear_method_is_filter(int method)
 {
     return method == SMEAR_RECONSTRUCT || (method >= SMEAR_CAMERA && method <= SMEAR_HALF);
 }
 
-/* Methods that blur layers and merge them over the static scene. */
+/* Methods that blur layers and merge them over the static scene: they have a reach, too. */
 static inline uint8_t smear_method_has_layers(int method)
 {
     return method == SMEAR_OBJECT || method == SMEAR_LAYERED;
 }
 
 /* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
-typedef enum smear_filter {
+typedef enum smear_filter_kind {
     SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
     SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all
                                  * alike, of tiles that motion reaches */
     SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
-    SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG; needs desc.passes */
-} smear_filter;
+    SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG, which desc.methods must have */
+} smear_filter_kind;
 
 /* A blur in passes: each takes few taps of what the one before it left, `base` times
  * closer, so that 8 and 8 taps weigh like 64. */
 typedef struct smear_pingpong {
-    uint8_t passes;             /* 1..3, not above desc.passes; 0 means 2. One is a direct blur */
+    uint8_t passes;             /* 1..3, not above desc.filter.passes; 0 means 2. One is a direct blur */
     uint8_t taps;               /* of a pass, 2..64; 0 means 8 */
     uint8_t base;               /* 2..64; 0 means `taps`: all positions weigh alike. The comb
                                  * of the original: 7 taps, base 4 */
@@ -243,12 +280,12 @@ enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 /* Points of a shutter's openness over the exposure. */
 #define SMEAR_SHUTTER_POINTS 33
 
-/* How the exposure follows the time from frame to frame, smear_frame.frame_us. */
+/* How the exposure follows the time from frame to frame, smear_shutter.frame_us. */
 typedef enum smear_shutter_mode {
-    SMEAR_SHUTTER_NATIVE,       /* shutter_degrees of the frame time */
+    SMEAR_SHUTTER_NATIVE,       /* `degrees` of the frame time */
     SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames
                                  * that come late do not smear more */
-    SMEAR_SHUTTER_FIXED         /* shutter_degrees at reference_hz, whatever the frame time
+    SMEAR_SHUTTER_FIXED         /* `degrees` at reference_hz, whatever the frame time
                                  * is: streaks keep their length */
 } smear_shutter_mode;
 
@@ -256,7 +293,10 @@ typedef enum smear_shutter_mode {
 #define SMEAR_SCALE_NONE 65535u
 
 typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
-typedef enum smear_light { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light;
+
+/* What working values mean: linear light (products, interpolation and the mean over time are light, encoded once at
+ * output), or sRGB codes throughout, which is cheaper. */
+typedef enum smear_light_space { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light_space;
 
 /* Departures of SMEAR_RECONSTRUCT from the Post Processing Stack v2 filter, or-ed together. */
 enum {
@@ -286,7 +326,7 @@ typedef struct smear_layer {
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
     uint8_t over;               /* 1: over all before it in the frame's list and all that is
                                  * still, whatever the depths are */
-    uint8_t plain;              /* 1: SMEAR_OBJECT as two cameras do it: what moves along one
+    uint8_t two_camera;         /* 1: SMEAR_OBJECT as two cameras do it: what moves along one
                                  * velocity, that of the layer's first draw, in `samples` taps (up
                                  * to 64), over all that is still */
     uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
@@ -297,53 +337,76 @@ typedef struct smear_layer {
 
 enum { SMEAR_LAYERS_MAX = 8 };
 
+/* One directional light and what comes from everywhere, in linear light: 65535 is one. A lit surface shows
+ * base x (ambient + diffuse x max(0, n.l)), not above one. */
+typedef struct smear_light {
+    int32_t direction[3];       /* towards the light, in world space; any length but zero */
+    uint16_t ambient[3];        /* r g b */
+    uint16_t diffuse[3];
+} smear_light;
+
+/* What smear_frame.light is when it is null: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70, white. */
+#define SMEAR_LIGHT_DEFAULT { { 5898, 13107, 7864 }, { 19661, 19661, 19661 }, { 45875, 45875, 45875 } }
+
+/* When the shutter is open. */
+typedef struct smear_shutter {
+    uint16_t degrees;           /* 1..3600 of the frame time; 0 means 180 */
+    uint8_t exposure;           /* smear_exposure */
+    uint8_t poses;              /* 1: open/close are the poses at shutter open and close, not one frame ago, and the
+                                 * present ones those in the middle of the exposure */
+    uint8_t mode;               /* smear_shutter_mode. With `poses` the application's poses say it all */
+    uint16_t reference_hz;      /* 1..1000; 0 means 30 */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by `us` and by modes
+                                 * other than native */
+    uint32_t us;                /* exposure in microseconds, in place of `degrees`; 0: by those. CAPPED: at most a
+                                 * frame */
+    const uint8_t *curve;       /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a
+                                 * box. Copied. Filters take it for a box */
+} smear_shutter;
+
+/* What methods that filter do, and SMEAR_LAYERED as far as it says so. */
+typedef struct smear_filter {
+    uint8_t kind;               /* smear_filter_kind, of SMEAR_CAMERA and SMEAR_HALF */
+    uint8_t flags;              /* SMEAR_FENCE | ...; 0: none */
+    uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the kind */
+    uint8_t camera_step;        /* 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
+                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
+                                 * vertices, the background none (SMEAR_CAMERA: as 1) */
+    smear_pingpong pingpong;
+} smear_filter;
+
+/* How much of what moved is shown as motion, in 1/256; 0 means 256, SMEAR_SCALE_NONE nothing. */
+typedef struct smear_scale {
+    uint16_t rotation;          /* of the camera's rotation and zoom, up to 16128 */
+    uint16_t translation;       /* of the camera's translation, likewise */
+    uint16_t object;            /* of draws and their deformation (which grows 8 times at most) */
+} smear_scale;
+
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
     const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame
                                          * (if it is of the same kind; else nothing has camera motion) */
     uint8_t method;             /* smear_method */
-    uint8_t exposure;           /* smear_exposure */
-    uint8_t light;              /* smear_light */
-    uint8_t shutter_poses;      /* 1: open/close are the poses at shutter open and close, not one frame ago,
-                                 * and the present ones those in the middle of the exposure */
+    uint8_t light_space;        /* smear_light_space */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
-    uint8_t reconstruct;        /* SMEAR_FENCE | ...; 0: none */
-    uint16_t samples;           /* 1..1024: taps, instants or slots; 0 means 8, or 32 for SMEAR_SUBFRAMES and
+    uint8_t refresh;            /* with desc.reuse: 1: vertices, colours or texels that static draws point to have
+                                 * changed in place since the last frame, or the display has lost what it was sent */
+    uint16_t samples;           /* 1..1024: taps, instants or time samples; 0 means 8, or 32 for SMEAR_SUBFRAMES and
                                  * _TIMEMASK. Without SMEAR_WITH_LINEAR at most 256 instants */
-    uint16_t shutter_degrees;   /* 1..3600; 0 means 180 */
-    uint16_t target;            /* 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and 1-bit formats
-                                 * SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5 */
+    uint16_t target;            /* SMEAR_AUTO: error aimed at in 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and
+                                 * 1-bit formats SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5 */
     uint32_t budget;            /* SMEAR_AUTO: how much of what moves may be drawn, pixels x instants: of `target` and
-                                 * coarser errors the first that needs no more, SMEAR_DRAFT in any case. Reckoned
-                                 * from areas and ways of triangles before a pixel is drawn (smear_stats.work), so
-                                 * the same frame has the same picture; 0: no bound */
+                                 * coarser errors the first that needs no more, SMEAR_DRAFT in any case. Reckoned from
+                                 * areas and travels of triangles before a pixel is drawn (smear_stats.work), so the
+                                 * same frame has the same picture; 0: no bound */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
-    uint8_t filter;             /* smear_filter, of SMEAR_CAMERA and SMEAR_HALF */
-    uint8_t camera_step;        /* filters: 1, 2 or 4: draws that do not move themselves get their
-                                 * velocity from depth and the two cameras, at each pixel or each
-                                 * 2 x 2 or 4 x 4; the background too. 0: from their vertices, the
-                                 * background none (SMEAR_CAMERA: as 1) */
-    uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the `filter` */
-    smear_pingpong pingpong;
-    uint8_t shutter_mode;       /* smear_shutter_mode. With shutter_poses the
-                                 * application's poses say it all */
-    uint16_t reference_hz;      /* 1..1000; 0 means 30 */
-    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by
-                                 * shutter_us and by modes other than native */
-    uint32_t shutter_us;        /* exposure in microseconds, in place of shutter_degrees; 0: by
-                                 * those. CAPPED: at most a frame */
-    uint16_t turn_scale, way_scale;     /* of the camera's rotation (and zoom) and of its
-                                         * translation, in 1/256, up to 16128; */
-    uint16_t object_scale;              /* and of draws and their deformation (which grows 8
-                                         * times at most); 0 means 256 */
-    const uint8_t *shutter;     /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0;
-                                 * null: a box. Copied. Filters take it for a box */
-    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras;
-                                 * null: one layer of all that moves */
+    const smear_light *light;   /* copied; null: SMEAR_LIGHT_DEFAULT */
+    smear_shutter shutter;
+    smear_filter filter;
+    smear_scale scale;
+    const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
+                                 * moves */
     uint8_t layer_count;
-    uint8_t refresh;            /* with desc.cache_static or desc.buffer_age: 1: vertices, colours or texels
-                                 * that draws standing still point to have changed in place since the last
-                                 * frame, or the display has lost what it was sent */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */
@@ -364,7 +427,7 @@ typedef enum smear_format {
 typedef enum smear_dither { SMEAR_DITHER_ORDERED, SMEAR_DITHER_NONE, SMEAR_DITHER_BLUE } smear_dither;
 
 /* Finished pixels of columns x .. x + width - 1 and rows y .. y + height - 1: whole rows of the frame, x = 0,
- * but for a desc with `buffer_age`. */
+ * but for a desc with `reuse.buffer_age`. */
 typedef struct smear_band {
     const void *pixels;         /* valid until flush returns or, with two bands, until smear_band_done() */
     int16_t x, y, width, height;
@@ -381,121 +444,130 @@ typedef int smear_flush_fn(void *user, const smear_band *band);
 typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const uint16_t *depth,
                               const int32_t *velocity);
 
+/* What a frame may leave out because it is shown already. For SMEAR_AUTO, SMEAR_SUBFRAMES and SMEAR_TIMEMASK; frames
+ * of other methods are drawn and sent whole. The pictures are the same. See smear_frame.refresh. */
+typedef struct smear_reuse {
+    uint8_t cache_static;       /* 1: what does not move is kept from frame to frame, and drawn again only where
+                                 * camera, background or a static draw is another: 6 bytes per pixel of the whole frame
+                                 * (with a window as many as that takes) */
+    uint8_t buffer_age;         /* 1..7: the display keeps what it is sent, and the buffer that is drawn into shows the
+                                 * frame so many frames ago: 1 for a panel with memory of its own, 2 where pages flip.
+                                 * Then only damaged tiles are drawn and sent: bands of tiles beside each other, from
+                                 * left to right and top to bottom, as many as it takes, or none. 0: all are */
+} smear_reuse;
+
+/* Room beyond the usual for methods that filter. */
+typedef struct smear_filter_room {
+    uint8_t passes;             /* 2 or 3: passes of SMEAR_PINGPONG: 4 bytes per pixel of the window for each but the
+                                 * last; 0 means 2 where desc.methods has SMEAR_PINGPONG. One may be had with any
+                                 * window */
+    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to all tiles on its way,
+                                 * and as many tile rows more are kept. Not with temporal methods, SMEAR_PINGPONG or
+                                 * SMEAR_HALF */
+} smear_filter_room;
+
+/* For tests, tools and tuning. */
+typedef struct smear_debug {
+    uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
+    smear_inspect_fn *inspect;  /* null: none; with a window; costs 8 bytes per pixel of it */
+    uint32_t (*clock)(void *user);      /* null: no times in the statistics */
+} smear_debug;
+
+/* The first seventeen values, to filter.scatter, are what SMEAR_MEMORY and SMEAR_DESC of smear_memory.h take. */
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
-    int16_t reach;              /* longest blur radius of a filter in pixels,
-                                 * 1..64; 0 means 5 % of the height, 64 at most */
-    int16_t tile;               /* 8, 16, 32 or 64, not below reach (but with scatter); 0 means the smallest
-                                 * such; with timed and sharp, where nothing has a reach, 32. Without timed,
-                                 * layers, scatter and half also 4: the least memory, a little slower */
-    uint8_t format;             /* smear_format */
-    uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
-    uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2,
-                                 * drawing goes on while one is sent */
-    uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
-    uint8_t sharp;              /* 1: no filter: no window is kept */
-    uint8_t crc;                /* 1: statistics give the CRC of each frame; 0: no time is spent on it */
-    uint8_t accumulate;         /* SMEAR_ACCUMULATE: 1: 12 bytes per pixel of the frame; 2: per pixel of a
-                                 * band, whose rows are assembled anew at every instant: small and slow. 6
-                                 * bytes without SMEAR_WITH_LINEAR */
-    uint8_t timed;              /* 1: room for SMEAR_SUBFRAMES, SMEAR_TIMEMASK
-                                 * and SMEAR_AUTO; needs no window */
-    int16_t strip;              /* timed: width in pixels of what is drawn at once at each instant, 1 to 64
-                                 * tiles; 0 means SMEAR_STRIP, or one tile where that is wider. Wider is
-                                 * faster, up to a point, and takes 22 bytes per pixel for each worker. The
-                                 * picture depends on it, a little */
-    uint8_t passes;             /* 2 or 3: room for so many passes of SMEAR_PINGPONG: 4 bytes
-                                 * per pixel of the window for each but the last; 0 and 1: none.
-                                 * In any case one pass may be had */
-    uint8_t half;               /* 1: room for SMEAR_HALF */
-    uint8_t scatter;            /* 1: the reach may exceed the tile: motion of a tile is told to
-                                 * all tiles on its way, and as many tile rows more are kept.
-                                 * Not with timed, passes or half */
-    uint8_t layers;             /* 1: room for SMEAR_OBJECT and SMEAR_LAYERED; needs no window */
-    uint8_t cache_static;         /* 1: what does not move is kept from frame to frame, and drawn again only
-                                 * where camera, background or a draw that stands still is another: the same
-                                 * pictures, for 6 bytes per pixel of the whole frame (with a window as many as
-                                 * that takes). With timed; see smear_frame.refresh */
-    uint8_t buffer_age;    /* 1..7: the display keeps what it is sent, in so many buffers that are shown in
-                                 * turn: 1 for a panel with memory of its own, 2 where pages flip. Then only
-                                 * tiles that the buffer shows otherwise are drawn and sent: bands of tiles
-                                 * beside each other, from left to right and top to bottom, as many as it
-                                 * takes, or none. Frames of other methods are sent whole. 0: all are. With
-                                 * timed; see smear_frame.refresh */
-    int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means
-                                 * tile. With `sharp`: as many are drawn at once. With a window and
-                                 * without timed, layers and half it may divide the tile: a smaller
-                                 * band buffer, the same picture */
+    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for; more
+                                 * are drawn in parts; at most 2^24; 0 means 1024 */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
-    uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is
-                                 * memory for, SMEAR_TRIANGLE_BYTES each, SMEAR_TIMED_TRIANGLE_BYTES with
-                                 * `timed`; more are drawn in parts; at most 2^24; 0 means 1024 */
+    uint16_t methods;           /* SMEAR_SET(...) of all that frames will ask for; 0 means SMEAR_SET(SMEAR_AUTO) */
+    int16_t tile;               /* 8, 16, 32 or 64, not below a reach (but with scatter); 0 means the smallest
+                                 * such; where nothing has a reach, the smallest not below a twentieth of the width,
+                                 * 32 at most. Also 4 with SMEAR_NONE, SMEAR_ACCUMULATE and filters
+                                 * but SMEAR_HALF and scatter: the least memory, a little slower */
+    int16_t reach;              /* longest blur radius of a filter or layer in pixels, 1..64; 0 means 5 % of the height,
+                                 * 64 at most. Ignored where no method has a reach */
+    int16_t strip;              /* temporal methods: width in pixels of what is drawn at once at each instant, 1 to 64
+                                 * tiles; 0 means 8 tiles, but 128 pixels at most and one tile at least. Wider is
+                                 * faster, up to a point, and takes 22 bytes per pixel for each worker. The picture depends on it, a
+                                 * little */
+    int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile.
+                                 * With SMEAR_NONE and SMEAR_ACCUMULATE alone as many are drawn at once. With a window
+                                 * and without temporal methods, layers and SMEAR_HALF it may divide the tile: a
+                                 * smaller band buffer, the same picture */
+    uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
+    uint8_t format;             /* smear_format */
+    uint8_t workers;            /* 1..8 cores that run tile jobs; 0 means 1 */
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
+    smear_reuse reuse;
+    smear_filter_room filter;
+    uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
     smear_flush_fn *flush;      /* required */
-    smear_inspect_fn *inspect;  /* null: none; costs 8 bytes per pixel of the window */
-    uint32_t (*clock)(void *user);      /* null: no times in the statistics */
     void (*idle)(void *user);   /* null: spin. Called while waiting for a band to be sent or for a worker */
     void *user;                 /* handed to the callbacks */
+    smear_debug debug;
 } smear_desc;
+
+/* How full a list was, at most, and how much finds room in it. */
+typedef struct smear_fill {
+    uint32_t used, room;
+} smear_fill;
 
 typedef struct smear_stats {
     /* submitted; covering a pixel; left out for want of memory or for a bad index. In a frame drawn in parts
      * the last two count a triangle once per part. */
     uint32_t triangles_in, triangles_drawn, triangles_dropped;
-    uint32_t triangles_split;           /* times a frame was drawn in parts because the list was full */
-    uint32_t pixels;                    /* of the frame */
-    uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
-    uint32_t tiles_still, tiles_uniform, tiles_complex;
-    uint32_t tiles_none, tiles_accumulate, tiles_reconstruct;   /* by the method each tile got */
-    uint32_t tiles_smooth, tiles_subframes, tiles_timemask;
-    uint32_t tiles_camera, tiles_pingpong, tiles_half;
+    uint32_t parts_added;               /* times a part of the frame was halved because a list was full */
     uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or
                                          * (but with camera_step) the camera did */
-    uint32_t tiles_object, tiles_layered;       /* into which a blurred layer reaches */
-    uint32_t time_submit, time_raster, time_reduce, time_blur, time_convert, time_total; /* clock ticks */
-    uint32_t crc32;                     /* of the bytes of all bands in their order, as in zlib (XRGB8888: R, G,
-                                         * B); 0 without desc.crc */
-    uint32_t arena_bytes;               /* memory in use */
+    uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
+                                         * in parts, once per part */
+    uint32_t pixels;                    /* of the frame */
+    uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
+    uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves, SMEAR_AUTO where
+                                         * a mean closes the gaps between instants, else SMEAR_SUBFRAMES ...; layers
+                                         * count where they reach into a tile */
+    uint32_t tiles_static, tiles_uniform, tiles_complex;        /* by the kind of motion in them */
+    uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.reuse.buffer_age) */
+    uint8_t static_cached;              /* 1: what is static was not drawn, and is not among triangles_drawn */
     uint32_t target;                    /* SMEAR_AUTO: smear_frame.target, or what the budget allowed; of a frame
                                          * drawn in parts, each of which has its share, the coarsest */
     uint32_t work;                      /* with a budget: areas of moving triangles x instants, saturated */
-    uint32_t static_cached;                /* 1: what stands still was not drawn, and is not among triangles_drawn:
-                                         * desc.cache_static */
-    uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
-                                         * in parts, once per part */
-    uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.buffer_age) */
+    uint32_t crc32;                     /* of the bytes of all bands in their order, as in zlib (XRGB8888: R, G,
+                                         * B); 0 without desc.debug.crc */
+    uint32_t arena_bytes;               /* memory in use */
+    struct {                            /* ticks of desc.debug.clock */
+        uint32_t submit, raster, reduce, blur, convert, total;
+    } time;
+    struct {                            /* triangles and vertices in bytes; draws of one layout of vertices; draws */
+        smear_fill geometry, segments, draws;
+    } fill;
 } smear_stats;
 
 typedef struct smear_context smear_context;
 
-/* Bytes smear_init needs for this desc; 0 when the desc is not valid. */
+/* Bytes smear_init needs for this desc, whose callbacks do not matter; 0 when the desc is not valid. SMEAR_MEMORY of
+ * smear_memory.h is the same as a constant for static arrays. */
 size_t smear_memory_size(const smear_desc *desc);
-
-/* The same as a constant for static arrays, rounded up to 8: one band of RGB565 or
- * smaller, one worker, default vertex cache, tile chosen from reach (give the reach,
- * not 0). Never less than smear_memory_size(). */
-#define SMEAR_MEMORY_SIZE(width, height, reach, triangles, draws) \
-    SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, \
-        ((reach) <= 8 ? 8 : (reach) <= 16 ? 16 : (reach) <= 32 ? 32 : 64))
 
 /* Finds mesh->bounds: once, where a mesh is made that brings none. Goes through all positions. */
 void smear_mesh_find_bounds(smear_mesh *mesh);
 
 /* Cuts `memory` (8-byte aligned, at least smear_memory_size(desc) bytes) into what the context needs. The
- * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. SMEAR_ERR_ARG
- * (the desc is not valid, or asks for what smear_config.h left out) or SMEAR_ERR_MEMORY. */
+ * context lives in it and holds nothing else: forgetting the memory frees it. desc is copied. SMEAR_ERR_ARG,
+ * SMEAR_ERR_MEMORY, or the number of the desc's field that is not valid or asks for what smear_config.h left out. */
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
 
 /* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered,
- * but its poses count as the past of this one. SMEAR_ERR_ARG also where the desc has no room for the method. */
+ * but its poses count as the past of this one. SMEAR_ERR_ARG, or the number of the field that is not valid. */
 int smear_begin(smear_context *ctx, const smear_frame *frame);
 
-/* Adds a draw. The struct is copied, what it points to is not. SMEAR_ERR_ARG, SMEAR_ERR_ORDER (no frame has
- * been begun) or SMEAR_ERR_FULL: the frame goes on without it. */
+/* Adds a draw. The struct and its transforms are copied; mesh, material and positions are read until smear_render
+ * returns. SMEAR_ERR_ARG, the number of the field that is not valid (an id that was submitted in this frame already,
+ * too), SMEAR_ERR_ORDER (no frame has been begun) or SMEAR_ERR_FULL: the frame goes on without it. */
 int smear_submit(smear_context *ctx, const smear_draw *draw);
 
 /* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and
- * pixels. A full triangle list is no error: the frame is drawn in parts (stats.triangles_split counts them).
+ * pixels. A full triangle list is no error: the frame is drawn in parts (stats.parts_added counts them).
  * Returns SMEAR_OK, what flush returned if negative, or SMEAR_ERR_ORDER (no frame has been begun). */
 int smear_render(smear_context *ctx);
 
@@ -537,137 +609,6 @@ static inline uint32_t smear_depth_units(uint16_t code)
 {
     return code < 32768u ? code : 32768u + (uint32_t)(code - 32768u) * 16u;
 }
-
-/* ------------------------------------------------------------------ memory in detail */
-
-#define SMEAR_STRIP 128                     /* desc.strip by default, pixels */
-#define SMEAR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
-#define SMEAR_CONTEXT_BYTES 1792u           /* the context itself, at most */
-#define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window, at most */
-#define SMEAR_DRAW_BYTES 336u               /* a draw, its texture's sampler and its kept pose, at most */
-#define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes
-                                             * each, 4 more with a texture, 8 with vertex colours or
-                                             * normals, 12 or 24 when moving */
-#define SMEAR_TIMED_TRIANGLE_BYTES 64u      /* list entry (32), places at three
-                                             * instants: 36 bytes per vertex */
-#define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
-#define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
-
-/* What a worker needs with `timed`: finished pixels, then sums and depths of instants, or slots and lists. */
-#define SMEAR_STRIP_COLUMNS(strip) ((strip) + ((strip) >= SMEAR_STRIP ? 16 : 0))
-#define SMEAR_TIMED_WORK_BYTES(tile, strip) \
-    (SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 4u) \
-     + (SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 18u) + 512u > 8192u \
-            ? SMEAR_ALIGN8((size_t)SMEAR_STRIP_COLUMNS(strip) * (tile) * 18u) + 512u : 8192u))
-
-/* With `timed`, beyond what is there without: movers and tile loads of a row, work, longer triangles. */
-#define SMEAR_TIMED_BYTES(width, height, triangles, tile, strip) \
-    (SMEAR_ALIGN8((size_t)(triangles) * 8u) + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 18u) \
-     + SMEAR_TIMED_WORK_BYTES(tile, strip) \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 4u) + 8u \
-     + SMEAR_ALIGN8((size_t)(triangles) * (SMEAR_TIMED_TRIANGLE_BYTES - SMEAR_TRIANGLE_BYTES)) + 264u \
-     + SMEAR_ALIGN8(((size_t)(triangles) * SMEAR_TIMED_TRIANGLE_BYTES / 200000u + 1u) * SMEAR_SEGMENT_BYTES))
-
-/* Of a desc with `timed` and with `sharp`: no window. Give the tile and the strip, not 0. */
-#define SMEAR_MEMORY_SIZE_TIMED(width, height, triangles, draws, tile, strip) \
-    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
-     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
-     + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
-     + SMEAR_ALIGN8(((size_t)(width) + (tile) - 1u) / (tile)) + 8u \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
-     + SMEAR_ALIGN8((size_t)(tile) * (tile) * 4u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
-     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
-     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
-     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
-                    * SMEAR_SEGMENT_BYTES) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
-
-/* With `cache_static`, beyond SMEAR_MEMORY_SIZE_TIMED: all rows of the frame. With `buffer_age`: its tiles,
- * and where draws are seen. */
-#define SMEAR_DAMAGE_BYTES 56u
-#define SMEAR_CACHE_STATIC_BYTES(width, height, tile) \
-    (SMEAR_ALIGN8((size_t)(width) * ((height) > (tile) ? (size_t)((height) - (tile)) : 0u) * 6u) + 8u \
-     + SMEAR_DAMAGE_BYTES)
-#define SMEAR_TILES(pixels, tile) (((size_t)(pixels) + (size_t)(tile) - 1u) / (size_t)(tile))
-#define SMEAR_BUFFER_AGE_BYTES(width, height, draws, tile) \
-    (SMEAR_ALIGN8((size_t)(draws) * 4u) + SMEAR_ALIGN8(SMEAR_TILES(width, tile) * SMEAR_TILES(height, tile)) \
-     + SMEAR_DAMAGE_BYTES)
-
-/* With `layers`, beyond what is there without: rows of a layer with their margins, 8 or 10 bytes
- * per pixel; what groups leave for others they pass through, 6 bytes per pixel of a tile row;
- * sums; groups; lists per tile row. One worker. */
-#define SMEAR_LAYER_DRAW_BYTES 96u
-#define SMEAR_LAYERS_BYTES(width, height, reach, draws, tile) \
-    (SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 4u) \
-     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) * 2u) \
-     + SMEAR_ALIGN8(((size_t)(width) + 2u * (reach) + 6u) * ((tile) + 2u * (reach)) \
-                    * ((reach) <= 15 ? 2u : 4u)) \
-     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
-     + SMEAR_ALIGN8((((size_t)(width) + 2u * (reach) + 6u) / (tile) + 1u) * 13u + 16u) \
-     + SMEAR_ALIGN8(((size_t)(width) + (tile) + 4u * (reach) + 6u) * 2u + 16u) \
-     + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u + 16u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_LAYER_DRAW_BYTES + 40u) + (tile) * 560u + 5120u + 256u \
-     + SMEAR_LAYERS_MAX * 272u \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile) + 2u) * 4u))
-
-/* Of a desc with `layers` and with `sharp`. Give reach and tile, not 0. */
-#define SMEAR_MEMORY_SIZE_LAYERS(width, height, reach, triangles, draws, tile) \
-    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) \
-     + SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) \
-     + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) * 2u \
-     + SMEAR_ALIGN8(((size_t)(width) + (tile) - 1u) / (tile)) + 8u \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
-     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
-     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
-     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
-                    * SMEAR_SEGMENT_BYTES) \
-     + SMEAR_LAYERS_BYTES(width, height, reach, draws, tile))
-
-/* Of a desc with `timed` and a window for SMEAR_RECONSTRUCT. */
-#define SMEAR_MEMORY_SIZE_TIMED_WINDOW(width, height, reach, triangles, draws, tile, strip) \
-    (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-     + SMEAR_TIMED_BYTES(width, height, triangles, tile, strip))
-
-/* Of a desc with `scatter`: the window has as many tiles more as the reach covers beyond one. */
-#define SMEAR_LAG(reach, tile) (((size_t)(reach) + (tile) - 1u) / (tile))
-#define SMEAR_MEMORY_SIZE_SCATTER(width, height, reach, triangles, draws, tile) \
-    (SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-     + (SMEAR_LAG(reach, tile) - 1u) \
-       * (SMEAR_ALIGN8((size_t)(width) * (tile) * 4u) + SMEAR_ALIGN8((size_t)(width) * (tile) * 2u) \
-          + SMEAR_ALIGN8((size_t)(width) * (tile) * ((reach) <= 15 ? 2u : 4u)) \
-          + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 40u) + 8u))
-
-/* Beyond a window's memory: what passes but the last leave; a window of
- * half the size and a tile of it. One worker. */
-#define SMEAR_PASSES_BYTES(width, reach, tile, passes) \
-    ((passes) > 1 ? ((passes) - 1u) * SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) : 0u)
-#define SMEAR_HALF_BYTES(width, reach, tile) \
-    (SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 4u) \
-     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) * 2u) \
-     + SMEAR_ALIGN8((((size_t)(width) + 1u) / 2u) * ((tile) + ((reach) + 1u) / 2u) \
-                    * ((reach) <= 30 ? 2u : 4u)) \
-     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
-     + SMEAR_ALIGN8((size_t)(tile) * (tile)) + 136u)
-
-/* context; window: ring of two tiles and the reach, 8 or 10 bytes per pixel; band; tile motions; lists per
- * tile row; table of rows; one tile of scratch; draws; triangles and vertices; vertex cache; segments */
-#define SMEAR_MEMORY_SIZE_TILE(width, height, reach, triangles, draws, tile) \
-    (SMEAR_ALIGN8(SMEAR_CONTEXT_BYTES) + SMEAR_FILTERING_BYTES \
-     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 4u) \
-     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * 2u) \
-     + SMEAR_ALIGN8((size_t)(width) * (2u * (tile) + (reach)) * ((reach) <= 15 ? 2u : 4u)) \
-     + SMEAR_ALIGN8((size_t)(width) * 2u * (tile)) \
-     + SMEAR_ALIGN8((((size_t)(width) + (tile) - 1u) / (tile)) * 56u) + 16u \
-     + SMEAR_ALIGN8((((size_t)(height) + (tile) - 1u) / (tile)) * 8u) + 8u \
-     + SMEAR_ALIGN8(((size_t)(tile) + 2u * (reach)) * 4u) \
-     + SMEAR_ALIGN8((size_t)(tile) * (tile) * 4u) \
-     + SMEAR_ALIGN8((size_t)(draws) * SMEAR_DRAW_BYTES) + 24u \
-     + SMEAR_ALIGN8((size_t)(triangles) * SMEAR_TRIANGLE_BYTES) \
-     + SMEAR_ALIGN8(64u * SMEAR_CACHE_BYTES) \
-     + SMEAR_ALIGN8(((size_t)(draws) + 2u + (size_t)(triangles) * SMEAR_TRIANGLE_BYTES / 200000u) \
-                    * SMEAR_SEGMENT_BYTES))
 
 #ifdef __cplusplus
 }

@@ -91,7 +91,10 @@
 #ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
 #define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_INSPECT              /* desc.inspect: what tests and tools look at */
+#ifndef SMEAR_WITH_ERROR_TEXT           /* what smear_error_text says */
+#define SMEAR_WITH_ERROR_TEXT SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_INSPECT              /* desc.debug.inspect: what tests and tools look at */
 #define SMEAR_WITH_INSPECT SMEAR_WITH_ALL
 #endif
 
