@@ -185,18 +185,18 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
         smear_get_stats(player.ctx, &stats);
         add(&total, count);
         worst = count > worst ? count : worst;
-        add(&submit, platform_clock_count(stats.time_submit));
-        add(&raster, platform_clock_count(stats.time_raster));
-        add(&blur, platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce));
-        add(&convert, platform_clock_count(stats.time_convert));
-        const uint32_t there = stats.tiles_uniform + stats.tiles_complex, all = stats.tiles_still + there;
+        add(&submit, platform_clock_count(stats.time.submit));
+        add(&raster, platform_clock_count(stats.time.raster));
+        add(&blur, platform_clock_count(stats.time.blur) + platform_clock_count(stats.time.reduce));
+        add(&convert, platform_clock_count(stats.time.convert));
+        const uint32_t there = stats.tiles_uniform + stats.tiles_complex, all = stats.tiles_static + there;
         add_frame(&shot[2 * there > all], count, there, all);
         moving += there;
         kept += stats.tiles_kept;
         tiles += all;
         triangles = stats.triangles_in;
         drawn += stats.triangles_drawn;
-        split += stats.triangles_split;
+        split += stats.parts_added;
         dropped += stats.triangles_dropped;
     }
     if (result != SMEAR_OK)

@@ -9,7 +9,7 @@ struct demo_screen {
     const char *name;
     smear_desc desc;                /* without callbacks */
     uint8_t method;                 /* smear_method of blurred frames */
-    uint8_t light;                  /* smear_light */
+    uint8_t light;                  /* smear_light_space */
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */
     uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE, which has none to keep; 0: desc's, for all ways to blur */

@@ -202,9 +202,9 @@ static int cost(const struct model_screen *screen)
         total += platform_clock_count(platform_clock() - before);
         smear_get_stats(ctx, &stats);
         drawn += stats.triangles_drawn;
-        split += stats.triangles_split;
+        split += stats.parts_added;
         moving += stats.tiles_uniform + stats.tiles_complex;
-        tiles += stats.tiles_still + stats.tiles_uniform + stats.tiles_complex;
+        tiles += stats.tiles_static + stats.tiles_uniform + stats.tiles_complex;
     }
     for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {
         const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,

@@ -178,8 +178,8 @@ bool display_open(smear_desc *desc)
     }
     display.next_us = clock_us();
     display.has_two_bands = desc->bands == 2;
-    if (desc->buffer_age != 0)
-        desc->buffer_age = 1;
+    if (desc->reuse.buffer_age != 0)
+        desc->reuse.buffer_age = 1;
     desc->flush = take_band;
     return true;
 }

@@ -260,7 +260,7 @@ static bool is_linear(const char *name, bool shutter_poses)
 static const double accumulate_bar = 1.0;       /* codes */
 enum { TRUTH_INSTANTS = 256 };
 
-static double accumulate_error(struct subject *s, bool shutter_poses, smear_light light)
+static double accumulate_error(struct subject *s, bool shutter_poses, smear_light_space light)
 {
     struct shot shot;
     struct present_options present = subject_options(s);

@@ -449,13 +449,13 @@ static int compare_with_ample(const smear_desc *tight, int method)
             CHECK_EQ(render_scene(&b, 0.25 * k, method), SMEAR_OK);
             smear_get_stats(a.ctx, &sa);
             smear_get_stats(b.ctx, &sb);
-            CHECK_EQ(sa.triangles_split, 0);
+            CHECK_EQ(sa.parts_added, 0);
             CHECK_EQ(sa.triangles_dropped, 0);
             CHECK(b.bands_in_order);
             if (sb.triangles_dropped != 0)
                 splits = -1;
             else if (same_picture(&a, b.picture))
-                splits += (int)sb.triangles_split;
+                splits += (int)sb.parts_added;
         }
         rig_end(&b);
     }
@@ -528,7 +528,7 @@ static void test_a_frame_in_many_parts_is_the_frame_in_one(void)
                     CHECK_EQ(rig_frame(&tight, &f, &d, 1), SMEAR_OK);
                     smear_stats stats;
                     smear_get_stats(tight.ctx, &stats);
-                    CHECK(stats.triangles_split >= (desc.timed ? 1u : 2u));
+                    CHECK(stats.parts_added >= (desc.timed ? 1u : 2u));
                     CHECK_EQ(stats.triangles_dropped, 0);
                     same_picture(&ample, tight.picture);
                 }
@@ -908,8 +908,8 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
                     CHECK_EQ(stats.samples, first[k].samples);
                     CHECK_EQ(stats.triangles_drawn, first[k].triangles_drawn);
                     CHECK_EQ(stats.tiles_complex, first[k].tiles_complex);
-                    CHECK_EQ(stats.tiles_smooth, first[k].tiles_smooth);
-                    CHECK_EQ(stats.tiles_subframes, first[k].tiles_subframes);
+                    CHECK_EQ(stats.tiles[SMEAR_AUTO], first[k].tiles[SMEAR_AUTO]);
+                    CHECK_EQ(stats.tiles[SMEAR_SUBFRAMES], first[k].tiles[SMEAR_SUBFRAMES]);
                 }
             }
             for (int i = 1; i < workers; i++)
@@ -1253,7 +1253,7 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
                         smear_get_stats(r.ctx, &stats);
                         CHECK_EQ(stats.samples, 0);
                         CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
-                        CHECK_EQ(stats.tiles_none, stats.tiles_still);
+                        CHECK_EQ(stats.tiles[SMEAR_NONE], stats.tiles_static);
                     }
                     if (n > 100)
                         continue;
@@ -1409,13 +1409,13 @@ static void test_statistics_add_up(void)
                 }
                 CHECK_EQ(s.pixels, 70 * 50);
                 uint32_t tiles = 9 * 7;
-                CHECK_EQ(s.tiles_still + s.tiles_uniform + s.tiles_complex, tiles);
-                CHECK_EQ(s.tiles_none + s.tiles_accumulate + s.tiles_reconstruct, tiles);
+                CHECK_EQ(s.tiles_static + s.tiles_uniform + s.tiles_complex, tiles);
+                CHECK_EQ(s.tiles[SMEAR_NONE] + s.tiles[SMEAR_ACCUMULATE] + s.tiles[SMEAR_RECONSTRUCT], tiles);
                 CHECK_EQ(s.triangles_in, 2 + 12 + 12 + 2 + 2);
                 CHECK(s.triangles_drawn > 8);
                 CHECK_EQ(s.triangles_dropped, 0);
                 CHECK_EQ(s.arena_bytes, (int64_t)r.bytes);
-                CHECK_EQ(s.time_total, 0);              /* no clock */
+                CHECK_EQ(s.time.total, 0);              /* no clock */
                 if (method[k % 3] == SMEAR_ACCUMULATE)
                     CHECK_EQ(s.samples, 8 * 70 * 50);
             }
@@ -1442,8 +1442,8 @@ static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
             same_picture(&timed, plain.picture);
             smear_stats s;
             smear_get_stats(timed.ctx, &s);
-            CHECK(s.time_submit > 0 && s.time_raster > 0 && s.time_reduce > 0 && s.time_blur > 0);
-            CHECK(s.time_total >= s.time_submit + s.time_raster + s.time_reduce + s.time_blur + s.time_convert);
+            CHECK(s.time.submit > 0 && s.time.raster > 0 && s.time.reduce > 0 && s.time.blur > 0);
+            CHECK(s.time.total >= s.time.submit + s.time.raster + s.time.reduce + s.time.blur + s.time.convert);
             CHECK_EQ(s.crc32, 0);                       /* not asked for */
         }
         rig_end(&plain);

@@ -149,7 +149,7 @@ static void flag_names(int flags, char out[40])
 
 struct port_case {
     int flags, reach, tile;
-    smear_light light;
+    smear_light_space light;
     int samples;
 };
 
@@ -272,7 +272,7 @@ static void test_filter_is_its_port_at_every_size(void)
 /* ------------------------------------------------------------------ not a bit else */
 
 static struct present_options method_options(const struct subject *s, smear_method method,
-                                             int flags, smear_light light)
+                                             int flags, smear_light_space light)
 {
     struct present_options present = subject_options(s);
     present.method = method;
@@ -299,7 +299,7 @@ static void check_same(struct subject *s, const struct present_options *present,
     shot_free(&shot);
 }
 
-static void check_still(struct subject *s, smear_light light)
+static void check_still(struct subject *s, smear_light_space light)
 {
     struct shot none;
     struct present_options present = method_options(s, SMEAR_NONE, 0, light);
@@ -341,7 +341,7 @@ static void test_still_scenes_stay_as_they_are_by_any_method(void)
 /* Every method, by 1, 2 and 3 workers, whole and in parts. */
 static void check_workers(struct subject *s)
 {
-    static const struct { smear_method method; int flags; smear_light light; } cases[] = {
+    static const struct { smear_method method; int flags; smear_light_space light; } cases[] = {
         {SMEAR_NONE, 0, SMEAR_LIGHT_LINEAR},
         {SMEAR_ACCUMULATE, 0, SMEAR_LIGHT_LINEAR},
         {SMEAR_RECONSTRUCT, 0, SMEAR_LIGHT_LINEAR},
@@ -356,7 +356,7 @@ static void check_workers(struct subject *s)
             continue;
         check_same(s, &present, &(struct shot_options){.workers = 2}, &one, "2 workers");
         check_same(s, &present, &(struct shot_options){.workers = 3}, &one, "3 workers");
-        CHECK_EQ(one.stats.triangles_split, 0);
+        CHECK_EQ(one.stats.parts_added, 0);
         shot_free(&one);
     }
 }
@@ -381,7 +381,7 @@ static void check_parts(struct subject *s, const struct present_options *present
         struct shot parts;
         if (!shot_take(s, present, &(struct shot_options){.triangles = room}, &parts))
             return;
-        uint32_t split = parts.stats.triangles_split, dropped = parts.stats.triangles_dropped;
+        uint32_t split = parts.stats.parts_added, dropped = parts.stats.triangles_dropped;
         int differing, pixels = parts.width * parts.height;
         picture_difference(parts.rgb, whole->rgb, pixels, &differing);
         shot_free(&parts);

@@ -56,7 +56,7 @@ static int compare(const char *name, int count, bool texels_565, smear_desc desc
     struct presenter *presenter = presenter_new(&scene, &f);
     for (int i = 0; i < count && CHECK(presenter != NULL); i++) {
         struct present_options options = { .fps = scene.fps, .shutter_degrees = 180, .method = SMEAR_NONE,
-                                           .clear = 0x6f9ac3, .light = (smear_light)(i & 1),
+                                           .clear = 0x6f9ac3, .light = (smear_light_space)(i & 1),
                                            .texels_565 = texels_565 };
         const struct presented *frame = presenter_frame(presenter, 5 * i / scene.fps, &options, &f);
         if (!CHECK(frame != NULL))

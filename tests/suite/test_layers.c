@@ -335,10 +335,10 @@ static void test_pixels_that_no_streak_passes_are_those_of_none(void)
         CHECK_EQ(difference(picture, scene, 0, y1, W, H), 0);
         CHECK(difference(picture, sharp, x0, y0, x1, y1) > 100);
         /* Tiles without the layer are told. */
-        CHECK_EQ(stats.tiles_still + stats.tiles_object + stats.tiles_layered, W / TILE * (H / TILE));
-        CHECK(stats.tiles_still >= 8);
-        CHECK((k == 0 ? stats.tiles_object : stats.tiles_layered) > 0);
-        CHECK_EQ(k == 0 ? stats.tiles_layered : stats.tiles_object, 0);
+        CHECK_EQ(stats.tiles_static + stats.tiles[SMEAR_OBJECT] + stats.tiles[SMEAR_LAYERED], W / TILE * (H / TILE));
+        CHECK(stats.tiles_static >= 8);
+        CHECK((k == 0 ? stats.tiles[SMEAR_OBJECT] : stats.tiles[SMEAR_LAYERED]) > 0);
+        CHECK_EQ(k == 0 ? stats.tiles[SMEAR_LAYERED] : stats.tiles[SMEAR_OBJECT], 0);
     }
 }
 
@@ -356,7 +356,7 @@ static void test_a_frame_in_which_nothing_moves_is_that_of_none(void)
         smear_frame frame = frame_of(both[k]);
         if (render(picture, &frame, draw, 2))
             CHECK_EQ(difference(picture, sharp, 0, 0, W, H), 0);
-        CHECK_EQ(stats.tiles_still, W / TILE * (H / TILE));
+        CHECK_EQ(stats.tiles_static, W / TILE * (H / TILE));
         CHECK_EQ(stats.samples, 0);
     }
 }
@@ -472,8 +472,8 @@ static void test_what_turns_is_blurred_by_its_pixels(void)
     frame.clear = 0;
     if (!render(picture, &frame, &draw, 1))
         return;
-    CHECK(stats.tiles_layered > 0);
-    CHECK_EQ(stats.tiles_object, 0);
+    CHECK(stats.tiles[SMEAR_LAYERED] > 0);
+    CHECK_EQ(stats.tiles[SMEAR_OBJECT], 0);
     CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);             /* the hub */
     CHECK(channel(picture[(H / 2 - 5) * W + W / 2 + 20], 16) > 20);     /* the rim, above and below */
     CHECK(channel(picture[(H / 2 + 5) * W + W / 2 + 20], 16) > 20);
@@ -507,7 +507,7 @@ static void test_what_turns_behind_a_mover_does_not_hide_it(void)
         frame.light = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
         if (!render(picture, &frame, draw, 3))
             return;
-        CHECK(stats.tiles_layered > 0);
+        CHECK(stats.tiles[SMEAR_LAYERED] > 0);
         for (int y = H / 2 - 8; y < H / 2 + 8; y++)
             for (int x = W / 2 - 4; x < W / 2 + 4; x++)
                 CHECK_NEAR(channel(picture[y * W + x], 16), 255, 2);

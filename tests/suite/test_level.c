@@ -163,7 +163,7 @@ static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, 
         t.level = smear_probe(r.ctx).rows->bins.segment[0].flat != 0;
         t.words = smear_probe(r.ctx).rows->bins.vertex_words;
         t.drawn = stats.triangles_drawn;
-        t.split = stats.triangles_split;
+        t.split = stats.parts_added;
     }
     rig_end(&r);
     return t;

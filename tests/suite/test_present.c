@@ -842,7 +842,7 @@ static void test_what_does_not_fit_is_refused(void)
 
 /* A white square that covers the left half of the picture at some instants and the right half at
  * the others: the mean of two instants is half light everywhere. */
-static void check_mean(smear_light light, int want)
+static void check_mean(smear_light_space light, int want)
 {
     static const float square[12] = { -1, -1, -2, 0, -1, -2, 0, 1, -2, -1, 1, -2 };
     static const uint32_t index[6] = { 0, 1, 2, 0, 2, 3 };

@@ -85,7 +85,7 @@ static bool kept(struct pair *p, const struct set *s)
     smear_get_stats(p->draws.ctx, &full);
     CHECK_EQ(full.static_cached, 0);
     CHECK_EQ(stats.triangles_in, full.triangles_in);
-    CHECK(stats.triangles_split != 0
+    CHECK(stats.parts_added != 0
           || (stats.static_cached ? stats.triangles_drawn <= full.triangles_drawn
                                : stats.triangles_drawn == full.triangles_drawn));
     return stats.static_cached != 0;

@@ -608,18 +608,18 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
         kinds[tile->kind]++;
         CHECK(tile->method == TILES_NONE ? tile->samples == 1 : tile->samples > 1);
     }
-    CHECK_EQ(count[TILES_NONE], s.tiles_none);
-    CHECK_EQ(count[TILES_ACCUMULATE], s.tiles_accumulate);
-    CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles_reconstruct);
-    CHECK_EQ(count[TILES_CAMERA], s.tiles_camera);
-    CHECK_EQ(count[TILES_PINGPONG], s.tiles_pingpong);
-    CHECK_EQ(count[TILES_HALF], s.tiles_half);
-    CHECK_EQ(count[TILES_SMOOTH], s.tiles_smooth);
-    CHECK_EQ(count[TILES_SUBFRAMES], s.tiles_subframes);
-    CHECK_EQ(count[TILES_TIMEMASK], s.tiles_timemask);
-    CHECK_EQ(count[TILES_OBJECT], s.tiles_object);
-    CHECK_EQ(count[TILES_LAYERED], s.tiles_layered);
-    CHECK_EQ(kinds[TILES_STILL], s.tiles_still);
+    CHECK_EQ(count[TILES_NONE], s.tiles[SMEAR_NONE]);
+    CHECK_EQ(count[TILES_ACCUMULATE], s.tiles[SMEAR_ACCUMULATE]);
+    CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles[SMEAR_RECONSTRUCT]);
+    CHECK_EQ(count[TILES_CAMERA], s.tiles[SMEAR_CAMERA]);
+    CHECK_EQ(count[TILES_PINGPONG], s.tiles[SMEAR_PINGPONG]);
+    CHECK_EQ(count[TILES_HALF], s.tiles[SMEAR_HALF]);
+    CHECK_EQ(count[TILES_SMOOTH], s.tiles[SMEAR_AUTO]);
+    CHECK_EQ(count[TILES_SUBFRAMES], s.tiles[SMEAR_SUBFRAMES]);
+    CHECK_EQ(count[TILES_TIMEMASK], s.tiles[SMEAR_TIMEMASK]);
+    CHECK_EQ(count[TILES_OBJECT], s.tiles[SMEAR_OBJECT]);
+    CHECK_EQ(count[TILES_LAYERED], s.tiles[SMEAR_LAYERED]);
+    CHECK_EQ(kinds[TILES_STILL], s.tiles_static);
     CHECK_EQ(kinds[TILES_UNIFORM], s.tiles_uniform);
     CHECK_EQ(kinds[TILES_COMPLEX], s.tiles_complex);
     /* one of the scenes has a still camera */

@@ -81,10 +81,10 @@ static bool bench(const struct tape *tape)
         uint32_t before = platform_clock();
         result = play_frame(&player, i, &stats);
         total += platform_clock_count(platform_clock() - before);
-        submit += platform_clock_count(stats.time_submit);
-        raster += platform_clock_count(stats.time_raster);
-        blur += platform_clock_count(stats.time_blur) + platform_clock_count(stats.time_reduce);
-        convert += platform_clock_count(stats.time_convert);
+        submit += platform_clock_count(stats.time.submit);
+        raster += platform_clock_count(stats.time.raster);
+        blur += platform_clock_count(stats.time.blur) + platform_clock_count(stats.time.reduce);
+        convert += platform_clock_count(stats.time.convert);
     }
     if (result != SMEAR_OK) {
         platform_print(" ERROR ");
@@ -101,7 +101,7 @@ static bool bench(const struct tape *tape)
     print_column(blur / frames, COLUMN);
     print_column(convert / frames, COLUMN);
     print_column(stats.triangles_drawn, COLUMN);
-    print_column(stats.triangles_split, COLUMN);
+    print_column(stats.parts_added, COLUMN);
     print_column((uint32_t)need, COLUMN);
     platform_print("\n");
     return true;

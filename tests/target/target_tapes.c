@@ -481,8 +481,8 @@ static bool draw(struct visitor *v, const struct spec *spec, int index,
     printf("%s %d %08" PRIx32, spec->name, index, v->crc);
     if (spec->desc.timed)
         printf("    %" PRIu32 " still, %" PRIu32 " smooth, %" PRIu32 " subframes, %" PRIu32 " timemask, %" PRIu32
-               " split", stats.tiles_none, stats.tiles_smooth, stats.tiles_subframes, stats.tiles_timemask,
-               stats.triangles_split);
+               " split", stats.tiles[SMEAR_NONE], stats.tiles[SMEAR_AUTO], stats.tiles[SMEAR_SUBFRAMES], stats.tiles[SMEAR_TIMEMASK],
+               stats.parts_added);
     printf("\n");
     if (spec->desc.timed && stats.triangles_dropped != 0)
         return fail(f, "%" PRIu32 " triangles are dropped", stats.triangles_dropped);

@@ -58,7 +58,7 @@ struct chart_setting {
     smear_method method;
     int samples, reconstruct, target;
     bool everywhere;            /* under all conditions; else under the main one only */
-    smear_filter filter;        /* as in smear_frame */
+    smear_filter_kind filter;        /* as in smear_frame */
     smear_weights weights;
     bool spread;
     bool plain;                 /* SMEAR_OBJECT as two cameras do it */

@@ -138,8 +138,6 @@ bool chart_take(int index, struct take *out)
     const struct chart_setting *s = &chart_settings[setting];
     *out = (struct take){
         .scene = kinds[kind].scene, .frame = -1, .windowed = smear_method_is_filter(s->method),
-        .accumulate = s->method == SMEAR_ACCUMULATE, .timed = smear_method_is_temporal(s->method),
-        .layers = s->method == SMEAR_OBJECT || s->method == SMEAR_LAYERED,
         .plain = s->plain,
         .target = s->target, .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,

@@ -38,7 +38,7 @@ enum { PANS = sizeof pans / sizeof *pans, LIGHTS = 2 };
 static const struct filter {
     const char *name;
     smear_method method;
-    smear_filter filter;
+    smear_filter_kind filter;
     int camera_step, reconstruct, samples;
     smear_weights weights;
     smear_pingpong pingpong;

@@ -59,7 +59,7 @@ bool methods_take(int index, struct take *out)
         return false;
     *out = (struct take){
         .scene = kinds[scene].scene, .frame = -1, .windowed = s->method == SMEAR_RECONSTRUCT,
-        .accumulate = s->method == SMEAR_ACCUMULATE, .format = SMEAR_XRGB8888,
+        .format = SMEAR_XRGB8888,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .shutter_poses = true
     };

@@ -104,7 +104,7 @@ static bool time_all(int at, struct timing timing[SCENES], struct failure *f)
         if (ok)
             timing[s] = (struct timing){
                 median(ms[s], ROUNDS), rig[s].stats.triangles_in, rig[s].stats.triangles_drawn,
-                rig[s].stats.triangles_split, rig[s].stats.arena_bytes / 1024.0
+                rig[s].stats.parts_added, rig[s].stats.arena_bytes / 1024.0
             };
         rig_close(&rig[s]);
     }

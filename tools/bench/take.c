@@ -104,11 +104,9 @@ static bool start_library(struct rig *rig, struct failure *f)
     smear_desc desc = presented_desc(rig->frame, t->width, t->height);
     desc.format = (uint8_t)t->format;
     desc.dither = SMEAR_DITHER_NONE;
-    desc.sharp = !t->windowed;
     desc.reach = (int16_t)t->reach;
-    desc.accumulate = t->accumulate;
-    desc.timed = t->timed;
-    desc.layers = t->layers;
+    desc.methods |= (uint16_t)(t->windowed ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u);
+    present_tiles(&desc);
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */
@@ -122,12 +120,12 @@ static bool start_library(struct rig *rig, struct failure *f)
     if (rig->memory == NULL)
         return fail(f, "no memory for a context");
     int result = smear_init(&rig->ctx, &desc, rig->memory, bytes);
-    return result == SMEAR_OK || fail(f, "the library takes no such context (error %d)", result);
+    return result == SMEAR_OK || fail(f, "the library takes no such context: %s", smear_error_text(result));
 }
 
 bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
 {
-    static const smear_layer plain = { .mask = 255, .plain = 1 };
+    static const smear_layer plain = { .mask = 255, .two_camera = 1 };
     const struct take *t = &rig->take;
     struct present_options options = {
         .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
@@ -199,7 +197,7 @@ bool rig_draw(struct rig *rig, struct failure *f)
         result = bench_frame(rig->frame, rig->ctx);
     }
     if (result != SMEAR_OK)
-        return fail(f, "the library refused a frame (error %d)", result);
+        return fail(f, "the library refused a frame: %s", smear_error_text(result));
     smear_get_stats(rig->ctx, &rig->stats);
     return true;
 }

@@ -21,10 +21,7 @@ struct take {
     int frame;                  /* at the scene's rate; -1: the frame that stands for the scene */
     double later;               /* frames after that */
     int width, height;          /* 0: the scene's */
-    bool windowed;              /* a window for filters; else a context that is only sharp */
-    bool accumulate;            /* room for SMEAR_ACCUMULATE */
-    bool timed;                 /* room for the methods that look at several times */
-    bool layers;                /* room for blurred layers */
+    bool windowed;              /* room for SMEAR_RECONSTRUCT, whatever the method is */
     bool plain;                 /* SMEAR_OBJECT as two cameras do it */
     int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
     smear_format format;        /* never dithered */
@@ -33,7 +30,7 @@ struct take {
     int reconstruct;            /* SMEAR_FENCE | ... */
     int target;                 /* of SMEAR_AUTO */
     int reach;                  /* px; 0: the library's default */
-    smear_filter filter;        /* as in struct present_options */
+    smear_filter_kind filter;        /* as in struct present_options */
     int camera_step;
     smear_pingpong pingpong;
     smear_weights weights;

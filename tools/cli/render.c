@@ -39,7 +39,7 @@ static bool open_devices(struct render *r, struct failure *f)
         if (!exact_open(&r->exact, width, height, o->format, o->dither, f))
             return false;
         setup.format = SMEAR_XRGB8888;
-        setup.accumulate = false;
+        setup.methods = SMEAR_SET(SMEAR_NONE);
     }
     if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, width, height, f))
         return false;

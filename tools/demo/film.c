@@ -19,7 +19,7 @@ bool film_open(struct film *film, struct scene *scene, int width, int height, sm
                struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .format = format,
-                                        .sharp = true, .timed = true, .threads = 1 };
+                                        .methods = SMEAR_SET(SMEAR_AUTO), .threads = 1 };
     *film = (struct film){ .scene = scene };
     film->presenter = presenter_new(scene, f);
     return film->presenter != NULL && device_open(&film->device, &setup, f);

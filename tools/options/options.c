@@ -287,7 +287,7 @@ static const char *read_light(void *to, const char *value)
     int found = read_name(value, names);
     if (found < 0)
         return "needs linear or encoded";
-    ((struct render_options *)to)->light = (smear_light)found;
+    ((struct render_options *)to)->light = (smear_light_space)found;
     return NULL;
 }
 

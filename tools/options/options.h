@@ -31,7 +31,7 @@ struct render_options {
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;
     int reconstruct;            /* SMEAR_FENCE | ... */
-    smear_filter filter;        /* of camera and half */
+    smear_filter_kind filter;        /* of camera and half */
     int camera_step;
     bool has_pingpong;
     smear_pingpong pingpong;
@@ -42,7 +42,7 @@ struct render_options {
     bool keep_display;          /* the display keeps its picture: smear_desc.buffer_age */
     int turn_scale, way_scale, object_scale;    /* as in smear_frame */
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
-    smear_light light;
+    smear_light_space light;
     unsigned clear;
 
     int reach_px, tile;         /* 0: not given */

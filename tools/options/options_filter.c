@@ -13,7 +13,7 @@ const char *read_inside(void *to, const char *value)
     int found = read_name(value, names);
     if (found < 0)
         return "needs mean, reconstruct or pingpong";
-    ((struct render_options *)to)->filter = (smear_filter)(SMEAR_FILTER_MEAN + found);
+    ((struct render_options *)to)->filter = (smear_filter_kind)(SMEAR_FILTER_MEAN + found);
     return NULL;
 }
 

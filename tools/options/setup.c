@@ -7,19 +7,26 @@
 
 #include <stdlib.h>
 
-static bool is_sharp_method(const struct render_options *o)
-{
-    return o->shutter_degrees == 0 || (!smear_method_is_filter(o->method) && o->method != SMEAR_AUTO);
-}
-
-static bool is_timed_method(const struct render_options *o)
+static bool is_temporal_method(const struct render_options *o)
 {
     return o->shutter_degrees > 0 && smear_method_is_temporal(o->method);
 }
 
 static bool is_layered_method(const struct render_options *o)
 {
-    return o->shutter_degrees > 0 && (o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED);
+    return o->shutter_degrees > 0 && smear_method_has_layers(o->method);
+}
+
+/* SMEAR_AUTO has a window beside it, as a device has that offers filters, too: its tiles are those of a filter. */
+static unsigned method_set(const struct render_options *o)
+{
+    const bool has_kind = o->method == SMEAR_CAMERA || o->method == SMEAR_HALF;
+    if (o->shutter_degrees == 0)
+        return SMEAR_SET(SMEAR_NONE);
+    if (o->method == SMEAR_AUTO)
+        return SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT);
+    return SMEAR_SET(o->method)
+           | (has_kind && o->filter == SMEAR_FILTER_PINGPONG ? SMEAR_SET(SMEAR_PINGPONG) : 0u);
 }
 
 /* What --motion and --mask say of each draw. */
@@ -75,7 +82,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .layer = o->mask != NULL ? &masked : NULL, .layer_count = o->mask != NULL,
     };
     out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
-    if (o->tile == 4 && (is_timed_method(o) || is_layered_method(o) || o->scatter || o->method == SMEAR_HALF))
+    if (o->tile == 4 && (is_temporal_method(o) || is_layered_method(o) || o->scatter || o->method == SMEAR_HALF))
         return say_bad_usage("--tile", "4 is for none, accumulate, reconstruct, camera and pingpong");
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
@@ -98,12 +105,10 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
 {
     return (struct device_setup){
         .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
-        .format = o->format, .dither = o->dither, .sharp = is_sharp_method(o),
-        .timed = is_timed_method(o), .layers = is_layered_method(o),
-        .accumulate = o->method == SMEAR_ACCUMULATE && o->shutter_degrees > 0,
-        .cache_static = o->cache_static && is_timed_method(o),
-        .keep_display = o->keep_display && is_timed_method(o),
-        .scatter = o->scatter && !is_sharp_method(o), .threads = o->threads, .arena = o->arena,
+        .format = o->format, .dither = o->dither, .methods = method_set(o),
+        .cache_static = o->cache_static && is_temporal_method(o),
+        .keep_display = o->keep_display && is_temporal_method(o),
+        .scatter = o->scatter && (method_set(o) & SMEAR_SET_FILTERS) != 0, .threads = o->threads, .arena = o->arena,
     };
 }
 

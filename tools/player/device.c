@@ -77,19 +77,17 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.format = (uint8_t)s->format;
     desc.dither = (uint8_t)s->dither;
     desc.workers = (uint8_t)s->threads;
-    desc.sharp = s->sharp;
-    if (desc.sharp)
-        desc.passes = desc.half = 0;
-    desc.timed = s->timed;
-    desc.layers = s->layers;
-    desc.scatter = s->scatter;
-    desc.cache_static = s->cache_static;
-    desc.buffer_age = s->keep_display;
-    desc.accumulate = s->accumulate;
-    desc.crc = 1;
+    desc.methods = (uint16_t)s->methods;
+    if ((s->methods & SMEAR_SET_FILTERS) == 0)
+        desc.filter.passes = 0;
+    desc.filter.scatter = s->scatter;
+    present_tiles(&desc);
+    desc.reuse.cache_static = s->cache_static;
+    desc.reuse.buffer_age = s->keep_display;
+    desc.debug.crc = 1;
     desc.flush = take_band;
-    desc.inspect = s->inspect != NULL ? inspect_row : NULL;
-    desc.clock = clock_ticks;
+    desc.debug.inspect = s->inspect != NULL ? inspect_row : NULL;
+    desc.debug.clock = clock_ticks;
     desc.idle = s->threads > 1 ? crew_idle : NULL;
     desc.user = device;
     return desc;
@@ -123,7 +121,7 @@ static bool start_context(struct device *device, struct failure *f)
     if (result == SMEAR_OK)
         return true;
     device->ctx = NULL;
-    return fail(f, "the library did not start (error %d)", result);
+    return fail(f, "the library did not start: %s", smear_error_text(result));
 }
 
 /* A context of this desc, in memory that has grown where it must. */
@@ -175,14 +173,14 @@ static bool draw(struct device *device, const struct presented *presented, uint3
     *submit_ticks = clock_ticks(NULL) - start;
     if (result == SMEAR_OK)
         result = crew_render(device->crew, device->ctx);
-    return result == SMEAR_OK || fail(f, "the library refused the frame (error %d)", result);
+    return result == SMEAR_OK || fail(f, "the library refused the frame: %s", smear_error_text(result));
 }
 
 static bool use_crc(struct device *device, bool crc, struct failure *f)
 {
-    if ((device->desc.crc != 0) == crc)
+    if ((device->desc.debug.crc != 0) == crc)
         return true;
-    device->desc.crc = crc;
+    device->desc.debug.crc = crc;
     return start_context(device, f);
 }
 
@@ -198,7 +196,7 @@ bool device_draw(struct device *device, const struct presented *presented, struc
         smear_get_stats(device->ctx, &stats);
         smear_desc larger = device->desc;
         larger.max_triangles *= 2;
-        if (is_limited(device) || stats.triangles_split == 0 || smear_memory_size(&larger) == 0)
+        if (is_limited(device) || stats.parts_added == 0 || smear_memory_size(&larger) == 0)
             return true;
         if (!make_context(device, &larger, f))
             return false;
@@ -208,7 +206,7 @@ bool device_draw(struct device *device, const struct presented *presented, struc
 /* What is kept from frame to frame would be lost in another context, and drawn again there is less to draw. */
 static bool is_drawn_once(const struct device *device)
 {
-    return device->desc.cache_static || device->desc.buffer_age != 0;
+    return device->desc.reuse.cache_static || device->desc.reuse.buffer_age != 0;
 }
 
 bool device_time(struct device *device, const struct presented *presented,
@@ -220,10 +218,10 @@ bool device_time(struct device *device, const struct presented *presented,
     if (!is_drawn_once(device) && (!use_crc(device, false, f) || !draw(device, presented, &ticks, f)))
         return false;
     smear_get_stats(device->ctx, &stats);
-    *times = (struct device_times){ .submit = (double)stats.time_submit + ticks,
-                                    .raster = stats.time_raster, .reduce = stats.time_reduce,
-                                    .blur = stats.time_blur, .convert = stats.time_convert,
-                                    .total = (double)stats.time_total + ticks };
+    *times = (struct device_times){ .submit = (double)stats.time.submit + ticks,
+                                    .raster = stats.time.raster, .reduce = stats.time.reduce,
+                                    .blur = stats.time.blur, .convert = stats.time.convert,
+                                    .total = (double)stats.time.total + ticks };
     return true;
 }
 
@@ -252,5 +250,5 @@ bool device_show(struct device *device, const uint32_t *picture, struct failure 
     free(depth);
     free(velocity);
     return ok && (result == SMEAR_OK ||
-                  fail(f, "the library refused the picture (error %d)", result));
+                  fail(f, "the library refused the picture: %s", smear_error_text(result)));
 }

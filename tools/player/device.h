@@ -17,7 +17,8 @@ struct device_setup {
     int width, height, reach, tile;     /* reach and tile: 0 for the library's defaults */
     smear_format format;
     smear_dither dither;
-    bool sharp, accumulate, timed, layers, scatter, cache_static, keep_display;
+    unsigned methods;                   /* SMEAR_SET(...) of what frames ask for */
+    bool scatter, cache_static, keep_display;
     int threads;                        /* 1..8 */
     size_t arena;                       /* bytes there are; 0: as many as it takes */
     uint32_t max_triangles;             /* 0: enough for every frame */

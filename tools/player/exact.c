@@ -11,7 +11,7 @@ bool exact_open(struct exact *exact, int width, int height, smear_format format,
                 smear_dither dither, struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .threads = 1,
-                                        .format = format, .dither = dither };
+                                        .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .format = format, .dither = dither };
     const struct presented nothing = { .draw_count = 0 };
     size_t pixels = (size_t)width * (size_t)height;
     *exact = (struct exact){ .sum = calloc(pixels * 3, sizeof *exact->sum),
@@ -64,10 +64,10 @@ static void add_counts(smear_stats *sum, const smear_stats *counts)
     sum->triangles_in += counts->triangles_in;
     sum->triangles_drawn += counts->triangles_drawn;
     sum->triangles_dropped += counts->triangles_dropped;
-    sum->triangles_split += counts->triangles_split;
+    sum->parts_added += counts->parts_added;
     sum->samples += counts->pixels;
     sum->pixels = counts->pixels;
-    sum->tiles_complex = sum->tiles_accumulate = counts->tiles_none;
+    sum->tiles_complex = sum->tiles[SMEAR_ACCUMULATE] = counts->tiles[SMEAR_NONE];
     if (sum->arena_bytes < counts->arena_bytes)
         sum->arena_bytes = counts->arena_bytes;
 }

@@ -23,7 +23,7 @@ static bool find_smallest(struct device *device, const struct presented *present
     for (;; high *= 2) {
         if (!draws_in_one(device, presented, high, &stats, f))
             return false;
-        if (stats.triangles_split == 0 && stats.triangles_dropped == 0)
+        if (stats.parts_added == 0 && stats.triangles_dropped == 0)
             break;
         low = high + 1;
         if (high > 4 * presented->triangle_count + 64)
@@ -34,7 +34,7 @@ static bool find_smallest(struct device *device, const struct presented *present
         uint32_t middle = low + (high - low) / 2;
         if (!draws_in_one(device, presented, middle, &stats, f))
             return false;
-        if (stats.triangles_split == 0 && stats.triangles_dropped == 0)
+        if (stats.parts_added == 0 && stats.triangles_dropped == 0)
             high = middle;
         else
             low = middle + 1;
@@ -54,24 +54,32 @@ static void split_up(struct memory_need *need, const smear_desc *desc)
     twice.max_draws = (uint16_t)(desc->max_draws * 2);
     need->draw_bytes = smear_memory_size(&twice) - need->total;
     size_t row = (size_t)desc->width, bytes_per_pixel = need->reach <= 15 ? 8 : 10;
-    bool holds_back = desc->timed && !desc->sharp;      /* a band waits for the row below */
+    const bool has_window = (desc->methods & SMEAR_SET_FILTERS) != 0;
+    const bool holds_back = has_window && (desc->methods & SMEAR_SET_TEMPORAL) != 0;    /* a band waits for the row below */
     need->bands = row * 2 * (size_t)need->tile * (holds_back ? 2 : 1);
-    need->window = desc->sharp ? row * (size_t)need->tile * 6
-                               : row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel;
+    need->window = has_window ? row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel
+                              : row * (size_t)need->tile * 6;
     need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->bands - need->window;
 }
 
 bool memory_measure(const struct presented *presented, int width, int height,
                     enum memory_setup which, struct memory_need *need, struct failure *f)
 {
-    static const uint8_t methods[MEMORY_SETUPS] = { SMEAR_AUTO, SMEAR_AUTO, SMEAR_RECONSTRUCT, SMEAR_NONE };
+    static const struct {
+        uint8_t method;
+        unsigned set;
+    } setups[MEMORY_SETUPS] = {
+        [MEMORY_AUTO] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT) },
+        [MEMORY_AUTO_SHARP] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) },
+        [MEMORY_RECONSTRUCT] = { SMEAR_RECONSTRUCT, SMEAR_SET(SMEAR_RECONSTRUCT) },
+        [MEMORY_NONE] = { SMEAR_NONE, SMEAR_SET(SMEAR_NONE) },
+    };
     struct device device;
     struct device_setup setup = { .width = width, .height = height, .threads = 1,
                                   .format = SMEAR_RGB565 };
     struct presented drawn = *presented;
-    drawn.frame.method = methods[which];
-    setup.timed = methods[which] == SMEAR_AUTO;
-    setup.sharp = which == MEMORY_AUTO_SHARP || which == MEMORY_NONE;
+    drawn.frame.method = setups[which].method;
+    setup.methods = setups[which].set;
     setup.reach = height / 20 > 0 ? height / 20 : 1;
     setup.tile = setup.reach <= 8 ? 8 : setup.reach <= 16 ? 16 : setup.reach <= 32 ? 32 : 64;
     *need = (struct memory_need){ .reach = setup.reach, .tile = setup.tile };
@@ -80,7 +88,7 @@ bool memory_measure(const struct presented *presented, int width, int height,
     if (ok) {
         smear_desc desc = device.desc;
         desc.max_triangles = need->triangles;
-        desc.crc = 0;
+        desc.debug.crc = 0;
         need->draws = desc.max_draws;
         split_up(need, &desc);
     }

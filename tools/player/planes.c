@@ -21,7 +21,7 @@ static void take_row(void *user, int y, const uint32_t *color, const uint16_t *d
 bool planes_open(struct planes *planes, int width, int height, struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .threads = 1,
-                                        .format = SMEAR_XRGB8888, .inspect = take_row,
+                                        .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .format = SMEAR_XRGB8888, .inspect = take_row,
                                         .inspect_user = planes };
     *planes = (struct planes){ .presented = NULL };
     return float_image_alloc(&planes->depth, width, height, 1, f) &&
@@ -41,7 +41,7 @@ bool planes_draw(struct planes *planes, const struct presented *presented, struc
     /* Only the filter has velocities; a centred exposure has the frame's own instant amid. */
     struct presented drawn = *presented;
     drawn.frame.method = SMEAR_RECONSTRUCT;
-    drawn.frame.exposure = SMEAR_CENTRED;
+    drawn.frame.shutter.exposure = SMEAR_CENTRED;
     drawn.frame.samples = 1;
     planes->presented = &drawn;
     bool ok = device_fit(&planes->device, &drawn, f) && device_draw(&planes->device, &drawn, f);

@@ -68,18 +68,18 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             us(t->submit), us(t->raster), us(t->reduce), us(t->blur), us(t->convert), us(t->total));
     fprintf(s->stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32
             ",\"dropped\":%" PRIu32 ",\"split\":%" PRIu32 "},\n",
-            c->triangles_in, c->triangles_drawn, c->triangles_dropped, c->triangles_split);
+            c->triangles_in, c->triangles_drawn, c->triangles_dropped, c->parts_added);
     fprintf(s->stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
     fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
             ",\"complex\":%" PRIu32 ",\"kept\":%" PRIu32 "},\n",
-            c->tiles_still, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
+            c->tiles_static, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
     fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
             ",\"reconstruct\":%" PRIu32 ",\"smooth\":%" PRIu32 ",\"subframes\":%" PRIu32
             ",\"timemask\":%" PRIu32 ",\"camera\":%" PRIu32 ",\"pingpong\":%" PRIu32 ",\"half\":%" PRIu32
             ",\"object\":%" PRIu32 ",\"layered\":%" PRIu32 "},\n",
-            c->tiles_none, c->tiles_accumulate, c->tiles_reconstruct, c->tiles_smooth, c->tiles_subframes,
-            c->tiles_timemask, c->tiles_camera, c->tiles_pingpong, c->tiles_half,
-            c->tiles_object, c->tiles_layered);
+            c->tiles[SMEAR_NONE], c->tiles[SMEAR_ACCUMULATE], c->tiles[SMEAR_RECONSTRUCT], c->tiles[SMEAR_AUTO], c->tiles[SMEAR_SUBFRAMES],
+            c->tiles[SMEAR_TIMEMASK], c->tiles[SMEAR_CAMERA], c->tiles[SMEAR_PINGPONG], c->tiles[SMEAR_HALF],
+            c->tiles[SMEAR_OBJECT], c->tiles[SMEAR_LAYERED]);
     fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
             c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);
     fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,

@@ -457,20 +457,18 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
         return fail(f, "a shutter of %g degrees is not within 0 to 3600", o->shutter_degrees);
     long degrees = lround(o->shutter_degrees);
     *frame = (smear_frame){ .method = degrees == 0 ? SMEAR_NONE : (uint8_t)o->method,
-                            .exposure = (uint8_t)o->exposure, .light = (uint8_t)o->light,
-                            .shutter_poses = o->shutter_poses && degrees > 0 && !o->instant_only,
-                            .cut = o->cut || o->instant_only,
-                            .reconstruct = (uint8_t)o->reconstruct,
+                            .light_space = (uint8_t)o->light, .cut = o->cut || o->instant_only,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target, .budget = o->budget,
-                            .shutter_degrees = (uint16_t)degrees,
-                            .filter = (uint8_t)o->filter, .camera_step = (uint8_t)o->camera_step,
-                            .pingpong = o->pingpong, .weights = (uint8_t)o->weights,
-                            .turn_scale = (uint16_t)o->turn_scale, .way_scale = (uint16_t)o->way_scale,
-                            .object_scale = (uint16_t)o->object_scale,
-                            .shutter_mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
-                            .shutter_us = (uint32_t)o->shutter_us,
-                            .clear = o->clear, .shutter = o->shutter, .layer = o->layer,
-                            .layer_count = (uint8_t)o->layer_count };
+                            .clear = o->clear, .layer = o->layer, .layer_count = (uint8_t)o->layer_count };
+    frame->shutter = (smear_shutter){ .degrees = (uint16_t)degrees, .exposure = (uint8_t)o->exposure,
+                                      .poses = o->shutter_poses && degrees > 0 && !o->instant_only,
+                                      .mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
+                                      .us = (uint32_t)o->shutter_us, .curve = o->shutter };
+    frame->filter = (smear_filter){ .kind = (uint8_t)o->filter, .flags = (uint8_t)o->reconstruct,
+                                    .weights = (uint8_t)o->weights, .camera_step = (uint8_t)o->camera_step,
+                                    .pingpong = o->pingpong };
+    frame->scale = (smear_scale){ .rotation = (uint16_t)o->turn_scale, .translation = (uint16_t)o->way_scale,
+                                  .object = (uint16_t)o->object_scale };
     return true;
 }
 
@@ -480,15 +478,15 @@ static bool pose_all(struct presenter *p, double time, const struct present_opti
     const smear_frame *frame = &p->out.frame;
     struct present_options whole = *o;
     double open, close;
-    whole.shutter_degrees = frame->shutter_degrees;
+    whole.shutter_degrees = frame->shutter.degrees;
     present_exposure(time, &whole, &open, &close);
     /* With poses of the shutter, what is "now" for a blur is the middle of the exposure. */
-    bool middle = frame->shutter_poses && frame->method != SMEAR_NONE;
+    bool middle = frame->shutter.poses && frame->method != SMEAR_NONE;
     if (!scene_pose(p->scene, middle ? (open + close) / 2 : time, &p->instant[NOW], f))
         return false;
     if (o->instant_only)
         return true;
-    if (!frame->shutter_poses)
+    if (!frame->shutter.poses)
         return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f);
     return scene_pose(p->scene, open, &p->instant[OPEN], f) &&
            scene_pose(p->scene, close, &p->instant[CLOSE], f);
@@ -633,7 +631,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
     if (!fill_frame(&out->frame, o, f) || !pose_all(p, time, o, f))
         return false;
     const struct scene_instant *now = &p->instant[NOW];
-    const bool has[POSES] = { true, !o->instant_only, out->frame.shutter_poses != 0 };
+    const bool has[POSES] = { true, !o->instant_only, out->frame.shutter.poses != 0 };
     for (int i = 0; i < POSES; i++) {
         const struct scene_camera *camera = &p->instant[i].camera;
         if (!has[i])
@@ -667,7 +665,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
     out->frame.camera = &out->camera[NOW];
     out->frame.open = seen[OPEN] && !o->keep_ids ? &out->camera[OPEN] : NULL;
     out->frame.close = seen[CLOSE] ? &out->camera[CLOSE] : NULL;
-    out->frame.shutter_poses = out->frame.shutter_poses && moves;
+    out->frame.shutter.poses = out->frame.shutter.poses && moves;
     return add_draws(p, seen, reference, o, f);
 }
 
@@ -693,13 +691,28 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
     uint32_t triangles = presented->triangle_count + presented->triangle_count / 8 + 64;
     int draws = presented->draw_count > 0 ? presented->draw_count : 1;
     const smear_frame *frame = &presented->frame;
-    bool is_pingpong = frame->method == SMEAR_PINGPONG || frame->filter == SMEAR_FILTER_PINGPONG;
-    int passes = frame->pingpong.passes != 0 ? frame->pingpong.passes : 2;
-    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height,
-                         .passes = (uint8_t)(is_pingpong ? passes : 0),
-                         .half = frame->method == SMEAR_HALF,
+    const bool has_kind = frame->method == SMEAR_CAMERA || frame->method == SMEAR_HALF;
+    const bool is_pingpong = frame->method == SMEAR_PINGPONG
+                             || (has_kind && frame->filter.kind == SMEAR_FILTER_PINGPONG);
+    const unsigned passes = frame->filter.pingpong.passes != 0 ? frame->filter.pingpong.passes : 2;
+    const unsigned own = frame->method != SMEAR_DEFAULT_METHOD ? SMEAR_SET(frame->method) : 0;
+    const unsigned methods = own | (is_pingpong ? SMEAR_SET(SMEAR_PINGPONG) : 0);
+    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .methods = (uint16_t)methods,
+                         .filter.passes = (uint8_t)(is_pingpong ? passes : 0),
                          .max_draws = (uint16_t)(draws < 65535 ? draws : 65535),
                          .max_triangles = triangles };
+}
+
+void present_tiles(smear_desc *desc)
+{
+    const bool has_reach = (desc->methods & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS)) != 0;
+    const bool is_temporal = (desc->methods & SMEAR_SET_TEMPORAL) != 0;
+    const int share = desc->height * 5 / 100, usual = share < 1 ? 1 : share > 64 ? 64 : share;
+    const int reach = desc->reach != 0 ? desc->reach : usual;
+    if (desc->tile == 0)
+        desc->tile = is_temporal && !has_reach ? 32 : reach <= 8 ? 8 : reach <= 16 ? 16 : reach <= 32 ? 32 : 64;
+    if (desc->strip == 0 && is_temporal)
+        desc->strip = 128;
 }
 
 double presented_depth(const struct presented *presented, uint16_t code)
@@ -754,7 +767,9 @@ static bool room_for(struct room *room, const struct presented *presented, int w
         desc.max_triangles <= room->desc.max_triangles)
         return true;
     desc.format = SMEAR_XRGB8888;
-    desc.sharp = 1;
+    desc.methods = SMEAR_SET(SMEAR_NONE);
+    desc.filter.passes = 0;
+    present_tiles(&desc);
     desc.flush = add_band;
     desc.user = mean;
     size_t bytes = smear_memory_size(&desc);
@@ -768,7 +783,7 @@ static bool room_for(struct room *room, const struct presented *presented, int w
     int result = smear_init(&room->ctx, &desc, room->memory, bytes);
     if (result != SMEAR_OK) {
         room->ctx = NULL;
-        return fail(f, "the library did not start (error %d)", result);
+        return fail(f, "the library did not start: %s", smear_error_text(result));
     }
     return true;
 }
@@ -808,7 +823,7 @@ bool presenter_exact(struct presenter *presenter, double time,
         if (result == SMEAR_OK)
             result = smear_render(room.ctx);
         if (result != SMEAR_OK)
-            ok = fail(f, "the library refused the frame (error %d)", result);
+            ok = fail(f, "the library refused the frame: %s", smear_error_text(result));
     }
     for (size_t i = 0; i < values && ok; i++) {
         double value = mean.sum[i] / instants;

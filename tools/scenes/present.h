@@ -48,12 +48,12 @@ struct present_options {
                                      * that are new in this frame */
     smear_method method;
     int samples;                    /* 0: the library's default */
-    smear_light light;
+    smear_light_space light;
     uint32_t clear;                 /* 0xRRGGBB */
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
-    smear_filter filter;            /* of SMEAR_CAMERA and SMEAR_HALF */
+    smear_filter_kind filter;            /* of SMEAR_CAMERA and SMEAR_HALF */
     int camera_step;                /* 1, 2, 4: still draws take their velocity from depth */
     smear_pingpong pingpong;
     smear_weights weights;
@@ -98,8 +98,12 @@ const struct presented *presenter_frame(struct presenter *presenter, double time
 /* smear_begin and every smear_submit; integers only. May be repeated. The first error ends it. */
 int presented_submit(const struct presented *presented, smear_context *ctx);
 
-/* A desc that has room for this frame at this size (max_draws, max_triangles; passes, half); the rest is zero. */
+/* A desc that has room for this frame at this size (max_draws, max_triangles; its method, passes); the rest is zero. */
 smear_desc presented_desc(const struct presented *presented, int width, int height);
+
+/* Gives a desc whose tile or strip is 0 the one that pictures of the command line and of the golden frames are drawn
+ * with, whatever the library's own defaults are: pictures depend on them a little. */
+void present_tiles(smear_desc *desc);
 
 /* Distance along the view in scene units of a depth code; infinity for the background. */
 double presented_depth(const struct presented *presented, uint16_t code);

@@ -35,17 +35,17 @@ void cost_count(const smear_stats *s, double work[COST_WORKS])
         enum cost_work work;
         uint32_t tiles;
     } method[] = {
-        { COST_ACCUMULATE, s->tiles_accumulate }, { COST_RECONSTRUCT, s->tiles_reconstruct },
-        { COST_CAMERA, s->tiles_camera },         { COST_PINGPONG, s->tiles_pingpong },
-        { COST_HALF, s->tiles_half },             { COST_OBJECT, s->tiles_object },
-        { COST_LAYERED, s->tiles_layered },       { COST_SUBFRAMES, s->tiles_subframes },
-        { COST_TIMEMASK, s->tiles_timemask + s->tiles_smooth },
+        { COST_ACCUMULATE, s->tiles[SMEAR_ACCUMULATE] }, { COST_RECONSTRUCT, s->tiles[SMEAR_RECONSTRUCT] },
+        { COST_CAMERA, s->tiles[SMEAR_CAMERA] },         { COST_PINGPONG, s->tiles[SMEAR_PINGPONG] },
+        { COST_HALF, s->tiles[SMEAR_HALF] },             { COST_OBJECT, s->tiles[SMEAR_OBJECT] },
+        { COST_LAYERED, s->tiles[SMEAR_LAYERED] },       { COST_SUBFRAMES, s->tiles[SMEAR_SUBFRAMES] },
+        { COST_TIMEMASK, s->tiles[SMEAR_TIMEMASK] + s->tiles[SMEAR_AUTO] },
     };
     enum { METHODS = sizeof method / sizeof *method };
-    const bool is_timed = s->tiles_subframes + s->tiles_timemask + s->tiles_smooth > 0;
-    const bool is_filtered = s->tiles_reconstruct + s->tiles_camera + s->tiles_pingpong + s->tiles_half > 0;
+    const bool is_timed = s->tiles[SMEAR_SUBFRAMES] + s->tiles[SMEAR_TIMEMASK] + s->tiles[SMEAR_AUTO] > 0;
+    const bool is_filtered = s->tiles[SMEAR_RECONSTRUCT] + s->tiles[SMEAR_CAMERA] + s->tiles[SMEAR_PINGPONG] + s->tiles[SMEAR_HALF] > 0;
     double tiles = 0.0, instants = 1.0;
-    if (s->tiles_accumulate > 0 && s->pixels > 0)
+    if (s->tiles[SMEAR_ACCUMULATE] > 0 && s->pixels > 0)
         instants = (double)s->samples / s->pixels;
     memset(work, 0, COST_WORKS * sizeof *work);
     work[COST_FRAME] = 1.0;

@@ -71,9 +71,9 @@ static void add_stages(struct page *p, const struct view *v)
     add(p, "%.1f shown per second, of %.4g  x%g", v->shown_fps, view_fps(v),
         (double)v->speed / VIEW_UNITS);
     add(p, "drawn in %.2f ms: submit %.2f raster %.2f", v->main.wall_us / 1000.0,
-        ms(s->time_submit), ms(s->time_raster));
-    add(p, "  reduce %.2f blur %.2f convert %.2f", ms(s->time_reduce), ms(s->time_blur),
-        ms(s->time_convert));
+        ms(s->time.submit), ms(s->time.raster));
+    add(p, "  reduce %.2f blur %.2f convert %.2f", ms(s->time.reduce), ms(s->time.blur),
+        ms(s->time.convert));
 }
 
 /* Tiles by the methods that they got. */
@@ -83,12 +83,12 @@ static void add_methods(struct page *p, const smear_stats *s)
         const char *name;
         uint32_t tiles;
     } list[] = {
-        { "none", s->tiles_none },           { "accumulate", s->tiles_accumulate },
-        { "reconstruct", s->tiles_reconstruct }, { "camera", s->tiles_camera },
-        { "pingpong", s->tiles_pingpong },   { "half", s->tiles_half },
-        { "smooth", s->tiles_smooth },       { "subframes", s->tiles_subframes },
-        { "timemask", s->tiles_timemask },   { "object", s->tiles_object },
-        { "layered", s->tiles_layered },
+        { "none", s->tiles[SMEAR_NONE] },           { "accumulate", s->tiles[SMEAR_ACCUMULATE] },
+        { "reconstruct", s->tiles[SMEAR_RECONSTRUCT] }, { "camera", s->tiles[SMEAR_CAMERA] },
+        { "pingpong", s->tiles[SMEAR_PINGPONG] },   { "half", s->tiles[SMEAR_HALF] },
+        { "smooth", s->tiles[SMEAR_AUTO] },       { "subframes", s->tiles[SMEAR_SUBFRAMES] },
+        { "timemask", s->tiles[SMEAR_TIMEMASK] },   { "object", s->tiles[SMEAR_OBJECT] },
+        { "layered", s->tiles[SMEAR_LAYERED] },
     };
     char line[TEXT_COLUMNS + 1] = " ";
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
@@ -103,9 +103,9 @@ static void add_counts(struct page *p, const struct view *v)
     const smear_stats *s = &v->main.stats;
     add(p, "triangles %lu in %lu drawn %lu dropped", (unsigned long)s->triangles_in,
         (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped);
-    if (s->triangles_split > 0)
-        add(p, "  drawn in parts: split %lu times", (unsigned long)s->triangles_split);
-    add(p, "tiles %lu still %lu uniform %lu complex", (unsigned long)s->tiles_still,
+    if (s->parts_added > 0)
+        add(p, "  drawn in parts: split %lu times", (unsigned long)s->parts_added);
+    add(p, "tiles %lu still %lu uniform %lu complex", (unsigned long)s->tiles_static,
         (unsigned long)s->tiles_uniform, (unsigned long)s->tiles_complex);
     add_methods(p, s);
     add(p, "samples %lu, %.1f per pixel", (unsigned long)s->samples,

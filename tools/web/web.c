@@ -355,10 +355,10 @@ EXPORT(web_stats) void web_stats(void)
              bus_wire_us(&shown.bus, shown.main.device.size), (unsigned long)s->triangles_in,
              (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped,
              (unsigned long)s->arena_bytes, shown.main.options.arena, (unsigned long)s->samples,
-             (unsigned long)s->tiles_none, (unsigned long)s->tiles_smooth,
-             (unsigned long)s->tiles_subframes, (unsigned long)s->tiles_timemask,
-             (unsigned long)(s->tiles_reconstruct + s->tiles_camera + s->tiles_pingpong + s->tiles_half),
-             (unsigned long)s->tiles_object, (unsigned long)s->tiles_layered);
+             (unsigned long)s->tiles[SMEAR_NONE], (unsigned long)s->tiles[SMEAR_AUTO],
+             (unsigned long)s->tiles[SMEAR_SUBFRAMES], (unsigned long)s->tiles[SMEAR_TIMEMASK],
+             (unsigned long)(s->tiles[SMEAR_RECONSTRUCT] + s->tiles[SMEAR_CAMERA] + s->tiles[SMEAR_PINGPONG] + s->tiles[SMEAR_HALF]),
+             (unsigned long)s->tiles[SMEAR_OBJECT], (unsigned long)s->tiles[SMEAR_LAYERED]);
 }
 
 /* ------------------------------------------------------------------ what there is */
