@@ -31,8 +31,8 @@ static int failed(const char *what, int result)
 {
     platform_print("demo: ");
     platform_print(what);
-    platform_print(" (error ");
-    print_signed(result);
+    platform_print(" (");
+    platform_print(smear_error_text(result));
     platform_print(")\n");
     return 1;
 }
@@ -83,8 +83,8 @@ static int check(const struct demo_screen *screen, uint32_t step, bool with_stac
     smear_desc desc = screen->desc;
     smear_stats stats;
     desc.flush = swallow;
-    desc.crc = 1;
-    desc.buffer_age = 0;       /* the CRC of all pixels */
+    desc.debug.crc = 1;
+    desc.reuse.buffer_age = 0;       /* the CRC of all pixels */
     int result = start(screen, &desc);
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         result = demo_player_frame(&player, i, i % step == 0);
@@ -168,7 +168,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     uint32_t worst = 0;
     uint32_t moving = 0, kept = 0, tiles = 0, triangles = 0, drawn = 0, split = 0, dropped = 0;
     desc.flush = swallow;
-    desc.clock = read_clock;
+    desc.debug.clock = read_clock;
     if (way != NULL)
         demo_blur_desc(way, screen, &desc);
     platform_clock_start();
@@ -177,7 +177,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
         const bool counts = i % step == step / 2;
-        const bool leads = i % step < step / 2 && i % step + desc.buffer_age >= step / 2;
+        const bool leads = i % step < step / 2 && i % step + desc.reuse.buffer_age >= step / 2;
         result = demo_player_frame(&player, i, counts || leads);
         uint32_t count = platform_clock_count(platform_clock() - before);
         if (!counts)

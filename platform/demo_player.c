@@ -9,23 +9,24 @@
 /* Triangle lists have room for every frame of the loop, also with places at
  * three instants: nothing is drawn in parts. */
 const struct demo_screen demo_screens[] = {
-    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2, .sharp = 1,
-                .timed = 1, .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS, .max_triangles = 268,
-                .vertex_cache = 32,
-                .buffer_age = 1 },
+    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
+                .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
+                .max_triangles = 268, .vertex_cache = 32, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
-    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-               .timed = 1, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300, .buffer_age = 2 },
+    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
+               .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,
+               .reuse.buffer_age = 2 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
-    { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1, .sharp = 1,
-                    .timed = 1, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310, .buffer_age = 1 },
+    { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
+                    .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                .sharp = 1, .timed = 1, .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS, .max_triangles = 520,
-                .buffer_age = 1 },
+                .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
+                .max_triangles = 520, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
-                 .max_draws = DEMO_DRAWS, .max_triangles = 530 },
+                 .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_draws = DEMO_DRAWS, .max_triangles = 530 },
       SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", 0 },
 };
 
@@ -72,16 +73,18 @@ const struct demo_blur *demo_blur_find(const char *name)
 
 void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc)
 {
-    desc->sharp = !smear_method_is_filter(blur->method);
-    if (screen->sharp_tile != 0 && !smear_method_is_temporal(blur->method))
-        desc->tile = blur->method == SMEAR_NONE ? screen->sharp_tile : 0;
-    desc->passes = blur->method == SMEAR_PINGPONG ? 2 : 0;
+    desc->methods = (uint16_t)SMEAR_SET(blur->method);
+    if (smear_method_is_temporal(blur->method))
+        return;
+    desc->reuse.buffer_age = 0;
     /* Sums of whole frames where small boards have the memory, else of bands. */
-    desc->accumulate = blur->method != SMEAR_ACCUMULATE ? 0 : desc->width * desc->height > 10000 ? 2 : 1;
-    desc->layers = blur->method == SMEAR_OBJECT || blur->method == SMEAR_LAYERED;
-    desc->timed = smear_method_is_temporal(blur->method);
-    if (!desc->timed)
-        desc->buffer_age = 0;
+    if (blur->method == SMEAR_ACCUMULATE && desc->width * desc->height > 10000)
+        desc->methods = SMEAR_SET_ACCUMULATE_BANDS;
+    if (screen->sharp_tile != 0)
+        desc->tile = blur->method == SMEAR_NONE         ? screen->sharp_tile
+                   : blur->method != SMEAR_ACCUMULATE   ? 0
+                   : desc->reach <= 8                   ? 8
+                                                        : 16;
 }
 
 /* The props are the only frame of the tape that is called like the level. */
@@ -121,8 +124,8 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
     smear_frame how = {
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
-        .reconstruct = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
-        .light = player->screen->light, .shutter_degrees = player->shutter_degrees
+        .filter.flags = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
+        .light_space = player->screen->light, .shutter.degrees = player->shutter_degrees
     };
     if (blur != NULL) {
         how.method = blur->method;
@@ -138,7 +141,7 @@ int demo_player_instant(struct demo_player *player, int32_t time)
     demo_scene_pose_at(&player->scene, player->props, time);
     const smear_frame how = {
         .camera = &player->scene.camera, .cut = 1, .clear = player->screen->sky, .method = SMEAR_NONE,
-        .light = player->screen->light
+        .light_space = player->screen->light
     };
     int result = submit(player, &how);
     return result == SMEAR_OK ? smear_render(player->ctx) : result;

@@ -54,7 +54,7 @@ static void start(struct demo_player *player, const struct demo_screen *screen, 
     if (blur != NULL)
         demo_blur_desc(blur, screen, &desc);
     desc.format = SMEAR_XRGB8888;
-    desc.buffer_age = 0;       /* whole frames */
+    desc.reuse.buffer_age = 0;       /* whole frames */
     desc.bands = 1;
     desc.flush = take_band;
     desc.user = picture;

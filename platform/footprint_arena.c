@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* footprint_arena.c - bytes of memory the library wants for contexts of 240x240 pixels,
- * RGB565, 600 triangles, 8 draws: sharp; with a window (reach 12); timed without a window
- * (tiles of 16); timed with one. 0: refused. */
+ * RGB565, 600 triangles, 8 draws: sharp; reconstruct (reach 12); auto (tiles of 16); auto and
+ * reconstruct. 0: refused. */
 #include "platform/platform.h"
 
 #include "platform/print.h"
@@ -11,8 +11,10 @@
 int main(void)
 {
     const smear_desc desc[] = {
-        { .sharp = 1, .tile = 16 }, { .reach = 12 }, { .sharp = 1, .timed = 1, .tile = 16 },
-        { .reach = 12, .timed = 1 }
+        { .methods = SMEAR_SET(SMEAR_NONE), .tile = 16 },
+        { .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 12 },
+        { .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16 },
+        { .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 12 }
     };
     for (unsigned i = 0; i < sizeof desc / sizeof *desc; i++) {
         smear_desc d = desc[i];

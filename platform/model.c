@@ -49,8 +49,8 @@ static int failed(const char *what, int result)
     platform_print("model: ");
     platform_print(what);
     if (result != 0) {
-        platform_print(" (error ");
-        print_signed(result);
+        platform_print(" (");
+        platform_print(smear_error_text(result));
         platform_print(")");
     }
     platform_print("\n");
@@ -83,6 +83,7 @@ static smear_camera camera_for(const smear_model *model)
 static int start(const struct model_screen *screen, smear_desc *desc)
 {
     *desc = screen->desc;
+    desc->methods = SMEAR_SET(SMEAR_RECONSTRUCT);
     desc->max_draws = MODEL_DRAWS;
     desc->max_triangles = MODEL_TRIANGLES;
     return smear_actor_init(&actor, &model_model, 2, actor_memory, sizeof actor_memory);
@@ -93,8 +94,8 @@ static int frame(uint32_t index, bool draw)
     const smear_camera camera = camera_for(&model_model);
     const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
                               .time = (int32_t)(index * 65536u / FPS) };
-    const smear_frame how = { .camera = &camera, .light = SMEAR_LIGHT_ENCODED, .shutter_degrees = 180,
-                              .method = is_sharp ? SMEAR_NONE : SMEAR_DEFAULT_METHOD };
+    const smear_frame how = { .camera = &camera, .light_space = SMEAR_LIGHT_ENCODED,
+                              .method = is_sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT };
     int result = smear_actor_advance(actor, &play);
     if (result == SMEAR_OK)
         result = smear_begin(ctx, &how);
@@ -169,7 +170,7 @@ static int check(const struct model_screen *screen)
     uint32_t crc = 0;
     int result = start(screen, &desc);
     desc.flush = swallow;
-    desc.crc = 1;
+    desc.debug.crc = 1;
     if (result == SMEAR_OK)
         result = open_context(&desc);
     for (uint32_t i = 0; i < FRAMES && result == SMEAR_OK; i++) {

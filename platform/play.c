@@ -15,7 +15,7 @@ static smear_desc full_desc(const struct tape *tape, struct player *player,
     smear_desc desc = *tape->desc;
     desc.flush = take_band;
     desc.user = player;
-    desc.clock = clock;
+    desc.debug.clock = clock;
     return desc;
 }
 

@@ -4,7 +4,7 @@
  *     tiny FRAME OUT.ppm [sharp]      draws frame FRAME and writes it
  *     tiny cost                       instructions per frame, where there is a clock
  *
- * A mean of 8 instants, band by band (desc.accumulate = 2): no window, no lists of movers, sums of 4 rows.
+ * A mean of 8 instants, band by band (SMEAR_SET_ACCUMULATE_BANDS): no window, no lists of what moves, sums of 4 rows.
  * The same program draws the same frames on a host with the whole library. */
 #include "platform/platform.h"
 #include "platform/tiny.h"
@@ -90,7 +90,7 @@ static int flush(void *user, const smear_band *band)
 
 /* A band of 4 rows sees at most 44 of the 134 triangles. */
 static const smear_desc desc = {
-    .width = WIDTH, .height = HEIGHT, .tile = 8, .sharp = 1, .accumulate = 2, .band_rows = 4,
+    .width = WIDTH, .height = HEIGHT, .methods = SMEAR_SET_ACCUMULATE_BANDS, .band_rows = 4,
     .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .max_draws = 3, .max_triangles = 44,
     .vertex_cache = 16, .flush = flush
 };
@@ -111,9 +111,9 @@ static __attribute__((noinline)) int submit(smear_context *ctx, int frame, bool 
         .focal = 131072, .near_plane = 1 << 15
     };
     static const smear_frame frames[2] = {
-        { .camera = &camera, .method = SMEAR_ACCUMULATE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1,
+        { .camera = &camera, .method = SMEAR_ACCUMULATE, .light_space = SMEAR_LIGHT_ENCODED, .shutter.poses = 1,
           .samples = 8, .clear = 0x9cc4e8 },
-        { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED, .shutter_poses = 1,
+        { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED, .shutter.poses = 1,
           .clear = 0x9cc4e8 }
     };
     static const smear_draw draws[3] = {

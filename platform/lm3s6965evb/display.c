@@ -144,7 +144,7 @@ bool display_open(smear_desc *desc)
     if (desc->width != 2 * ROW_BYTES || desc->height != ROWS || desc->format != SMEAR_L4)
         return false;
     desc->bands = 2;
-    desc->buffer_age = desc->timed;        /* the panel's memory */
+    desc->reuse.buffer_age = (desc->methods & SMEAR_SET_TEMPORAL) != 0;      /* the panel's memory */
     desc->flush = flush;
     desc->idle = wait_for_event;
 

@@ -4,16 +4,17 @@
 #include "board.h"
 
 #include <smear.h>
+#include <smear_memory.h>
 
 #ifndef BOARD_CORES
 #define BOARD_CORES 1
 #endif
 
-enum { WIDTH = 240, HEIGHT = 240, REACH = 12, TILE = 16, TRIANGLES = 64, DRAWS = 4 };
+/* 240x240 pixels, 64 triangles, 4 draws; the default method, tile, reach, strip and band_rows; two bands, and the
+ * cores. */
+#define SCREEN 240, 240, 64, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED, BOARD_CORES
 
-/* The macro counts one band and one core: a second band of a tile's rows, a second core's tile. */
-static uint64_t memory[(SMEAR_MEMORY_SIZE_TILE(WIDTH, HEIGHT, REACH, TRIANGLES, DRAWS, TILE) +
-                        SMEAR_ALIGN8(WIDTH * TILE * 2) + SMEAR_ALIGN8(TILE * TILE * 4)) / 8];
+static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
 
 static struct {
     smear_context *ctx;
@@ -74,7 +75,7 @@ static int draw(uint32_t number)
 {
     static const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 2 << 16,
                                          .near_plane = 1 << 15 };
-    static smear_transform pose = SMEAR_IDENTITY;       /* is read until smear_render returns */
+    smear_transform pose = SMEAR_IDENTITY;
     int32_t step = (int32_t)(number % 32);
     const smear_frame frame = { .camera = &camera, .clear = 0x203040 };
     const smear_draw fly = { .id = 1, .mesh = &cube, .material = &red, .now = &pose,
@@ -89,10 +90,9 @@ static int draw(uint32_t number)
 
 int main(void)
 {
-    const smear_desc desc = { .width = WIDTH, .height = HEIGHT, .reach = REACH, .tile = TILE,
-                              .format = SMEAR_RGB565_SWAPPED, .bands = 2, .workers = BOARD_CORES,
-                              .max_triangles = TRIANGLES, .max_draws = DRAWS, .flush = flush,
-                              .idle = idle };
+    smear_desc desc = SMEAR_DESC(SCREEN);
+    desc.flush = flush;
+    desc.idle = idle;
     if (smear_init(&bus.ctx, &desc, memory, sizeof memory) != SMEAR_OK)
         return 1;
 #if BOARD_CORES > 1

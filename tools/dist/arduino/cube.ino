@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A cube that flies past, blurred. Sends what a display would get to nowhere: fill in flush(). */
 #include <smear.h>
+#include <smear_memory.h>
+
+/* 128x64 pixels, 32 triangles, 4 draws; the default method, tile, reach, strip, band_rows and bands. */
+#define SCREEN 128, 64, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED
 
 static const int16_t corner[] = {
     -1024, -1024, -1024,  1024, -1024, -1024,  1024, 1024, -1024,  -1024, 1024, -1024,
@@ -14,7 +18,7 @@ static const uint16_t side[] = {
 static smear_mesh cube;
 static smear_camera camera;
 static smear_context *ctx;
-static uint64_t memory[SMEAR_MEMORY_SIZE(128, 64, 4, 32, 4) / 8];
+static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
 static uint32_t bytes_seen;
 
 /* Rows band->y .. band->y + band->height - 1 are finished: send band->size bytes to the display. */
@@ -27,13 +31,7 @@ static int flush(void *user, const smear_band *band)
 
 void setup()
 {
-    smear_desc desc = {};
-    desc.width = 128;
-    desc.height = 64;
-    desc.reach = 4;
-    desc.format = SMEAR_RGB565_SWAPPED;
-    desc.max_triangles = 32;
-    desc.max_draws = 4;
+    smear_desc desc = SMEAR_DESC(SCREEN);
     desc.flush = flush;
     cube.position = corner;
     cube.vertex_count = 8;
