@@ -241,15 +241,16 @@ int smear_actor_submit(smear_actor *actor, smear_context *ctx);
 
 /* smear_actor_memory() as a constant. Headers define NAME_ACTOR_BYTES(poses) by it. */
 #define SMEAR_ACTOR_HEAD_BYTES 104u
+#define SMEAR_ACTOR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_ACTOR_MEMORY(nodes, joints, weights, transforms, deformed, vertices, normals, poses) \
     (SMEAR_ACTOR_HEAD_BYTES \
-     + SMEAR_ALIGN8((size_t)(nodes) * sizeof(smear_transform)) \
-     + SMEAR_ALIGN8((size_t)(joints) * 48u) \
-     + SMEAR_ALIGN8((size_t)(weights) * 2u) \
-     + SMEAR_ALIGN8((size_t)(deformed) * sizeof(smear_mesh)) \
-     + SMEAR_ALIGN8((normals) ? (size_t)(vertices) * 3u : 0u) \
-     + (size_t)(poses) * (SMEAR_ALIGN8((size_t)(transforms) * sizeof(smear_transform)) \
-                          + SMEAR_ALIGN8((size_t)(vertices) * 6u)))
+     + SMEAR_ACTOR_ALIGN8((size_t)(nodes) * sizeof(smear_transform)) \
+     + SMEAR_ACTOR_ALIGN8((size_t)(joints) * 48u) \
+     + SMEAR_ACTOR_ALIGN8((size_t)(weights) * 2u) \
+     + SMEAR_ACTOR_ALIGN8((size_t)(deformed) * sizeof(smear_mesh)) \
+     + SMEAR_ACTOR_ALIGN8((normals) ? (size_t)(vertices) * 3u : 0u) \
+     + (size_t)(poses) * (SMEAR_ACTOR_ALIGN8((size_t)(transforms) * sizeof(smear_transform)) \
+                          + SMEAR_ACTOR_ALIGN8((size_t)(vertices) * 6u)))
 
 #ifdef __cplusplus
 }

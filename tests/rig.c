@@ -36,7 +36,7 @@ static void take_row(void *user, int y, const uint32_t *color, const uint16_t *d
 
 smear_desc small_desc(int width, int height)
 {
-    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8, .max_triangles = 400,
+    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_triangles = 400,
                          .max_draws = 8, .format = SMEAR_XRGB8888 };
 }
 
@@ -46,7 +46,7 @@ bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect)
     r->desc = *desc;
     if (r->desc.flush == NULL)
         r->desc.flush = take_band;
-    r->desc.inspect = inspect ? take_row : NULL;
+    r->desc.debug.inspect = inspect ? take_row : NULL;
     r->desc.user = r;
     r->fail_at = -1;
     size_t pixels = (size_t)desc->width * (size_t)desc->height;

@@ -231,33 +231,33 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .camera = &scene->camera[0],
         .open = kind & 4 ? &scene->camera[1] : NULL,
         .close = kind & 8 ? &scene->camera[2] : NULL,
-        .method = (uint8_t)method, .exposure = take(s) % 3, .light = take(s) & 1, .shutter_poses = kind >> 4 & 1,
-        .cut = kind >> 5 == 7, .reconstruct = take(s),
+        .method = (uint8_t)method, .shutter.exposure = take(s) % 3, .light_space = take(s) & 1, .shutter.poses = kind >> 4 & 1,
+        .cut = kind >> 5 == 7, .filter.flags = take(s),
         .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
-        .shutter_degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
+        .shutter.degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
     if (smear_method_is_temporal(method)) {
         scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
         if (take_chance(s, 4)) {
             for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)
                 scene->shutter[i] = take(s);
-            scene->frame.shutter = scene->shutter;
+            scene->frame.shutter.curve = scene->shutter;
         }
     }
     if (smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) {
         smear_frame *f = &scene->frame;
-        f->filter = take(s) & 3;
-        f->camera_step = (uint8_t)(1 << take(s) % 4 >> 1);
-        f->weights = take(s) & 3;
-        f->pingpong = (smear_pingpong){ .passes = take(s) % 4, .taps = take(s) & 31, .base = take(s) & 31,
+        f->filter.kind = take(s) & 3;
+        f->filter.camera_step = (uint8_t)(1 << take(s) % 4 >> 1);
+        f->filter.weights = take(s) & 3;
+        f->filter.pingpong = (smear_pingpong){ .passes = take(s) % 4, .taps = take(s) & 31, .base = take(s) & 31,
                                         .jitter = take(s) & 127, .bias = take(s), .spread = take(s) & 1 };
-        f->shutter_mode = take(s) % 3;
-        f->frame_us = take_word(s) % 1000001u;
-        f->reference_hz = (uint16_t)take_range(s, 0, 1000);
-        f->shutter_us = take_chance(s, 2) ? take_word(s) : 0;
-        f->turn_scale = (uint16_t)(take_word(s) & 1023u);
-        f->way_scale = (uint16_t)(take_word(s) & 1023u);
-        f->object_scale = (uint16_t)(take_word(s) & 1023u);
+        f->shutter.mode = take(s) % 3;
+        f->shutter.frame_us = take_word(s) % 1000001u;
+        f->shutter.reference_hz = (uint16_t)take_range(s, 0, 1000);
+        f->shutter.us = take_chance(s, 2) ? take_word(s) : 0;
+        f->scale.rotation = (uint16_t)(take_word(s) & 1023u);
+        f->scale.translation = (uint16_t)(take_word(s) & 1023u);
+        f->scale.object = (uint16_t)(take_word(s) & 1023u);
     }
     int changes = take_range(s, 0, scene->draws);
     for (int i = 0; i < changes; i++) {
@@ -371,7 +371,7 @@ static smear_desc take_desc(struct source *s)
     smear_desc d = {
         .width = (int16_t)take_range(s, 1, 70), .height = (int16_t)take_range(s, 1, 50),
         .reach = (int16_t)take_range(s, 0, 20), .format = take(s) % (SMEAR_L1_PAGES + 1), .dither = take(s) % 3,
-        .bands = kind & 1 ? 2 : 0, .sharp = kind >> 1 & 1, .crc = 1, .accumulate = kind >> 2 & 1,
+        .bands = kind & 1 ? 2 : 0, .debug.crc = 1,
         .max_draws = (uint16_t)take_range(s, 1, DRAWS), .max_triangles = (uint32_t)take_range(s, 1, 160),
         .vertex_cache = (uint16_t)(16 << take_range(s, 0, 3))
     };
@@ -383,9 +383,10 @@ static smear_desc take_desc(struct source *s)
         d.reach = (int16_t)take_range(s, 1, 64);
     if (kind & 64)
         d.tile = (int16_t)(4 << take_range(s, 0, 4));
-    d.timed = kind >> 7;
-    if (!d.timed)
-        d.band_rows = (int16_t)(take_range(s, 0, 8) * (d.sharp ? 8 : 2));
+    d.methods = (uint16_t)((kind & 2 ? SMEAR_SET(SMEAR_NONE) : SMEAR_SET(SMEAR_RECONSTRUCT))
+                           | (kind & 4 ? SMEAR_SET(SMEAR_ACCUMULATE) : 0) | (kind & 128 ? SMEAR_SET_TEMPORAL : 0));
+    if ((d.methods & SMEAR_SET_TEMPORAL) == 0)
+        d.band_rows = (int16_t)(take_range(s, 0, 8) * (kind & 2 ? 8 : 2));
     return d;
 }
 
@@ -393,14 +394,14 @@ static bool rig_open(struct rig *r, struct pool *p, const smear_desc *desc, bool
 {
     *r = (struct rig){ .desc = *desc, .fail_at = -1 };
     r->desc.flush = take_band;
-    r->desc.inspect = inspect ? look_at_row : NULL;
+    r->desc.debug.inspect = inspect ? look_at_row : NULL;
     r->desc.user = r;
     size_t bytes = smear_memory_size(&r->desc);
     if (bytes == 0 || bytes > 8u << 20)
         return false;
     void *memory = pool_take(p, bytes);
     memset(memory, 0xa5, bytes);
-    if (desc->buffer_age)
+    if (desc->reuse.buffer_age)
         r->shown = pool_take(p, pitch_of(desc) * rows_of(desc, desc->height));
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY);
     return smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK;
@@ -459,22 +460,25 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t kind = take(s);
     bool wild_index = kind & 1;
     smear_desc desc = take_desc(s);
-    if (!desc.sharp) {
-        desc.passes = kind >> 4 & 3;
-        desc.half = kind >> 6 & 1;
-        desc.scatter = (kind >> 7) & !desc.timed & (desc.passes < 2) & !desc.half;
-        if (desc.scatter && desc.tile != 0)
+    const bool has_window = (desc.methods & SMEAR_SET(SMEAR_RECONSTRUCT)) != 0;
+    const bool is_temporal = (desc.methods & SMEAR_SET_TEMPORAL) != 0;
+    if (has_window) {
+        desc.filter.passes = kind >> 4 & 3;
+        desc.methods |= (uint16_t)(SMEAR_SET(SMEAR_CAMERA) | (desc.filter.passes != 0 ? SMEAR_SET(SMEAR_PINGPONG) : 0)
+                                   | (kind & 64 ? SMEAR_SET(SMEAR_HALF) : 0));
+        desc.filter.scatter = (kind >> 7) & !is_temporal & (desc.filter.passes == 0) & !(kind >> 6 & 1);
+        if (desc.filter.scatter && desc.tile != 0)
             desc.reach = (int16_t)(desc.reach * 2 <= 64 ? desc.reach * 2 : 64);
     }
-    const uint8_t keeps = desc.timed ? take(s) & 3 : 0;
-    desc.buffer_age = keeps & 1;
-    desc.cache_static = keeps >> 1;
+    const uint8_t keeps = is_temporal ? take(s) & 3 : 0;
+    desc.reuse.buffer_age = keeps & 1;
+    desc.reuse.cache_static = keeps >> 1;
     bool open = rig_open(&rig, &pool, &desc, kind & 2);
     /* The same picture from another context: more room, other cuts, all drawn and sent. */
-    desc.buffer_age = desc.cache_static = 0;
+    desc.reuse.buffer_age = desc.reuse.cache_static = 0;
     desc.max_triangles = 3000;
     desc.vertex_cache = 256;
-    if (desc.sharp && !desc.timed)
+    if (!has_window && !is_temporal)
         desc.band_rows = (int16_t)(desc.format == SMEAR_L1_PAGES ? 8 : 16);
     bool compare = open && !wild_index && rig_open(&ample, &pool, &desc, false);
 
@@ -488,8 +492,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     int frames = take_range(s, 1, keeps != 0 ? 8 : 4);
     for (int k = 0; k < frames && open; k++) {
-        int method = take_range(s, SMEAR_DEFAULT_METHOD, desc.timed ? SMEAR_AUTO : SMEAR_RECONSTRUCT);
-        if (!desc.sharp && take_chance(s, 3))
+        int method = take_range(s, SMEAR_DEFAULT_METHOD, is_temporal ? SMEAR_AUTO : SMEAR_RECONSTRUCT);
+        if (has_window && take_chance(s, 3))
             method = SMEAR_CAMERA + take(s) % 3;
         if (keeps == 0 || k == 0 || take_chance(s, 3))
             take_frame(s, &scene, method);

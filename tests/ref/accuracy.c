@@ -424,7 +424,7 @@ static bool draw_presented(const struct presented *p, smear_desc *desc, struct t
     if (result == SMEAR_OK)
         smear_get_stats(taking->ctx, &taking->shot->stats);
     free(memory);
-    return result == SMEAR_OK || fail(f, "the library refuses the frame (error %d)", result);
+    return result == SMEAR_OK || fail(f, "the library refuses the frame: %s", smear_error_text(result));
 }
 
 bool shot_take(struct subject *s, const struct present_options *present,
@@ -441,13 +441,13 @@ bool shot_take(struct subject *s, const struct present_options *present,
     smear_desc desc = presented_desc(p, width, height);
     desc.reach = (int16_t)o->reach;
     desc.tile = (int16_t)o->tile;
-    desc.scatter = o->scatter;
+    desc.filter.scatter = o->scatter;
     desc.workers = (uint8_t)(o->workers > 1 ? o->workers : 1);
     desc.format = SMEAR_XRGB8888;
-    desc.crc = 1;
-    desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
+    desc.debug.crc = 1;
+    desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
     desc.flush = take_band;
-    desc.inspect = o->look ? look_at_row : NULL;
+    desc.debug.inspect = o->look ? look_at_row : NULL;
     desc.idle = yield;
     desc.user = &taking;
     /* A full list costs time only, but for a single row of tiles that does not fit it. */

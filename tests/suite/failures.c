@@ -73,9 +73,7 @@ static smear_context *context_for(const struct presented *p, int width, int heig
     desc.reach = FAIL_REACH;
     desc.tile = FAIL_TILE;
     desc.format = SMEAR_XRGB8888;
-    desc.accumulate = p->frame.method == SMEAR_ACCUMULATE;
-    desc.timed = smear_method_is_temporal(p->frame.method);
-    desc.layers = p->frame.method == SMEAR_OBJECT || p->frame.method == SMEAR_LAYERED;
+    desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
     desc.max_triangles *= 5;
     desc.max_draws += 4;        /* more may come in later frames */
     desc.flush = take_band;

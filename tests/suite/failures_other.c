@@ -83,13 +83,8 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
 {
     static const smear_material red = {.color = {220, 60, 40, 255}, .unlit = 1};
     smear_desc desc = {.width = QUAD_EDGE, .height = QUAD_EDGE, .reach = FAIL_REACH,
-                       .accumulate = method->method == SMEAR_ACCUMULATE,
-                       
-                       .layers = method->method == SMEAR_OBJECT || method->method == SMEAR_LAYERED,
-                       .timed = smear_method_is_temporal(method->method), .max_triangles = 16,
-                       .passes = method->method == SMEAR_PINGPONG ? 2 : 0,
-                       .half = method->method == SMEAR_HALF,
-                       .flush = keep_band, .user = rgb};
+                       .methods = (uint16_t)(SMEAR_SET(method->method) | SMEAR_SET(SMEAR_RECONSTRUCT)),
+                       .max_triangles = 16, .flush = keep_band, .user = rgb};
     smear_camera camera = {.pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 15};
     size_t bytes = smear_memory_size(&desc);
     void *memory = bytes != 0 ? malloc(bytes) : NULL;
@@ -98,11 +93,11 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
     for (int i = 0; i < 2 && ok; i++) {
         smear_transform pose = SMEAR_IDENTITY;
         smear_frame frame = {.camera = &camera, .method = (uint8_t)method->method,
-                             .samples = (uint16_t)method->samples, .shutter_degrees = 360,
-                             .reconstruct = (uint8_t)method->flags,
+                             .samples = (uint16_t)method->samples, .shutter.degrees = 360,
+                             .filter.flags = (uint8_t)method->flags,
                              .target = (uint16_t)method->target,
-                             .weights = (uint8_t)method->weights,
-                             .pingpong.spread = method->spread};
+                             .filter.weights = (uint8_t)method->weights,
+                             .filter.pingpong.spread = method->spread};
         pose.origin[0] = (i - 1) * 32768;
         pose.origin[2] = -4 * 65536;
         smear_draw draw = {.id = 7, .mesh = i == 0 ? first : second, .material = &red,

@@ -201,7 +201,7 @@ static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
             struct scene s;
             make_scene(&s, 0.3 * k, SMEAR_RECONSTRUCT);
             s.frame.samples = 8;
-            s.frame.shutter_degrees = 180;
+            s.frame.shutter.degrees = 180;
             uint8_t *picture = rig_copy(&a, &s.frame, s.draw, SCENE_DRAWS);
             CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
             same_picture(&b, picture);
@@ -257,10 +257,10 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         static const smear_frame bad_filter[] = {
             { .method = SMEAR_HALF + 1 }, { .method = SMEAR_PINGPONG },    /* desc.passes is 0 */
             { .method = SMEAR_HALF },                                       /* desc.half is 0 */
-            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG },
-            { .method = SMEAR_CAMERA, .filter = SMEAR_FILTER_PINGPONG + 1 }, { .camera_step = 3 }, { .camera_step = 8 },
-            { .pingpong.passes = 4 }, { .pingpong.taps = 1 }, { .pingpong.taps = 65 }, { .pingpong.base = 1 },
-            { .pingpong.base = 65 }, { .pingpong.jitter = 129 }, { .pingpong.spread = 2 }
+            { .method = SMEAR_CAMERA, .filter.kind = SMEAR_FILTER_PINGPONG },
+            { .method = SMEAR_CAMERA, .filter.kind = SMEAR_FILTER_PINGPONG + 1 }, { .filter.camera_step = 3 }, { .filter.camera_step = 8 },
+            { .filter.pingpong.passes = 4 }, { .filter.pingpong.taps = 1 }, { .filter.pingpong.taps = 65 }, { .filter.pingpong.base = 1 },
+            { .filter.pingpong.base = 65 }, { .filter.pingpong.jitter = 129 }, { .filter.pingpong.spread = 2 }
         };
         for (size_t i = 0; i < sizeof bad_filter / sizeof *bad_filter; i++) {
             f = bad_filter[i];
@@ -269,17 +269,17 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
                 CHECK_EQ((int64_t)i, -1);
         }
         const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
-        f = (smear_frame){ .camera = &good, .shutter = closed };
+        f = (smear_frame){ .camera = &good, .shutter.curve = closed };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         f = (smear_frame){ .camera = &good, .method = SMEAR_ACCUMULATE };       /* desc.accumulate is 0 */
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
-        f = (smear_frame){ .camera = &good, .exposure = SMEAR_LEADING + 1 };
+        f = (smear_frame){ .camera = &good, .shutter.exposure = SMEAR_LEADING + 1 };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
-        f = (smear_frame){ .camera = &good, .light = SMEAR_LIGHT_ENCODED + 1 };
+        f = (smear_frame){ .camera = &good, .light_space = SMEAR_LIGHT_ENCODED + 1 };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         f = (smear_frame){ .camera = &good, .samples = 1025 };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
-        f = (smear_frame){ .camera = &good, .shutter_degrees = 3601 };
+        f = (smear_frame){ .camera = &good, .shutter.degrees = 3601 };
         CHECK_EQ(smear_begin(r.ctx, &f), SMEAR_ERR_ARG);
         CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
         CHECK_EQ(render_scene(&r, 0, 0), SMEAR_OK);
@@ -628,10 +628,10 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
         }
         if (n % 5 == 1)
             s.camera.focal = random & 128u ? INT32_MAX : 1;
-        s.frame.shutter_degrees = n % 3 ? 0 : 3600;
-        s.frame.exposure = (uint8_t)(n % 3);
+        s.frame.shutter.degrees = n % 3 ? 0 : 3600;
+        s.frame.shutter.exposure = (uint8_t)(n % 3);
         s.frame.samples = 3;
-        s.frame.shutter_poses = n % 7 == 0;
+        s.frame.shutter.poses = n % 7 == 0;
         if (!CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK) || !CHECK(guards_intact(&r)))
             break;
     }
@@ -883,7 +883,7 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
         smear_desc desc = small_desc(150, 60);
         desc.workers = (uint8_t)workers;
         desc.accumulate = desc.timed = 1;
-        desc.crc = 1;
+        desc.debug.crc = 1;
         desc.max_triangles = 50;
         desc.idle = yield;
         desc.format = SMEAR_RGB565;
@@ -1163,12 +1163,12 @@ static void test_shutter_poses_are_scaled_to_a_frame(void)
         static const int degrees[] = { 180, 360, 720 };
         for (int i = 0; i < 3; i++) {
             smear_frame f = { .camera = &motion_camera, .open = &motion_camera, .close = &motion_camera,
-                              .shutter_poses = 1, .shutter_degrees = (uint16_t)degrees[i] };
+                              .shutter.poses = 1, .shutter.degrees = (uint16_t)degrees[i] };
             motion_frame(&r, &f, &d, 1, 32, 32, v);
             CHECK_NEAR(v[0], 4 * 256 * 360 / degrees[i], 2);
         }
         /* Without poses of its own a draw stands still, kept ones or not. */
-        smear_frame f = { .camera = &motion_camera, .shutter_poses = 1 };
+        smear_frame f = { .camera = &motion_camera, .shutter.poses = 1 };
         for (int k = 0; k < 2; k++) {
             smear_transform place = motion_pose(0.25 * k, 0);
             smear_draw plain = { .id = 1, .mesh = &square, .now = &place };
@@ -1233,12 +1233,12 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
             if (rig_begin(&r, &desc, false)) {
                 struct scene s;
                 make_scene(&s, 0.2, SMEAR_NONE);
-                s.frame.light = (uint8_t)light;
+                s.frame.light_space = (uint8_t)light;
                 uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
                 for (int n = 1; n <= 1024; n = n * 7 + 1) {
                     s.frame.method = SMEAR_RECONSTRUCT;
                     s.frame.samples = (uint16_t)n;
-                    s.frame.reconstruct = (uint8_t)(n & 31);
+                    s.frame.filter.flags = (uint8_t)(n & 31);
                     CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
                     same_picture(&r, sharp);
                     smear_stats stats;
@@ -1318,11 +1318,11 @@ static void test_a_filtered_picture_does_not_depend_on_the_height_of_bands(void)
             struct scene before, s;
             make_scene(&before, 0.3, look[i].method);
             make_scene(&s, 0.4, look[i].method);
-            before.frame.pingpong.passes = 1;
-            s.frame.weights = look[i].weights;
-            s.frame.pingpong.passes = 1;
-            s.frame.reconstruct = look[i].reconstruct;
-            s.frame.light = look[i].light;
+            before.frame.filter.pingpong.passes = 1;
+            s.frame.filter.weights = look[i].weights;
+            s.frame.filter.pingpong.passes = 1;
+            s.frame.filter.flags = look[i].reconstruct;
+            s.frame.light_space = look[i].light;
             CHECK_EQ(rig_frame(&whole, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
             uint8_t *picture = rig_copy(&whole, &s.frame, s.draw, SCENE_DRAWS);
             for (int rows = 8; rows >= (look[i].format == SMEAR_L1_PAGES ? 8 : 2); rows /= 2) {
@@ -1349,7 +1349,7 @@ static void test_two_contexts_given_the_same_frames_give_the_same_bits(void)
 {
     struct rig a, b;
     smear_desc desc = small_desc(80, 60);
-    desc.crc = 1;
+    desc.debug.crc = 1;
     if (rig_begin(&a, &desc, false) && rig_begin(&b, &desc, true)) {
         memset(b.picture, 0, b.picture_room);
         for (int k = 0; k < 6; k++) {
@@ -1386,7 +1386,7 @@ static void test_statistics_add_up(void)
         struct rig r;
         smear_desc desc = small_desc(70, 50);
         desc.format = (uint8_t)format;
-        desc.crc = 1;
+        desc.debug.crc = 1;
         desc.accumulate = 1;
         if (rig_begin(&r, &desc, false))
             for (int k = 0; k < 6; k++) {
@@ -1434,7 +1434,7 @@ static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
 {
     struct rig timed, plain;
     smear_desc desc = small_desc(64, 48), clocked = desc;
-    clocked.clock = ticking;
+    clocked.debug.clock = ticking;
     if (rig_begin(&timed, &clocked, false) && rig_begin(&plain, &desc, false)) {
         for (int k = 0; k < 3; k++) {
             CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
@@ -1504,7 +1504,7 @@ static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
                 for (int i = 0; i < 9; i++)
                     pose.basis[i] = pose.basis[i] * 6;
             smear_draw d = { .mesh = &grid, .material = &glass, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
             CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
             const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
             int once = 0, never = 0;
@@ -1565,7 +1565,7 @@ static void accumulate_against_mean(const smear_frame *like, place_fn *place, bo
     smear_camera camera = camera_at(0, 0, 0, 0);
     smear_material material = { .unlit = 1, .color = { 255, 200, 40, 255 } };
     if (rig_begin(&r, &desc, false)) {
-        smear_frame sharp = { .camera = &camera, .method = SMEAR_NONE, .light = like->light, .clear = 0x102030 };
+        smear_frame sharp = { .camera = &camera, .method = SMEAR_NONE, .light_space = like->light_space, .clear = 0x102030 };
         double mean[W * H][3];
         memset(mean, 0, sizeof mean);
         for (int k = 0; k < N; k++) {
@@ -1576,26 +1576,26 @@ static void accumulate_against_mean(const smear_frame *like, place_fn *place, bo
             for (int i = 0; i < W * H; i++)
                 for (int c = 0; c < 3; c++) {
                     uint32_t code = pixel[i] >> (16 - 8 * c) & 255u;
-                    mean[i][c] += (like->light == SMEAR_LIGHT_LINEAR ? decode(code) : code) / N;
+                    mean[i][c] += (like->light_space == SMEAR_LIGHT_LINEAR ? decode(code) : code) / N;
                 }
         }
         smear_transform now = pose_at(0, 0, -4, 0, 0), before = pose_at(-10 * px, 0, -4, 0, 0);
         smear_transform open = pose_at(-16 * px, 0, -4, 0, 0), close = pose_at(8 * px, 0, -4, 0, 0);
         smear_draw d = { .mesh = &square, .material = &material, .now = &now, .open = &before };
         int16_t moved[2][12];
-        if (like->shutter_poses) {
+        if (like->shutter.poses) {
             d.open = &open;
             d.close = &close;
         }
         if (deformed) {             /* the same by the vertices: 256 steps are a unit */
             for (int i = 0; i < 12; i++) {
                 double shift = i % 3 == 0 ? 256 * px : 0;
-                moved[0][i] = (int16_t)lrint(square_position[i] + shift * (like->shutter_poses ? -16 : -10));
+                moved[0][i] = (int16_t)lrint(square_position[i] + shift * (like->shutter.poses ? -16 : -10));
                 moved[1][i] = (int16_t)lrint(square_position[i] + shift * 8);
             }
             d.open = d.close = NULL;
             d.open_position = moved[0];
-            d.close_position = like->shutter_poses ? moved[1] : NULL;
+            d.close_position = like->shutter.poses ? moved[1] : NULL;
         }
         smear_frame f = *like;
         f.camera = f.open = f.close = &camera;
@@ -1606,7 +1606,7 @@ static void accumulate_against_mean(const smear_frame *like, place_fn *place, bo
         const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
         for (int i = 0; i < W * H; i++)
             for (int c = 0; c < 3; c++) {
-                double want = like->light == SMEAR_LIGHT_LINEAR ? encode(mean[i][c]) : mean[i][c];
+                double want = like->light_space == SMEAR_LIGHT_LINEAR ? encode(mean[i][c]) : mean[i][c];
                 if (!CHECK_CLOSE(pixel[i] >> (16 - 8 * c) & 255u, want, 1.0)) {
                     CHECK_EQ(i % W, -1);
                     goto done;
@@ -1621,17 +1621,17 @@ static void test_accumulation_is_the_mean_of_the_instants_of_the_exposure(void)
 {
     for (int deformed = 0; deformed < 2; deformed++)
         for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
-            smear_frame f = { .light = (uint8_t)light, .shutter_degrees = 360 };
-            f.exposure = SMEAR_CENTRED;
+            smear_frame f = { .light_space = (uint8_t)light, .shutter.degrees = 360 };
+            f.shutter.exposure = SMEAR_CENTRED;
             accumulate_against_mean(&f, one_frame_centred, deformed);
-            f.exposure = SMEAR_TRAILING;
+            f.shutter.exposure = SMEAR_TRAILING;
             accumulate_against_mean(&f, one_frame_trailing, deformed);
-            f.exposure = SMEAR_LEADING;
+            f.shutter.exposure = SMEAR_LEADING;
             accumulate_against_mean(&f, one_frame_leading, deformed);
-            f.exposure = SMEAR_CENTRED;
-            f.shutter_degrees = 90;
+            f.shutter.exposure = SMEAR_CENTRED;
+            f.shutter.degrees = 90;
             accumulate_against_mean(&f, quarter_centred, deformed);
-            f.shutter_poses = 1;
+            f.shutter.poses = 1;
             accumulate_against_mean(&f, parabola, deformed);
         }
 }
@@ -1646,7 +1646,7 @@ static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_expo
         for (int i = 0; i < 3; i++) {
             smear_transform now = motion_pose(0, 0), before = motion_pose(-0.5, 0);
             smear_draw d = { .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
-            smear_frame f = { .camera = &motion_camera, .shutter_degrees = 360, .exposure = middle[i].exposure };
+            smear_frame f = { .camera = &motion_camera, .shutter.degrees = 360, .shutter.exposure = middle[i].exposure };
             CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
             for (int x = 0; x < MOTION_W; x++)          /* 16 px wide around the centre */
                 CHECK_EQ(r.depth[32 * MOTION_W + x] != 0, x >= 24 + middle[i].shift && x < 40 + middle[i].shift);
@@ -1697,7 +1697,7 @@ static void test_uniform_tiles_take_plain_means_only_when_asked(void)
                 smear_material material = { .texture = &checker_texture, .unlit = 1 };
                 make_checker();
                 smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
-                smear_frame f = { .camera = &camera, .reconstruct = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
+                smear_frame f = { .camera = &camera, .filter.flags = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
                 CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
                 smear_stats stats;
                 smear_get_stats(r.ctx, &stats);
@@ -1807,7 +1807,7 @@ static void test_what_is_cut_keeps_its_colours_and_texels(void)
                 smear_transform pose = pose_at(0, -1, 0, 0, 0);
                 smear_camera camera = camera_at(0, 0, 0, 0);
                 smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-                smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)light };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)light };
                 CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
                 const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
                 for (int y = H / 2 + 2; y < H; y++)
@@ -1862,7 +1862,7 @@ static void test_flat_faces_are_lit_by_their_own_plane(void)
             camera.near_plane = 655;
             smear_material material = { .double_sided = inside };
             smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
             CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
             const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
             for (int at = 0; at < W * H; at += 37) {
@@ -1911,7 +1911,7 @@ static void test_vertex_and_face_colours_pass_unlit(void)
             smear_transform pose = pose_at(0, 0, -1, 0, 0);
             smear_camera camera = camera_at(0, 0, 0, 0);
             smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(kind >> 2) };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(kind >> 2) };
             CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
             const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
             for (int lower = 0; lower < 2; lower++) {
@@ -1979,7 +1979,7 @@ static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
             smear_transform before = pose;
             before.origin[0]++;
             smear_draw d = { .mesh = &field, .material = &material, .now = &pose, .open = &before };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light = (uint8_t)(n >> 2 & 1) };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(n >> 2 & 1) };
             CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
             memcpy(color, r.color, sizeof color);
             memcpy(depth, r.depth, sizeof depth);
@@ -2085,9 +2085,9 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
             smear_camera camera = camera_at(0, 0, 0, 0);
             camera.near_plane = 65536;
             uint8_t *picture = NULL;
-            smear_frame f = { .camera = &camera, .reconstruct = flags[variant % 7], .clear = 0x556677,
-                              .shutter_degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
-                              .light = (uint8_t)(variant / 7) };
+            smear_frame f = { .camera = &camera, .filter.flags = flags[variant % 7], .clear = 0x556677,
+                              .shutter.degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
+                              .light_space = (uint8_t)(variant / 7) };
             for (int k = 0; k < 2; k++) {
                 /* Upright squares at powers of two, moving by whole sixteenths of a pixel: depth and velocity pass
                  * the filter's formats unchanged. */
@@ -2184,8 +2184,8 @@ static void test_the_filter_takes_any_velocity_and_depth(void)
             uint32_t random = 7;
             smear_camera camera = { .near_plane = reach == 1 ? INT32_MAX : 1 << reach / 3 };
             for (int n = 0; n < 6; n++) {
-                smear_frame f = { .camera = &camera, .reconstruct = (uint8_t)(n * 11 & 31), .samples = 1024,
-                                  .shutter_degrees = 3600 };
+                smear_frame f = { .camera = &camera, .filter.flags = (uint8_t)(n * 11 & 31), .samples = 1024,
+                                  .shutter.degrees = 3600 };
                 CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
                 rig_forget_output(&r);
                 for (int y = 0; y < 75; y++) {

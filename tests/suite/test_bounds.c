@@ -46,7 +46,7 @@ static void scatter(struct flock *f, uint8_t method, bool orthographic)
             f->draw[i].close = &f->pose[i][2];
         }
     }
-    f->frame = (smear_frame){ .camera = &f->camera, .method = method, .shutter_poses = 1, .clear = 0x203040 };
+    f->frame = (smear_frame){ .camera = &f->camera, .method = method, .shutter.poses = 1, .clear = 0x203040 };
 }
 
 static void bound(struct flock *f, bool bounded)
@@ -64,9 +64,11 @@ static void test_no_picture_changes_by_any_method(void)
             const bool is_filter = smear_method_is_filter(method);
             if (sharp && is_filter)
                 continue;
-            smear_desc desc = { .width = WIDTH, .height = HEIGHT, .reach = 8, .format = SMEAR_XRGB8888, .sharp = (uint8_t)sharp,
-                                .timed = 1, .accumulate = 1, .layers = 1, .half = !sharp, .passes = sharp ? 0 : 2,
-                                .max_triangles = sharp ? 24 : 400, .band_rows = 0 };
+            smear_desc desc = { .width = WIDTH, .height = HEIGHT, .reach = 8, .format = SMEAR_XRGB8888,
+                                .methods = SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS,
+                                .max_triangles = sharp ? 24 : 400 };
+            if (!sharp)
+                desc.methods |= SMEAR_SET_FILTERS;
             if (rig_begin(&rig, &desc, false))
                 for (int n = 0; n < 12; n++) {
                     struct flock f;
@@ -92,7 +94,7 @@ static uint32_t left_out(struct flock *f)
 {
     struct rig rig;
     smear_stats stats = { .draws_beside = 99 };
-    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .sharp = 1, .timed = 1 };
+    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32 };
     f->draw[0].mesh = &f->mesh[1];
     if (rig_begin(&rig, &desc, false)) {
         CHECK_EQ(rig_frame(&rig, &f->frame, f->draw, 1), SMEAR_OK);

@@ -23,7 +23,7 @@ static int draw_frame(struct rig *r, uint16_t target, uint32_t budget)
         close[i] = pose_at(x + way, 0.3 * i, -6, 0.3, 0.2);
         draw[i] = (smear_draw){ .mesh = &cube, .material = &material, .now = &now[i], .open = &open[i], .close = &close[i] };
     }
-    const smear_frame frame = { .camera = &camera, .method = SMEAR_AUTO, .shutter_poses = 1, .target = target,
+    const smear_frame frame = { .camera = &camera, .method = SMEAR_AUTO, .shutter.poses = 1, .target = target,
                                 .budget = budget };
     rig_forget_output(r);
     return rig_frame(r, &frame, draw, CUBES);
@@ -38,8 +38,8 @@ static smear_stats stats_of(const struct rig *r)
 
 static bool rig_open(struct rig *r, uint32_t triangles)
 {
-    const smear_desc desc = { .width = 120, .height = 90, .format = SMEAR_XRGB8888, .timed = 1, .sharp = 1, .tile = 16,
-                              .crc = 1, .max_triangles = triangles };
+    const smear_desc desc = { .width = 120, .height = 90, .format = SMEAR_XRGB8888, .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16,
+                              .debug.crc = 1, .max_triangles = triangles };
     return rig_begin(r, &desc, false);
 }
 

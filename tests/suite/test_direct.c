@@ -28,7 +28,7 @@ static int draw(uint16_t *out, const struct presented *frame, const smear_desc *
 {
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
     smear_context *ctx;
-    desc.sharp = base->sharp;
+    desc.methods = base->methods;
     desc.band_rows = base->band_rows;
     desc.format = base->format;
     desc.dither = base->dither;
@@ -62,10 +62,10 @@ static int compare(const char *name, int count, bool texels_565, smear_desc desc
         if (!CHECK(frame != NULL))
             break;
         memset(direct, 0x55, sizeof direct);
-        desc.sharp = 1;
+        desc.methods = SMEAR_SET(SMEAR_NONE);
         drawn += draw(direct, frame, &desc) == 1;
         smear_desc other = desc;
-        other.sharp = 0;
+        other.methods = SMEAR_SET(SMEAR_RECONSTRUCT);
         other.band_rows = 0;
         memset(window, 0xaa, sizeof window);
         CHECK_EQ(draw(window, frame, &other), 0);

@@ -90,39 +90,25 @@ static int take_nothing(void *user, const smear_band *band)
     return 0;
 }
 
-static void test_memory_of_passes_and_half_size_is_a_constant(void)
+static void test_room_for_filters_goes_with_the_methods_that_need_it(void)
 {
-    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 17 }, { 128, 64 }, { 240, 240 }, { 321, 479 }, { 2048, 3 } };
-    for (int i = 0; i < 7; i++)
-        for (int tile = 8; tile <= 64; tile *= 2)
-            for (int reach = 1; reach <= tile; reach++)
-                for (int passes = 0; passes <= 3; passes++)
-                    for (int half = 0; half < 2; half++) {
-                        size_t w = (size_t)size[i][0], h = (size_t)size[i][1], r = (size_t)reach, t = (size_t)tile;
-                        smear_desc desc = { .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach,
-                                            .tile = (int16_t)tile, .format = SMEAR_RGB565, .max_triangles = 100,
-                                            .max_draws = 4, .passes = (uint8_t)passes, .half = (uint8_t)half,
-                                            .flush = take_nothing };
-                        size_t room = SMEAR_MEMORY_SIZE_TILE(w, h, r, 100, 4, t)
-                                    + SMEAR_PASSES_BYTES(w, r, t, (size_t)passes)
-                                    + (half ? SMEAR_HALF_BYTES(w, r, t) : 0u), need = smear_memory_size(&desc);
-                        if (!CHECK(need > 0 && need <= room && room - need < 2048)) {
-                            say("  %d x %d, tile %d, reach %d, passes %d, half %d: %zu of %zu\n", size[i][0], size[i][1],
-                                tile, reach, passes, half, need, room);
-                            return;
-                        }
-                    }
-    smear_desc bad = { .width = 64, .height = 64, .flush = take_nothing, .passes = 4 };
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
-    bad.passes = 2;
-    bad.sharp = 1;
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
-    bad.passes = 0;
-    bad.half = 1;
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
-    bad.sharp = 0;
-    bad.half = 2;
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    smear_desc desc = { .width = 64, .height = 64, .flush = take_nothing, .methods = SMEAR_SET(SMEAR_PINGPONG) };
+    const size_t two = smear_memory_size(&desc);
+    desc.filter.passes = 2;
+    CHECK(two > 0 && smear_memory_size(&desc) == two);
+    desc.filter.passes = 4;
+    CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
+    desc.filter.passes = 2;
+    desc.methods = SMEAR_SET(SMEAR_NONE);
+    CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
+    desc = (smear_desc){ .width = 64, .height = 64, .flush = take_nothing, .methods = SMEAR_SET(SMEAR_RECONSTRUCT) };
+    const size_t window = smear_memory_size(&desc);
+    desc.methods |= SMEAR_SET(SMEAR_CAMERA);
+    CHECK(window > 0 && smear_memory_size(&desc) == window);
+    desc.methods |= SMEAR_SET(SMEAR_HALF);
+    CHECK(smear_memory_size(&desc) > window);
+    desc.methods = (uint16_t)SMEAR_SET(SMEAR_METHOD_COUNT);
+    CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
 }
 
 /* ------------------------------------------------------------------ passes, on the suite */
@@ -278,14 +264,14 @@ static bool strip_filter(struct strip *strip, const smear_frame *frame)
 {
     smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536 };
     smear_frame f = *frame;
-    smear_desc desc = { .width = (int16_t)strip->width, .height = STRIP_HEIGHT, .reach = 32, .tile = 32, .passes = 3,
-                        .half = 1, .max_triangles = 1, .max_draws = 1, .flush = take_middle, .user = strip };
+    smear_desc desc = { .width = (int16_t)strip->width, .height = STRIP_HEIGHT, .reach = 32, .tile = 32, .filter.passes = 3,
+                        .methods = SMEAR_SET_FILTERS, .max_triangles = 1, .max_draws = 1, .flush = take_middle, .user = strip };
     smear_context *ctx;
     size_t bytes = smear_memory_size(&desc);
     void *memory = bytes > 0 ? malloc(bytes) : NULL;
     f.camera = &camera;
-    f.shutter_degrees = 360;
-    f.light = SMEAR_LIGHT_ENCODED;
+    f.shutter.degrees = 360;
+    f.light_space = SMEAR_LIGHT_ENCODED;
     bool ok = CHECK(memory != NULL) && CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK)
            && CHECK_EQ(smear_filter_begin(ctx, &f), SMEAR_OK);
     for (int y = 0; y < STRIP_HEIGHT && ok; y++)
@@ -311,7 +297,7 @@ static void kernel_of(const smear_pingpong *passes, double pan, int kernel[128])
     strip_fill(&strip, 0, 128, 0x000000, 10, pan);
     strip_fill(&strip, 64, 65, 0xffffff, 10, pan);
     memset(kernel, 0, 128 * sizeof *kernel);
-    if (strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong = *passes }))
+    if (strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .filter.pingpong = *passes }))
         for (int x = 0; x < 128; x++)
             kernel[x] = (int)(strip.out[x] & 255);
 }
@@ -340,7 +326,7 @@ static void test_the_depth_mask_keeps_what_is_in_front_from_bleeding(void)
         int bled = 0;
         strip_fill(&strip, 0, 128, 0x0000ff, 100, 24);
         strip_fill(&strip, 48, 80, 0xff0000, 5, 0);
-        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong.bias = (uint8_t)bias }))
+        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .filter.pingpong.bias = (uint8_t)bias }))
             continue;
         for (int x = 0; x < 128; x++) {
             if (x >= 48 && x < 80)
@@ -361,7 +347,7 @@ static void test_silhouettes_spread_where_that_is_asked_for(void)
         strip_fill(&strip, 0, 128, 0x0000ff, 100, 0);
         strip_fill(&strip, 48, 80, 0xff0000, 5, 24);
         strip_fill(&strip, 84, 128, 0x00ff00, 1, 0);        /* still, and in front of it */
-        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .pingpong.spread = (uint8_t)spread }))
+        if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG, .filter.pingpong.spread = (uint8_t)spread }))
             continue;
         for (int x = 0; x < 48; x++)
             outside += strip.out[x] >> 16 != 0;
@@ -379,11 +365,11 @@ static void test_silhouettes_spread_where_that_is_asked_for(void)
 static void test_still_pictures_pass_every_filter_unchanged(void)
 {
     static const smear_frame frames[] = {
-        { .method = SMEAR_PINGPONG, .pingpong.spread = 1 }, { .method = SMEAR_HALF },
-        { .method = SMEAR_HALF, .filter = SMEAR_FILTER_PINGPONG },
-        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_MCGUIRE },
-        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_GUERTIN },
-        { .method = SMEAR_RECONSTRUCT, .weights = SMEAR_WEIGHTS_JIMENEZ }
+        { .method = SMEAR_PINGPONG, .filter.pingpong.spread = 1 }, { .method = SMEAR_HALF },
+        { .method = SMEAR_HALF, .filter.kind = SMEAR_FILTER_PINGPONG },
+        { .method = SMEAR_RECONSTRUCT, .filter.weights = SMEAR_WEIGHTS_MCGUIRE },
+        { .method = SMEAR_RECONSTRUCT, .filter.weights = SMEAR_WEIGHTS_GUERTIN },
+        { .method = SMEAR_RECONSTRUCT, .filter.weights = SMEAR_WEIGHTS_JIMENEZ }
     };
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++)
         for (int moving = 0; moving < 2; moving++) {
@@ -409,7 +395,7 @@ static void test_half_size_keeps_the_detail_of_what_it_does_not_touch(void)
     struct strip strip = { .width = 128 };
     for (int x = 0; x < 128; x++)
         strip_fill(&strip, x, x + 1, x & 1 ? 0xffffff : 0x000000, 50, x < 32 ? 24 : 0);
-    if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_HALF, .reconstruct = SMEAR_FENCE }))
+    if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_HALF, .filter.flags = SMEAR_FENCE }))
         return;
     for (int x = 0; x < 128; x++) {
         if (x < 24)
@@ -466,35 +452,26 @@ static void test_scattered_maxima_carry_streaks_over_several_tiles(void)
     subject_close(&s);
 }
 
-static void test_memory_of_scattered_windows_is_a_constant(void)
+static void test_scatter_goes_with_filters_alone(void)
 {
-    static const int16_t size[][2] = { { 1, 1 }, { 33, 17 }, { 128, 64 }, { 321, 479 } };
-    for (int i = 0; i < 4; i++)
-        for (int tile = 8; tile <= 64; tile *= 2)
-            for (int reach = 1; reach <= 64; reach++) {
-                size_t w = (size_t)size[i][0], h = (size_t)size[i][1], r = (size_t)reach, t = (size_t)tile;
-                smear_desc desc = { .width = size[i][0], .height = size[i][1], .reach = (int16_t)reach,
-                                    .tile = (int16_t)tile, .format = SMEAR_RGB565, .max_triangles = 100, .max_draws = 4,
-                                    .scatter = 1, .flush = take_nothing };
-                size_t room = SMEAR_MEMORY_SIZE_SCATTER(w, h, r, 100, 4, t), need = smear_memory_size(&desc);
-                if (!CHECK(need > 0 && need <= room && room - need < 2048)) {
-                    say("  %d x %d, tile %d, reach %d: %zu of %zu\n", size[i][0], size[i][1], tile, reach, need, room);
-                    return;
-                }
-            }
-    smear_desc bad = { .width = 64, .height = 64, .flush = take_nothing, .scatter = 1, .passes = 2 };
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
-    bad.passes = 0;
-    bad.timed = 1;
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
-    bad.timed = 0;
-    bad.reach = 65;
-    CHECK_EQ((int64_t)smear_memory_size(&bad), 0);
+    smear_desc desc = { .width = 64, .height = 64, .flush = take_nothing, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .tile = 8,
+                        .reach = 64, .filter.scatter = 1 };
+    CHECK(smear_memory_size(&desc) > 0);
+    desc.reach = 65;
+    CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
+    desc.reach = 64;
+    static const uint16_t others[] = { SMEAR_SET(SMEAR_PINGPONG), SMEAR_SET(SMEAR_HALF), SMEAR_SET(SMEAR_AUTO) };
+    for (int i = 0; i < 3; i++) {
+        desc.methods = (uint16_t)(SMEAR_SET(SMEAR_RECONSTRUCT) | others[i]);
+        CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
+    }
+    desc.methods = SMEAR_SET(SMEAR_NONE);
+    CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
 }
 
 void suite_filters(void)
 {
-    RUN(test_memory_of_scattered_windows_is_a_constant);
+    RUN(test_scatter_goes_with_filters_alone);
     RUN(test_even_passes_are_a_box_and_the_original_is_a_comb);
     RUN(test_the_depth_mask_keeps_what_is_in_front_from_bleeding);
     RUN(test_silhouettes_spread_where_that_is_asked_for);
@@ -504,6 +481,6 @@ void suite_filters(void)
     RUN(test_scattered_maxima_carry_streaks_over_several_tiles);
     RUN(test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts);
     RUN(test_frames_of_any_size_are_drawn_by_every_filter);
-    RUN(test_memory_of_passes_and_half_size_is_a_constant);
+    RUN(test_room_for_filters_goes_with_the_methods_that_need_it);
     RUN(test_camera_velocity_from_depth_is_that_of_vertices);
 }

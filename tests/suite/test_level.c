@@ -150,7 +150,7 @@ static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, 
     struct rig r;
     struct taken t = { 0 };
     const smear_camera camera = camera_at(0, 0, 0, 0);
-    const smear_frame frame = { .camera = &camera, .method = method, .light = light, .clear = 0x204060, .samples = 8 };
+    const smear_frame frame = { .camera = &camera, .method = method, .light_space = light, .clear = 0x204060, .samples = 8 };
     if (rig_begin(&r, desc, false)) {
         for (int i = 0; i < 2; i++) {
             const smear_transform pose = place_of(kind, i);
@@ -191,8 +191,9 @@ static void compare(const smear_desc *desc, uint8_t method, uint8_t light, int k
 
 static smear_desc desc_of_all(void)
 {
-    return (smear_desc){ .width = 64, .height = 48, .reach = 8, .max_triangles = 400, .max_draws = 2, .timed = 1,
-                         .layers = 1, .accumulate = 1, .format = SMEAR_XRGB8888 };
+    return (smear_desc){ .width = 64, .height = 48, .reach = 8, .max_triangles = 400, .max_draws = 2, 
+                         .methods = SMEAR_SET_FILTERS | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_ACCUMULATE),
+                         .format = SMEAR_XRGB8888 };
 }
 
 static void test_level_draws_are_to_the_bit_what_their_vertices_give(void)

@@ -46,8 +46,7 @@ static void stage_make(struct stage *s, int method)
 static bool stage_open(struct rig *r)
 {
     smear_desc desc = small_desc(WIDTH, HEIGHT);
-    desc.passes = 2;
-    desc.half = 1;
+    desc.methods = SMEAR_SET_FILTERS;
     return rig_begin(r, &desc, true);
 }
 
@@ -71,7 +70,7 @@ enum { VERTICES, DEPTH, SOURCES };
 
 static void stage_source(struct stage *s, int source)
 {
-    s->frame.camera_step = source == DEPTH;
+    s->frame.filter.camera_step = source == DEPTH;
 }
 
 /* ------------------------------------------------------------------ motion modes */
@@ -329,11 +328,11 @@ enum { WAYS = sizeof ways / sizeof *ways };
 static void stage_way(struct stage *s, const struct way *w)
 {
     s->frame.method = w->method;
-    s->frame.filter = w->filter;
-    s->frame.camera_step = w->step;
-    s->frame.reconstruct = w->reconstruct;
+    s->frame.filter.kind = w->filter;
+    s->frame.filter.camera_step = w->step;
+    s->frame.filter.flags = w->reconstruct;
     s->frame.samples = 16;
-    s->frame.shutter_degrees = 1440;
+    s->frame.shutter.degrees = 1440;
 }
 
 /* Pixels of the square that differ from the sharp frame's; and elsewhere. */
@@ -455,9 +454,9 @@ static void test_rotation_translation_and_objects_scale_apart(void)
             stage_source(&s, source);
             s.before = camera_at(0.15, 0, 0, 0.04);
             s.square_before.origin[1] = q16(0.25);
-            s.frame.turn_scale = scale[k[0]];
-            s.frame.way_scale = scale[k[1]];
-            s.frame.object_scale = scale[k[2]];
+            s.frame.scale.rotation = scale[k[0]];
+            s.frame.scale.translation = scale[k[1]];
+            s.frame.scale.object = scale[k[2]];
             stage_draw(&r, &s);
             for (int axis = 0; axis < 2; axis++) {
                 double want = 0;
@@ -470,7 +469,7 @@ static void test_rotation_translation_and_objects_scale_apart(void)
                 CHECK_EQ(of_wall(&r)[1], 0);
             }
         }
-        s.frame.turn_scale = 16129;
+        s.frame.scale.rotation = 16129;
         CHECK_EQ(rig_frame(&r, &s.frame, s.draw, 2), SMEAR_ERR_ARG);
     }
     rig_end(&r);
@@ -485,8 +484,7 @@ static void test_deformation_scales_with_objects(void)
     static int16_t bent[2][12], told[2][12];
     struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
-    desc.passes = 2;
-    desc.accumulate = desc.timed = desc.layers = 1;
+    desc.methods = SMEAR_SET_FILTERS | SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS;
     if (!rig_begin(&r, &desc, true))
         return;
     for (int m = 0; m < 7; m++)
@@ -503,15 +501,15 @@ static void test_deformation_scales_with_objects(void)
                 }
                 stage_make(&s, methods[m]);
                 s.frame.samples = 16;
-                s.frame.shutter_poses = (uint8_t)poses;
+                s.frame.shutter.poses = (uint8_t)poses;
                 s.draw[1].close = poses ? &s.square : NULL;
                 s.draw[1].open_position = bent[0];
                 s.draw[1].close_position = poses ? bent[1] : NULL;
-                s.frame.object_scale = scale[i];
+                s.frame.scale.object = scale[i];
                 stage_draw(&r, &s);
                 int32_t velocity[2] = { velocity_at(&r, 54, 26)[0], velocity_at(&r, 54, 26)[1] };
                 uint8_t *scaled = rig_copy(&r, &s.frame, s.draw, 2);
-                s.frame.object_scale = 0;
+                s.frame.scale.object = 0;
                 s.draw[1].open_position = told[0];
                 s.draw[1].close_position = poses ? told[1] : NULL;
                 stage_draw(&r, &s);
@@ -560,7 +558,7 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
     struct rig r;
     struct stage s;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
-    desc.accumulate = desc.timed = 1;
+    desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
     if (!rig_begin(&r, &desc, false))
         return;
     for (int m = 0; m < 4; m++)
@@ -573,10 +571,10 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
                 s.frame.samples = methods[m] == SMEAR_ACCUMULATE ? 128 : 32;
                 s.frame.target = SMEAR_FINE;
                 s.frame.clear = 0;
-                s.frame.frame_us = (1000000 + rate[i] / 2) / rate[i];
-                s.frame.shutter_mode = (uint8_t)(mode % 3);
+                s.frame.shutter.frame_us = (1000000 + rate[i] / 2) / rate[i];
+                s.frame.shutter.mode = (uint8_t)(mode % 3);
                 if (mode == 3)
-                    s.frame.shutter_us = 16667;
+                    s.frame.shutter.us = 16667;
                 double want = mode == SMEAR_SHUTTER_FIXED || mode == 3 || (mode == SMEAR_SHUTTER_CAPPED && rate[i] < 30)
                             ? 20.0 : 600.0 / rate[i];
                 /* Half of what it does in a frame at most: the square stays in sight. */
@@ -588,10 +586,10 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
                     say("      method %d, mode %d, %u Hz: %g, not %g\n", methods[m], mode, (unsigned)rate[i],
                         streak_of(&r), want);
             }
-    s.frame.frame_us = 0;               /* nobody knows */
+    s.frame.shutter.frame_us = 0;               /* nobody knows */
     CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_ERR_ARG);
-    s.frame.shutter_us = 0;
-    s.frame.shutter_mode = SMEAR_SHUTTER_FIXED + 1;
+    s.frame.shutter.us = 0;
+    s.frame.shutter.mode = SMEAR_SHUTTER_FIXED + 1;
     CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_ERR_ARG);
     rig_end(&r);
 }
@@ -607,9 +605,9 @@ static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
         for (int degrees = 5; degrees <= 360; degrees += 71) {
             stage_make(&s, SMEAR_RECONSTRUCT);
             s.square_before.origin[0] = q16(-600.0 / rate[i] / 8);
-            s.frame.frame_us = 1000000 / rate[i];
-            s.frame.shutter_mode = SMEAR_SHUTTER_FIXED;
-            s.frame.shutter_degrees = (uint16_t)degrees;
+            s.frame.shutter.frame_us = 1000000 / rate[i];
+            s.frame.shutter.mode = SMEAR_SHUTTER_FIXED;
+            s.frame.shutter.degrees = (uint16_t)degrees;
             stage_draw(&r, &s);
             CHECK(of_square(&r)[0] > 0);
             CHECK_CLOSE(smear_probe(r.ctx).half_exposure / 16777216.0 * 2 / rate[i], degrees / 360.0 / 30, 1e-6 + degrees * 1e-7);

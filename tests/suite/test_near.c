@@ -31,8 +31,7 @@ static bool draw(uint8_t method, int32_t samples, double near_plane, uint8_t out
     struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.format = SMEAR_XRGB8888;
-    desc.timed = 1;
-    desc.accumulate = 1;
+    desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
     if (!rig_begin(&r, &desc, false))
         return false;
     bool ok = true;
@@ -40,7 +39,7 @@ static bool draw(uint8_t method, int32_t samples, double near_plane, uint8_t out
         smear_camera camera = camera_at(0.2 - 0.5 * i, 1.0, 2.0 - 0.9 * i, 0.5);
         camera.near_plane = q16(near_plane);
         const smear_frame frame = { .camera = &camera, .method = method, .samples = (uint16_t)samples,
-                                    .light = SMEAR_LIGHT_ENCODED };
+                                    .light_space = SMEAR_LIGHT_ENCODED };
         rig_forget_output(&r);
         ok = CHECK_EQ(rig_frame(&r, &frame, draws, 2), SMEAR_OK) && CHECK(r.picture_size == (size_t)BYTES);
     }

@@ -217,7 +217,7 @@ static void check_poses(struct mock *mock, double time, double slack)
     if (CHECK(p != NULL && p->draw_count == 1)) {
         CHECK_CLOSE(worst_error(p, &scene, 0, time), 0.0, slack);
         CHECK_CLOSE(worst_error(p, &scene, 1, time - 1.0 / 30), 0.0, slack);
-        CHECK(p->draw[0].close == NULL && p->frame.close == NULL && !p->frame.shutter_poses);
+        CHECK(p->draw[0].close == NULL && p->frame.close == NULL && !p->frame.shutter.poses);
     }
     options.shutter_poses = true;
     p = presenter_frame(presenter, time, &options, &f);
@@ -226,7 +226,7 @@ static void check_poses(struct mock *mock, double time, double slack)
         CHECK_CLOSE(worst_error(p, &scene, 0, time), 0.0, slack);
         CHECK_CLOSE(worst_error(p, &scene, 1, open), 0.0, slack);
         CHECK_CLOSE(worst_error(p, &scene, 2, close), 0.0, slack);
-        CHECK(p->frame.shutter_poses);
+        CHECK(p->frame.shutter.poses);
     }
     presenter_free(presenter);
 }

@@ -49,8 +49,10 @@ static void move_on(struct set *s, int frame)
 /* `sharp`: without a window. */
 static smear_desc desc_of(uint32_t triangles, bool sharp)
 {
-    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .timed = 1, .sharp = sharp, .tile = 16,
-                         .reach = 10, .layers = 1, .accumulate = 1, .max_triangles = triangles };
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .tile = 16, .reach = 10,
+                         .methods = (uint16_t)(SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_ACCUMULATE)
+                                               | (sharp ? 0u : SMEAR_SET(SMEAR_RECONSTRUCT))),
+                         .strip = 128, .max_triangles = triangles };
 }
 
 /* The same frames in a context that keeps and in one that does not. */
@@ -61,7 +63,7 @@ struct pair {
 static bool pair_begin(struct pair *p, smear_desc desc)
 {
     bool ok = rig_begin(&p->draws, &desc, false);
-    desc.cache_static = 1;
+    desc.reuse.cache_static = 1;
     return rig_begin(&p->keeps, &desc, false) && ok;
 }
 
@@ -125,7 +127,7 @@ static void test_a_change_of_anything_that_stands_still_draws_it_again(void)
             case 2: s.camera.near_plane += 3000; break;
             case 3: s.camera.pose.origin[0] += 9000; s.frame.cut = 1; break;
             case 4: s.frame.clear = 0x305081; break;
-            case 5: s.frame.light = SMEAR_LIGHT_ENCODED; break;
+            case 5: s.frame.light_space = SMEAR_LIGHT_ENCODED; break;
             case 6: s.material[POST].color[1]++; break;
             case 7: s.material[POST].unlit = 1; break;
             case 8: s.pose[POST].origin[1] += 5000; s.draw[POST].cut = 1; break;
@@ -217,30 +219,16 @@ static void test_other_methods_and_failures_between_do_no_harm(void)
     pair_end(&p);
 }
 
-static void test_memory_is_as_the_macro_says_and_only_timed_contexts_keep(void)
+static void test_only_contexts_with_temporal_methods_reuse(void)
 {
-    static const int sizes[][3] = { { 70, 52, 16 }, { 240, 240, 32 }, { 24, 8, 8 }, { 16, 8, 32 } };
-    for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        const int *size = sizes[i];
-        smear_desc desc = { .width = (int16_t)size[0], .height = (int16_t)size[1], .tile = (int16_t)size[2],
-                            .strip = 128, .timed = 1, .sharp = 1, .max_draws = 20, .max_triangles = 300,
-                            .flush = take_band };
-        const size_t without = smear_memory_size(&desc);
-        desc.cache_static = 1;
-        const size_t with = smear_memory_size(&desc), room = SMEAR_CACHE_STATIC_BYTES(size[0], size[1], size[2]);
-        CHECK(with > without && with - without <= room && with - without + 40 >= room);
-        desc.cache_static = 0;
-        desc.buffer_age = 2;
-        const size_t tiles = smear_memory_size(&desc), most = SMEAR_BUFFER_AGE_BYTES(size[0], size[1], 20, size[2]);
-        CHECK(tiles > without && tiles - without <= most && tiles - without + 40 >= most);
-    }
     smear_desc desc = desc_of(400, true);
     desc.flush = take_band;
     for (int i = 0; i < 4; i++) {
         smear_desc wrong = desc;
-        wrong.cache_static = i == 0 ? 2 : i == 1;
-        wrong.buffer_age = i == 2 ? 8 : i == 3;
-        wrong.timed = i != 1 && i != 3;
+        wrong.reuse.cache_static = i == 0 ? 2 : i == 1;
+        wrong.reuse.buffer_age = i == 2 ? 8 : i == 3;
+        if (i == 1 || i == 3)
+            wrong.methods = SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_ACCUMULATE);
         CHECK(smear_memory_size(&wrong) == 0);
     }
 }
@@ -292,7 +280,7 @@ static bool display_begin(struct display *d, smear_desc desc, int buffers)
     *d = (struct display){ .buffers = buffers };
     bool ok = rig_begin(&d->all, &desc, false);
     desc.flush = put_band;
-    desc.buffer_age = (uint8_t)buffers;
+    desc.reuse.buffer_age = (uint8_t)buffers;
     ok = rig_begin(&d->sends, &desc, false) && ok;
     for (int i = 0; i < buffers; i++)
         ok = CHECK((d->buffer[i] = calloc(1, BYTES)) != NULL) && ok;
@@ -346,7 +334,7 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
                     s.pose[FLOOR].basis[k] *= 8;        /* on beneath the camera: its triangles are cut */
                 smear_desc desc = desc_of(buffers == 2 ? 16 : 400, keeps == 0);
                 desc.format = format;
-                desc.cache_static = keeps;
+                desc.reuse.cache_static = keeps;
                 desc.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
                 if (display_begin(&d, desc, buffers))
                     for (int i = 0; i < 14; i++) {
@@ -394,7 +382,7 @@ static void test_what_creeps_is_sent_all_the_same(void)
     struct display d;
     struct set s;
     set_up(&s, SMEAR_AUTO);
-    s.frame.shutter_degrees = 1;
+    s.frame.shutter.degrees = 1;
     if (display_begin(&d, desc_of(400, true), 2))
         for (int i = 0; i < 40; i++) {
             s.pose[MOVER] = pose_at(0.9 + 0.002 * i, 0.9, -9, 0.2, 0);
@@ -445,5 +433,5 @@ void suite_still(void)
     RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
     RUN(test_what_creeps_is_sent_all_the_same);
     RUN(test_the_display_is_right_after_other_methods_and_failures);
-    RUN(test_memory_is_as_the_macro_says_and_only_timed_contexts_keep);
+    RUN(test_only_contexts_with_temporal_methods_reuse);
 }

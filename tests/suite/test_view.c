@@ -586,12 +586,9 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
         return;
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
     desc.max_triangles *= 4;
-    desc.sharp = sharp;
-    desc.timed = smear_method_is_temporal(o->method);
-    desc.passes = o->method == SMEAR_PINGPONG ? 2 : 0;
-    desc.half = o->method == SMEAR_HALF;
-    desc.accumulate = o->method == SMEAR_ACCUMULATE;
-    desc.layers = o->method == SMEAR_OBJECT || o->method == SMEAR_LAYERED;
+    if (!sharp)
+        desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
+    present_tiles(&desc);
     desc.flush = note_band;
     desc.user = &n;
     size_t bytes = smear_memory_size(&desc);

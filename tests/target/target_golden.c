@@ -28,12 +28,18 @@ static bool has_format(const smear_desc *d)
     return has[d->format] && (!dithered || (d->dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER));
 }
 
+#define SETS_OF_SUMS (SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_ACCUMULATE_BANDS)
+#define SETS_OF_PORTS (SMEAR_SET_FILTERS & ~SMEAR_SET(SMEAR_RECONSTRUCT))
+
 static enum outcome outcome_of(const struct tape *tape)
 {
     const smear_desc *d = tape->desc;
-    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || (d->accumulate && !SMEAR_WITH_ACCUMULATE)
-        || (d->timed && !SMEAR_WITH_SUBFRAMES) || (d->layers && !SMEAR_WITH_LAYERS)
-        || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
+    if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || ((d->methods & SETS_OF_SUMS) != 0 && !SMEAR_WITH_ACCUMULATE)
+        || ((d->methods & SMEAR_SET_TEMPORAL) != 0 && !SMEAR_WITH_SUBFRAMES)
+        || ((d->methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0 && !SMEAR_WITH_TIMEMASK)
+        || ((d->methods & SMEAR_SET_LAYERS) != 0 && !SMEAR_WITH_LAYERS)
+        || ((d->methods & SMEAR_SET(SMEAR_RECONSTRUCT)) != 0 && !SMEAR_WITH_RECONSTRUCT)
+        || (((d->methods & SETS_OF_PORTS) != 0 || d->filter.passes > 1 || d->filter.scatter) && !SMEAR_WITH_FILTERS))
         return REFUSED;
     enum outcome outcome = SAME_BITS;
     for (int i = 0; i < tape->frame_count; i++) {
@@ -41,17 +47,15 @@ static enum outcome outcome_of(const struct tape *tape)
         uint8_t method = f->frame->method;
         if ((smear_method_is_filter(method) && !SMEAR_WITH_RECONSTRUCT) || (method == SMEAR_TIMEMASK && !SMEAR_WITH_TIMEMASK))
             return REFUSED;
-        if (((smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) || f->frame->camera_step != 0
-             || f->frame->weights != 0) && !SMEAR_WITH_FILTERS)
+        if (((smear_method_is_filter(method) && method != SMEAR_RECONSTRUCT) || f->frame->filter.camera_step != 0
+             || f->frame->filter.weights != 0) && !SMEAR_WITH_FILTERS)
             return REFUSED;
-        if (f->frame->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
+        if (f->frame->light_space == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
             return REFUSED;
         if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
-            || ((f->frame->turn_scale | f->frame->way_scale | f->frame->object_scale) != 0 && !SMEAR_WITH_SCALES)
-            || ((f->frame->shutter_mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter_us != 0) && !SMEAR_WITH_SHUTTER_MODES))
+            || ((f->frame->scale.rotation | f->frame->scale.translation | f->frame->scale.object) != 0 && !SMEAR_WITH_SCALES)
+            || ((f->frame->shutter.mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter.us != 0) && !SMEAR_WITH_SHUTTER_MODES))
             return REFUSED;
-        if (method == SMEAR_DEFAULT_METHOD && !d->timed && !d->sharp && !SMEAR_WITH_RECONSTRUCT)
-            outcome = OTHER_METHODS;
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;

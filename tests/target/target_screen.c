@@ -88,7 +88,7 @@ static void *start(struct demo_player *player, const struct demo_screen *which, 
     int result = demo_player_start(player, which, &desc, memory, bytes);
     if (result == SMEAR_OK)
         return memory;
-    fail(f, "the library does not start (error %d)", result);
+    fail(f, "the library does not start: %s", smear_error_text(result));
     free(memory);
     return NULL;
 }
@@ -99,7 +99,7 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     struct demo_player player;
     smear_desc desc = which->desc;
     desc.bands = 1;
-    desc.buffer_age = 0;
+    desc.reuse.buffer_age = 0;
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
@@ -112,7 +112,7 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     if (result == SMEAR_OK)
         result = demo_player_frame(&player, frame, true);
     free(memory);
-    return result == SMEAR_OK || fail(f, "the library refused the frame (error %d)", result);
+    return result == SMEAR_OK || fail(f, "the library refused the frame: %s", smear_error_text(result));
 }
 
 /* Of what arrives, by the rule of smear_stats.crc32: 32-bit pixels count as R, G, B. */
@@ -161,7 +161,7 @@ static bool start_kept(struct demo_player *player, const struct demo_screen *whi
 {
     smear_desc desc = which->desc;
     desc.bands = 1;
-    desc.buffer_age = (uint8_t)buffers;
+    desc.reuse.buffer_age = (uint8_t)buffers;
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
@@ -173,7 +173,7 @@ static bool kept(const struct demo_screen *which, struct failure *f)
 {
     static struct demo_player keeps, all;
     const size_t pixels = (size_t)which->desc.width * (size_t)which->desc.height;
-    const int buffers = which->desc.buffer_age;
+    const int buffers = which->desc.reuse.buffer_age;
     uint32_t *code = calloc(pixels * ((size_t)buffers + 1), sizeof *code);
     struct screen shown = { .code = code }, want = { .code = code != NULL ? code + pixels * (size_t)buffers : NULL };
     uint32_t tiles = 0;

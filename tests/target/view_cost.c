@@ -60,7 +60,7 @@ static bool count(const smear_desc *desc, const struct presented *frame, smear_s
     if (result == SMEAR_OK)
         smear_get_stats(ctx, stats);
     free(memory);
-    return result == SMEAR_OK || fail(f, "the library refused a frame (error %d)", result);
+    return result == SMEAR_OK || fail(f, "the library refused a frame: %s", smear_error_text(result));
 }
 
 static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, const int size[2],
@@ -82,12 +82,7 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.format = SMEAR_RGB565;
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
-        desc.sharp = !smear_method_is_filter(methods[m].method);
-        desc.timed = smear_method_is_temporal(methods[m].method);
-        desc.accumulate = methods[m].method == SMEAR_ACCUMULATE;
-        desc.passes = methods[m].method == SMEAR_PINGPONG ? 2 : 0;
-        desc.half = methods[m].method == SMEAR_HALF;
-        desc.layers = methods[m].method == SMEAR_OBJECT || methods[m].method == SMEAR_LAYERED;
+        present_tiles(&desc);
         desc.flush = throw_away;
         snprintf(name, sizeof name, "%.5s-%d-%s", strchr(scene_name, '/') + 1, size[0],
                  methods[m].name);

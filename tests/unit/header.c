@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* header.c - the public header, alone and first, as C99 and as C++11; the size macro as a constant. */
-#include <smear.h>
+/* header.c - the public headers, alone and first, as C99 and as C++11; memory as a constant, and its desc. */
+#include <smear_memory.h>
 
-static unsigned char memory[SMEAR_MEMORY_SIZE(240, 240, 12, 600, 8)];
+#define SCREEN 240, 240, 600, 8
+static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
 
 int smear_header_test(void);
 
 int smear_header_test(void)
 {
-    return (int)sizeof memory + SMEAR_OK;
+    return (int)sizeof memory + SMEAR_DESC(SCREEN).width + SMEAR_OK;
 }

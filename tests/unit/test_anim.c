@@ -9,6 +9,8 @@
 #include "model/skin.h"
 #include "tests/test.h"
 
+#include <smear_memory.h>
+
 void suite_anim(void);
 
 #define ONE SMEAR_BASIS_ONE
@@ -480,13 +482,16 @@ static int count_bytes(void *user, const smear_band *band)
     return 0;
 }
 
-static uint64_t frame_memory[SMEAR_MEMORY_SIZE(48, 32, 8, 100, 8) / 8];
+#define SCREEN 48, 32, 100, 8, SMEAR_SET(SMEAR_RECONSTRUCT), 0, 8, 0, 0, 0, SMEAR_L8
+static uint64_t frame_memory[SMEAR_MEMORY_WORDS(SCREEN)];
 
 static void test_a_converted_model_is_drawn(void)
 {
     uint32_t bytes = 0;
-    smear_desc desc = { .width = 48, .height = 32, .reach = 8, .max_triangles = 100, .max_draws = 8, .crc = 1,
-                        .format = SMEAR_L8, .flush = count_bytes, .user = &bytes };
+    smear_desc desc = SMEAR_DESC(SCREEN);
+    desc.debug.crc = 1;
+    desc.flush = count_bytes;
+    desc.user = &bytes;
     const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 15 };
     smear_transform place = SMEAR_IDENTITY;
     smear_context *ctx;
