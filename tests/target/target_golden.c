@@ -112,7 +112,7 @@ static void play_tape(const struct tape *tape, struct tally *tally)
     if (outcome != SAME_BITS) {
         for (int i = 0; i < tape->frame_count && result == SMEAR_OK; i++)
             result = play_frame(&player, i, &stats);
-        if (result != (outcome == REFUSED ? SMEAR_ERR_ARG : SMEAR_OK)) {
+        if (smear_error_kind(result) != (outcome == REFUSED ? SMEAR_ERR_ARG : SMEAR_OK)) {
             say(tape, outcome == REFUSED ? " NOT REFUSED " : " ERROR ", result);
             tally->wrong++;
         } else if (outcome == REFUSED) {
