@@ -295,13 +295,17 @@ test-tables: build/gentables
 test-readme: $(LIB)
 	@mkdir -p $(BUILD)
 	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
+	test $$(wc -l < $(BUILD)/readme.c) -lt 45
+	(cat $(BUILD)/readme.c; echo 'typedef char fits[SMEAR_MEMORY(SCREEN) <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
+	$(CC) -std=c99 -Iinclude -c -o $(BUILD)/readme_fits.o $(BUILD)/readme_fits.c
 	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
 	$(BUILD)/readme > $(BUILD)/readme.ppm
-	sed -e "s/SMEAR_MEMORY_SIZE([^)]*)/$$(grep -o 'SMEAR_MEMORY_SIZE_TIMED([0-9, ]*)' README.md)/" \
-	    -e 's/\.reach = 6,/.timed = 1, .sharp = 1,/' $(BUILD)/readme.c > $(BUILD)/readme_timed.c
-	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme_timed.c $(LIB)
-	$(BUILD)/readme > $(BUILD)/readme_timed.ppm
-	! cmp -s $(BUILD)/readme.ppm $(BUILD)/readme_timed.ppm
+	$(CXX) -x c++ -std=c++11 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -c -o $(BUILD)/readme_cxx.o $(BUILD)/readme.c
+	$(CXX) -o $(BUILD)/readme $(BUILD)/readme_cxx.o $(LIB)
+	$(BUILD)/readme | cmp - $(BUILD)/readme.ppm
+	sed 's/SCREEN 160, 120, 12, 1, 0/SCREEN 160, 120, 12, 1, SMEAR_SET(SMEAR_RECONSTRUCT)/' $(BUILD)/readme.c > $(BUILD)/readme_window.c
+	$(CC) -std=c99 -Iinclude -o $(BUILD)/readme $(BUILD)/readme_window.c $(LIB)
+	! $(BUILD)/readme | cmp -s - $(BUILD)/readme.ppm
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
 	    grep -q "RUN($$name);" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 

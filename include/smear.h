@@ -376,11 +376,11 @@ typedef struct smear_filter {
 } smear_filter;
 
 /* How much of what moved is shown as motion, in 1/256; 0 means 256, SMEAR_SCALE_NONE nothing. */
-typedef struct smear_scale {
+typedef struct smear_motion_scale {
     uint16_t rotation;          /* of the camera's rotation and zoom, up to 16128 */
     uint16_t translation;       /* of the camera's translation, likewise */
     uint16_t object;            /* of draws and their deformation (which grows 8 times at most) */
-} smear_scale;
+} smear_motion_scale;
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
@@ -403,7 +403,7 @@ typedef struct smear_frame {
     const smear_light *light;   /* copied; null: SMEAR_LIGHT_DEFAULT */
     smear_shutter shutter;
     smear_filter filter;
-    smear_scale scale;
+    smear_motion_scale scale;
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
                                  * moves */
     uint8_t layer_count;

@@ -467,7 +467,7 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
     frame->filter = (smear_filter){ .kind = (uint8_t)o->filter, .flags = (uint8_t)o->reconstruct,
                                     .weights = (uint8_t)o->weights, .camera_step = (uint8_t)o->camera_step,
                                     .pingpong = o->pingpong };
-    frame->scale = (smear_scale){ .rotation = (uint16_t)o->turn_scale, .translation = (uint16_t)o->way_scale,
+    frame->scale = (smear_motion_scale){ .rotation = (uint16_t)o->turn_scale, .translation = (uint16_t)o->way_scale,
                                   .object = (uint16_t)o->object_scale };
     return true;
 }
