@@ -30,7 +30,7 @@
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window */
 #define SMEAR_DAMAGE_BYTES 56u              /* what is kept beside the window's rows or the display's tiles */
-#define SMEAR_DRAW_BYTES 400u               /* a draw with its transforms, its texture's sampler, its id's last pose */
+#define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36 bytes

@@ -6,7 +6,7 @@
 #
 #   flash    code and tables of all functions of the interface, without what the compiler adds
 #   stack    worst of smear_render by the compiler's call graph, callbacks not counted
-#   sharp, window, timed, both
+#   sharp, window, auto, both
 #            memory of contexts of 240x240 (platform/footprint_arena.c); -: refused
 #
 # A switch's row says how much less flash there is than with everything.
@@ -49,7 +49,7 @@ for pair in "$@"; do
     [ "$target" != rv32imc ] || linker="$linker -melf32lriscv"
     measure everything
     everything=$flash
-    printf '%-34s %7s %7s  %7s %7s %7s %7s\n' "$target $optimization" flash stack sharp window timed both
+    printf '%-34s %7s %7s  %7s %7s %7s %7s\n' "$target $optimization" flash stack sharp window auto both
     printf '%-34s %7d %s\n' everything "$flash" "$line"
     for switch in $(switches); do
         # shellcheck disable=SC2046

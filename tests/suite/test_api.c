@@ -333,6 +333,86 @@ static void test_a_frame_begun_again_is_forgotten(void)
     rig_end(&r);
 }
 
+static void test_what_is_submitted_may_change_before_it_is_drawn(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_AUTO, SMEAR_OBJECT };
+    smear_desc desc = small_desc(64, 48);
+    desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS;
+    struct rig r;
+    if (rig_begin(&r, &desc, false))
+        for (int m = 0; m < 6; m++) {
+            struct scene s, before, after;
+            make_scene(&s, 0.2, method[m]);
+            make_scene(&before, 0.0, method[m]);
+            make_scene(&after, 0.4, method[m]);
+            s.frame.shutter.poses = 1;
+            for (int i = 0; i < SCENE_DRAWS; i++) {
+                s.draw[i].id = 0;
+                s.draw[i].open = &before.pose[i];
+                s.draw[i].close = &after.pose[i];
+            }
+            uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+            rig_forget_output(&r);
+            CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+            for (int i = 0; i < SCENE_DRAWS; i++) {
+                smear_draw d = s.draw[i];
+                smear_transform pose[3] = { *d.now, *d.open, *d.close };
+                d.now = &pose[0];
+                d.open = &pose[1];
+                d.close = &pose[2];
+                CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_OK);
+                memset(pose, 0x5a, sizeof pose);
+                memset(&d, 0x5a, sizeof d);
+            }
+            memset(&s.camera, 0x5a, sizeof s.camera);
+            CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+            CHECK(picture != NULL && same_picture(&r, picture));
+            free(picture);
+        }
+    rig_end(&r);
+}
+
+static bool is_within(const smear_fill *fill)
+{
+    return fill->used > 0 && fill->used <= fill->room;
+}
+
+static void test_statistics_say_how_full_each_list_was(void)
+{
+    static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_AUTO };
+    smear_desc desc = small_desc(64, 48);
+    desc.methods |= SMEAR_SET_TEMPORAL;
+    desc.max_draws = 9;
+    struct rig r;
+    if (rig_begin(&r, &desc, false))
+        for (int m = 0; m < 3; m++) {
+            smear_stats few, all;
+            struct scene s;
+            make_scene(&s, 0.2, method[m]);
+            CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
+            smear_get_stats(r.ctx, &few);
+            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            smear_get_stats(r.ctx, &all);
+            CHECK(is_within(&few.fill.geometry) && is_within(&few.fill.segments) && is_within(&few.fill.draws));
+            CHECK(is_within(&all.fill.geometry) && is_within(&all.fill.segments) && is_within(&all.fill.draws));
+            CHECK_EQ(few.fill.draws.used, 1);
+            CHECK_EQ(all.fill.draws.used, SCENE_DRAWS);
+            CHECK_EQ(all.fill.draws.room, 9);
+            CHECK(all.fill.geometry.used > few.fill.geometry.used && all.fill.segments.used > few.fill.segments.used);
+            CHECK(all.fill.geometry.room == few.fill.geometry.room);
+        }
+    rig_end(&r);
+    desc.max_triangles = 24;
+    if (rig_begin(&r, &desc, false)) {
+        smear_stats stats;
+        CHECK_EQ(render_scene(&r, 0.2, SMEAR_NONE), SMEAR_OK);
+        smear_get_stats(r.ctx, &stats);
+        CHECK(stats.parts_added > 0 && is_within(&stats.fill.geometry));
+        CHECK(stats.fill.geometry.used > stats.fill.geometry.room / 2);
+    }
+    rig_end(&r);
+}
+
 static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
 {
     smear_desc desc = small_desc(48, 32);
@@ -2148,6 +2228,8 @@ void suite_api(void)
     RUN(test_every_bad_draw_is_refused_and_the_rest_is_drawn);
     RUN(test_calls_out_of_turn_are_refused);
     RUN(test_a_frame_begun_again_is_forgotten);
+    RUN(test_what_is_submitted_may_change_before_it_is_drawn);
+    RUN(test_statistics_say_how_full_each_list_was);
     RUN(test_draws_beyond_the_limit_are_refused_and_not_drawn);
     RUN(test_a_full_triangle_list_changes_no_pixel);
     RUN(test_a_frame_in_many_parts_is_the_frame_in_one);
