@@ -5,6 +5,7 @@
 #include "tests/test.h"
 
 #include "tools/player/picture.h"
+#include "tools/scenes/methods.h"
 #include "tools/scenes/present.h"
 #include "tools/scenes/xform.h"
 #include "tools/view/board.h"
@@ -593,7 +594,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     desc.user = &n;
     size_t bytes = smear_memory_size(&desc);
     void *memory = malloc(bytes);
-    uint32_t count[TILES_METHODS] = { 0 }, kinds[TILES_KINDS] = { 0 };
+    uint32_t count[SMEAR_METHOD_COUNT] = { 0 }, kinds[TILES_KINDS] = { 0 };
     smear_stats s;
     CHECK_EQ(smear_init(&n.ctx, &desc, memory, bytes), SMEAR_OK);
     CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
@@ -603,19 +604,10 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
         const struct tile_note *tile = &n.tiles.note[i];
         count[tile->method]++;
         kinds[tile->kind]++;
-        CHECK(tile->method == TILES_NONE ? tile->samples == 1 : tile->samples > 1);
+        CHECK(tile->method == SMEAR_NONE ? tile->samples == 1 : tile->samples > 1);
     }
-    CHECK_EQ(count[TILES_NONE], s.tiles[SMEAR_NONE]);
-    CHECK_EQ(count[TILES_ACCUMULATE], s.tiles[SMEAR_ACCUMULATE]);
-    CHECK_EQ(count[TILES_RECONSTRUCT], s.tiles[SMEAR_RECONSTRUCT]);
-    CHECK_EQ(count[TILES_CAMERA], s.tiles[SMEAR_CAMERA]);
-    CHECK_EQ(count[TILES_PINGPONG], s.tiles[SMEAR_PINGPONG]);
-    CHECK_EQ(count[TILES_HALF], s.tiles[SMEAR_HALF]);
-    CHECK_EQ(count[TILES_SMOOTH], s.tiles[SMEAR_AUTO]);
-    CHECK_EQ(count[TILES_SUBFRAMES], s.tiles[SMEAR_SUBFRAMES]);
-    CHECK_EQ(count[TILES_TIMEMASK], s.tiles[SMEAR_TIMEMASK]);
-    CHECK_EQ(count[TILES_OBJECT], s.tiles[SMEAR_OBJECT]);
-    CHECK_EQ(count[TILES_LAYERED], s.tiles[SMEAR_LAYERED]);
+    for (int i = 0; i < SMEAR_METHOD_COUNT; i++)
+        CHECK_EQ(count[i], s.tiles[i]);
     CHECK_EQ(kinds[TILES_STILL], s.tiles_static);
     CHECK_EQ(kinds[TILES_UNIFORM], s.tiles_uniform);
     CHECK_EQ(kinds[TILES_COMPLEX], s.tiles_complex);
@@ -627,9 +619,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
 
 static void test_tiles_are_noted_as_they_are_counted(void)
 {
-    static const smear_method methods[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES,
-                                            SMEAR_TIMEMASK, SMEAR_AUTO, SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF,
-                                            SMEAR_OBJECT, SMEAR_LAYERED };
+    CHECK_EQ(method_count, SMEAR_METHOD_COUNT - 1);
     static const char *const scenes[] = { "demo/drone", "suite/textured" };
     struct failure f = { "" };
     for (int k = 0; k < 2; k++) {
@@ -637,9 +627,10 @@ static void test_tiles_are_noted_as_they_are_counted(void)
         if (!CHECK(scene_builtin(scenes[k], &scene, &f)))
             return;
         struct presenter *p = presenter_new(&scene, &f);
-        for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-            struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = methods[i] };
-            check_tiles(p, &o, !smear_method_is_filter(methods[i]) && methods[i] != SMEAR_AUTO);
+        for (int i = 0; i < method_count; i++) {
+            const smear_method method = method_list[i].method;
+            struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = method };
+            check_tiles(p, &o, !smear_method_is_filter((int)method) && method != SMEAR_AUTO);
         }
         presenter_free(p);
         scene_free(&scene);

@@ -4,6 +4,7 @@
 
 #include "tools/options/arguments.h"
 #include "tools/options/say.h"
+#include "tools/scenes/methods.h"
 
 #include <string.h>
 
@@ -23,6 +24,9 @@ static const char program_help[] =
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
+
+/* Stands for the list of methods. */
+static const char method_lines[] = "";
 
 /* Printed one after the other; C promises strings of 4095 characters at most. */
 static const char *const render_help[] = {
@@ -58,21 +62,8 @@ static const char *const render_help[] = {
     "                        where the frame's instant lies in it [centred]\n"
     "  --poses previous|shutter\n"
     "                        what the library is told: the pose a frame ago, or those at shutter\n"
-    "                        open, centre and close [previous]\n"
-    "  --method NAME         none         the sharp instant\n"
-    "                        accumulate   the mean of sharp instants\n"
-    "                        reconstruct  tile-maximum reconstruction filter\n"
-    "                        subframes    tiles in which something moves: mean of instants\n"
-    "                        timemask     the time each triangle covers each pixel; cutouts and\n"
-    "                                     blended draws as in subframes\n"
-    "                        auto         per tile the cheapest that is good enough [auto]\n"
-    "                        camera       velocity from depth and two cameras, then a filter\n"
-    "                        pingpong     few taps, two or three times over\n"
-    "                        half         a filter at half the size, blended by motion\n"
-    "                        object       each moving object along its one velocity, by sums along\n"
-    "                                     lines, over the still scene\n"
-    "                        layered      what moves by the velocities of its pixels, over the still\n"
-    "                                     scene\n"
+    "                        open, centre and close [previous]\n",
+    method_lines,
     "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
     "                        at most, slots of timemask (8, 16 or 32) [32]\n"
     "  --exact               accumulate: every instant is posed and lit by the file itself; the\n"
@@ -240,6 +231,20 @@ static const char *const help_help[] = {
     NULL
 };
 
+/* A line for each method, and more where its text has more. */
+static void print_methods(void)
+{
+    for (int i = 0; i < method_count; i++) {
+        printf("%-24s%-13s", i == 0 ? "  --method NAME" : "", method_list[i].name);
+        for (const char *c = method_list[i].help; *c != '\0'; c++)
+            if (*c == '\n')
+                printf("\n%-37s", "");
+            else
+                putchar(*c);
+        putchar('\n');
+    }
+}
+
 int help_print(const char *command)
 {
     static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
@@ -256,7 +261,10 @@ int help_print(const char *command)
     if (found < 0)
         return say_bad_usage(command, "unknown command (smear help)");
     for (const char *const *text = texts[found]; *text != NULL; text++)
-        fputs(*text, stdout);
+        if (*text == method_lines)
+            print_methods();
+        else
+            fputs(*text, stdout);
     return STATUS_OK;
 }
 

@@ -5,6 +5,7 @@
 #include "tools/options/arguments.h"
 #include "tools/options/options.h"
 #include "tools/options/say.h"
+#include "tools/scenes/methods.h"
 
 #include "tools/view/board.h"
 #include "tools/view/control.h"
@@ -203,12 +204,12 @@ static const char *read_colors(void *to, const char *value)
 static const char *read_split(void *to, const char *value)
 {
     struct view_options *o = to;
-    const char *name;
+    const struct method *found = method_named(value);
+    if (found == NULL)
+        return "needs a method";
     o->has_split = true;
-    for (int i = 0; (name = options_method(i, &o->split)) != NULL; i++)
-        if (strcmp(name, value) == 0)
-            return NULL;
-    return "needs a method";
+    o->split = found->method;
+    return NULL;
 }
 
 static const char *read_see(void *to, const char *value)

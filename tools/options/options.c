@@ -5,6 +5,7 @@
 #include "tools/options/arguments.h"
 #include "tools/options/options_filter.h"
 #include "tools/options/say.h"
+#include "tools/scenes/methods.h"
 
 #include <limits.h>
 #include <math.h>
@@ -112,37 +113,16 @@ static const char *read_poses(void *to, const char *value)
     return NULL;
 }
 
-static const struct {
-    const char *name;
-    smear_method method;
-} methods[] = {
-    { "auto", SMEAR_AUTO },                 { "none", SMEAR_NONE },
-    { "accumulate", SMEAR_ACCUMULATE },     { "reconstruct", SMEAR_RECONSTRUCT },
-    { "subframes", SMEAR_SUBFRAMES },       { "timemask", SMEAR_TIMEMASK },
-    { "camera", SMEAR_CAMERA },             { "pingpong", SMEAR_PINGPONG },
-    { "half", SMEAR_HALF },                 { "object", SMEAR_OBJECT },
-    { "layered", SMEAR_LAYERED },
-};
-enum { METHODS = sizeof methods / sizeof *methods };
-
-const char *options_method(int index, smear_method *method)
-{
-    if (index < 0 || index >= METHODS)
-        return NULL;
-    *method = methods[index].method;
-    return methods[index].name;
-}
-
 static const char *read_method(void *to, const char *value)
 {
-    for (int i = 0; i < METHODS; i++) {
-        if (strcmp(methods[i].name, value) != 0)
-            continue;
-        ((struct render_options *)to)->method = methods[i].method;
-        return NULL;
+    static char text[280];
+    const struct method *found = method_named(value);
+    if (found == NULL) {
+        snprintf(text, sizeof text, "needs %s", method_names());
+        return text;
     }
-    return "needs auto, none, accumulate, reconstruct, subframes, timemask, camera, pingpong, half, object "
-           "or layered";
+    ((struct render_options *)to)->method = found->method;
+    return NULL;
 }
 
 static const char *read_samples(void *to, const char *value)

@@ -71,9 +71,6 @@ int options_read_seen(struct render_options *options, int count, char **text, bo
 /* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
 int options_reach(const struct render_options *options, int height, int *reach, int *tile);
 
-/* The methods there are, as the command line has them: name and value of number `index`, or null
- * when there are not so many. */
-const char *options_method(int index, smear_method *method);
 /* The name of the format as the command line has it. */
 const char *options_format_name(smear_format format);
 

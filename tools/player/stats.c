@@ -2,6 +2,8 @@
 /* stats.c - see stats.h. */
 #include "tools/player/stats.h"
 
+#include "tools/scenes/methods.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -73,13 +75,10 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
     fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
             ",\"complex\":%" PRIu32 ",\"kept\":%" PRIu32 "},\n",
             c->tiles_static, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
-    fprintf(s->stream, " \"methods\":{\"none\":%" PRIu32 ",\"accumulate\":%" PRIu32
-            ",\"reconstruct\":%" PRIu32 ",\"smooth\":%" PRIu32 ",\"subframes\":%" PRIu32
-            ",\"timemask\":%" PRIu32 ",\"camera\":%" PRIu32 ",\"pingpong\":%" PRIu32 ",\"half\":%" PRIu32
-            ",\"object\":%" PRIu32 ",\"layered\":%" PRIu32 "},\n",
-            c->tiles[SMEAR_NONE], c->tiles[SMEAR_ACCUMULATE], c->tiles[SMEAR_RECONSTRUCT], c->tiles[SMEAR_AUTO], c->tiles[SMEAR_SUBFRAMES],
-            c->tiles[SMEAR_TIMEMASK], c->tiles[SMEAR_CAMERA], c->tiles[SMEAR_PINGPONG], c->tiles[SMEAR_HALF],
-            c->tiles[SMEAR_OBJECT], c->tiles[SMEAR_LAYERED]);
+    for (int i = 0; i < method_count; i++)
+        fprintf(s->stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].tiles,
+                c->tiles[method_list[i].method]);
+    fputs("},\n", s->stream);
     fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
             c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);
     fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,

@@ -2,6 +2,7 @@
 /* control.c - see control.h. */
 #include "tools/view/control.h"
 
+#include "tools/scenes/methods.h"
 #include "tools/view/film.h"
 
 #include <string.h>
@@ -18,31 +19,15 @@ const char *const pace_names[] = { "time", "every", "board", NULL };
 
 const char *control_method_name(smear_method method)
 {
-    smear_method value;
-    const char *name;
-    for (int i = 0; (name = options_method(i, &value)) != NULL; i++)
-        if (value == method)
-            return name;
-    return "?";
-}
-
-static int method_count(void)
-{
-    smear_method value;
-    int count = 0;
-    while (options_method(count, &value) != NULL)
-        count++;
-    return count;
+    const struct method *found = method_of(method);
+    return found != NULL ? found->name : "?";
 }
 
 static smear_method other_method(smear_method now, int way)
 {
-    smear_method value = now;
-    int count = method_count(), at = 0;
-    while (options_method(at, &value) != NULL && value != now)
-        at++;
-    options_method((at + way + count) % count, &value);
-    return value;
+    const struct method *found = method_of(now);
+    const int at = found != NULL ? (int)(found - method_list) : 0;
+    return method_list[(at + way + method_count) % method_count].method;
 }
 
 /* Slots of timemask are 8, 16 or 32; switching to it must not fail for a number of taps. */

@@ -42,8 +42,11 @@ void cost_count(const smear_stats *s, double work[COST_WORKS])
         { COST_TIMEMASK, s->tiles[SMEAR_TIMEMASK] + s->tiles[SMEAR_AUTO] },
     };
     enum { METHODS = sizeof method / sizeof *method };
-    const bool is_timed = s->tiles[SMEAR_SUBFRAMES] + s->tiles[SMEAR_TIMEMASK] + s->tiles[SMEAR_AUTO] > 0;
-    const bool is_filtered = s->tiles[SMEAR_RECONSTRUCT] + s->tiles[SMEAR_CAMERA] + s->tiles[SMEAR_PINGPONG] + s->tiles[SMEAR_HALF] > 0;
+    bool is_timed = false, is_filtered = false;
+    for (int m = 0; m < SMEAR_METHOD_COUNT; m++) {
+        is_timed |= smear_method_is_temporal(m) && s->tiles[m] > 0;
+        is_filtered |= smear_method_is_filter(m) && s->tiles[m] > 0;
+    }
     double tiles = 0.0, instants = 1.0;
     if (s->tiles[SMEAR_ACCUMULATE] > 0 && s->pixels > 0)
         instants = (double)s->samples / s->pixels;

@@ -2,6 +2,7 @@
 /* debug.c - see debug.h. */
 #include "tools/view/debug.h"
 
+#include "tools/scenes/methods.h"
 #include "tools/view/wire.h"
 
 #include <math.h>
@@ -143,13 +144,7 @@ static uint32_t kind_color(const struct tile_note *tile)
 
 static uint32_t method_color(const struct tile_note *tile)
 {
-    static const uint32_t color[TILES_METHODS] = {
-        [TILES_NONE] = 0x505050,      [TILES_ACCUMULATE] = 0xffffff, [TILES_RECONSTRUCT] = 0xffe030,
-        [TILES_CAMERA] = 0xff9020,    [TILES_PINGPONG] = 0xb07040,   [TILES_HALF] = 0xff4020,
-        [TILES_SMOOTH] = 0x30d060,    [TILES_SUBFRAMES] = 0x2080ff,  [TILES_TIMEMASK] = 0xc040ff,
-        [TILES_OBJECT] = 0xffb0d8,    [TILES_LAYERED] = 0xff30a0,
-    };
-    return color[tile->method];
+    return method_of((smear_method)tile->method)->tile_color;
 }
 
 static uint32_t samples_color(const struct tile_note *tile)

@@ -2,6 +2,7 @@
 /* overlay.c - see overlay.h. */
 #include "tools/view/overlay.h"
 
+#include "tools/scenes/methods.h"
 #include "tools/view/clock.h"
 #include "tools/view/control.h"
 #include "tools/view/font.h"
@@ -79,22 +80,11 @@ static void add_stages(struct page *p, const struct view *v)
 /* Tiles by the methods that they got. */
 static void add_methods(struct page *p, const smear_stats *s)
 {
-    const struct {
-        const char *name;
-        uint32_t tiles;
-    } list[] = {
-        { "none", s->tiles[SMEAR_NONE] },           { "accumulate", s->tiles[SMEAR_ACCUMULATE] },
-        { "reconstruct", s->tiles[SMEAR_RECONSTRUCT] }, { "camera", s->tiles[SMEAR_CAMERA] },
-        { "pingpong", s->tiles[SMEAR_PINGPONG] },   { "half", s->tiles[SMEAR_HALF] },
-        { "smooth", s->tiles[SMEAR_AUTO] },       { "subframes", s->tiles[SMEAR_SUBFRAMES] },
-        { "timemask", s->tiles[SMEAR_TIMEMASK] },   { "object", s->tiles[SMEAR_OBJECT] },
-        { "layered", s->tiles[SMEAR_LAYERED] },
-    };
     char line[TEXT_COLUMNS + 1] = " ";
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        if (list[i].tiles > 0)
-            snprintf(line + strlen(line), sizeof line - strlen(line), " %s %lu", list[i].name,
-                     (unsigned long)list[i].tiles);
+    for (int i = 0; i < method_count; i++)
+        if (s->tiles[method_list[i].method] > 0)
+            snprintf(line + strlen(line), sizeof line - strlen(line), " %s %lu", method_list[i].tiles,
+                     (unsigned long)s->tiles[method_list[i].method]);
     add(p, "%s", line);
 }
 

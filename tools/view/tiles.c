@@ -24,7 +24,7 @@ void tiles_close(struct tiles *t)
     *t = (struct tiles){ .note = NULL };
 }
 
-static const struct tile_note still = { TILES_NONE, TILES_STILL, 1 };
+static const struct tile_note still = { SMEAR_NONE, TILES_STILL, 1 };
 
 /* The chooser is asked again for what it has said of this tile. */
 static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_travel *tile)
@@ -34,21 +34,17 @@ static struct tile_note temporal_tile(const struct smear_probe *c, const struct 
         return still;
     smear_tile_method_choose(&choice, &c->temporal->chooser, tile);
     if (travel_method(tile) == TILE_SUBFRAMES)
-        return (struct tile_note){ TILES_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
-    return (struct tile_note){ TILES_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
+        return (struct tile_note){ SMEAR_SUBFRAMES, TILES_COMPLEX, (uint16_t)choice.instants };
+    return (struct tile_note){ SMEAR_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.slots };
 }
 
 /* The window that the method filters knows which tiles motion reaches. */
 static struct tile_note filtered_tile(const struct smear_probe *c, int row, int column)
 {
     const uint8_t kind = window_around(c->filtered->window, row)[column].kind;
-    uint8_t method = c->method == SMEAR_CAMERA     ? TILES_CAMERA
-                     : c->method == SMEAR_PINGPONG ? TILES_PINGPONG
-                     : c->method == SMEAR_HALF     ? TILES_HALF
-                                                         : TILES_RECONSTRUCT;
     if (kind == TILE_STATIC)
         return still;
-    return (struct tile_note){ method, kind == TILE_UNIFORM ? TILES_UNIFORM : TILES_COMPLEX,
+    return (struct tile_note){ (uint8_t)c->method, kind == TILE_UNIFORM ? TILES_UNIFORM : TILES_COMPLEX,
                                (uint16_t)(c->samples > 1 ? c->samples : 2) };
 }
 
@@ -59,31 +55,19 @@ static struct tile_note layers_tile(const struct smear_probe *c, int column)
     if (reached == 0)
         return still;
     if ((reached & TILE_LAYERED) == 0)
-        return (struct tile_note){ TILES_OBJECT, TILES_UNIFORM, 2 };
-    return (struct tile_note){ TILES_LAYERED, TILES_COMPLEX, (uint16_t)(c->samples > 1 ? c->samples : 2) };
+        return (struct tile_note){ SMEAR_OBJECT, TILES_UNIFORM, 2 };
+    return (struct tile_note){ SMEAR_LAYERED, TILES_COMPLEX, (uint16_t)(c->samples > 1 ? c->samples : 2) };
 }
 
 static struct tile_note tile_of(const struct smear_probe *c, int row, int column)
 {
-    switch (c->method) {
-    case SMEAR_ACCUMULATE:
-        return (struct tile_note){ TILES_ACCUMULATE, TILES_COMPLEX,
-                                   (uint16_t)(c->samples > 0 ? c->samples : 8) };
-    case SMEAR_RECONSTRUCT:
-    case SMEAR_CAMERA:
-    case SMEAR_PINGPONG:
-    case SMEAR_HALF:
+    if (c->method == SMEAR_ACCUMULATE)
+        return (struct tile_note){ SMEAR_ACCUMULATE, TILES_COMPLEX, (uint16_t)(c->samples > 0 ? c->samples : 8) };
+    if (smear_method_is_filter(c->method))
         return filtered_tile(c, row, column);
-    case SMEAR_SUBFRAMES:
-    case SMEAR_TIMEMASK:
-    case SMEAR_AUTO:
+    if (smear_method_is_temporal(c->method))
         return temporal_tile(c, &c->temporal->moving.travel[column]);
-    case SMEAR_OBJECT:
-    case SMEAR_LAYERED:
-        return layers_tile(c, column);
-    default:
-        return still;
-    }
+    return smear_method_has_layers(c->method) ? layers_tile(c, column) : still;
 }
 
 void tiles_note(struct tiles *t, const smear_context *ctx, const smear_band *band)

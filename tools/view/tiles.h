@@ -9,15 +9,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum tile_method {
-    TILES_NONE, TILES_ACCUMULATE, TILES_RECONSTRUCT, TILES_CAMERA, TILES_PINGPONG, TILES_HALF, TILES_SMOOTH,
-    TILES_SUBFRAMES, TILES_TIMEMASK, TILES_OBJECT, TILES_LAYERED, TILES_METHODS
-};
-
 enum tile_kind { TILES_STILL, TILES_UNIFORM, TILES_COMPLEX, TILES_KINDS };
 
 struct tile_note {
-    uint8_t method;             /* enum tile_method */
+    uint8_t method;             /* smear_method, as in smear_stats.tiles */
     uint8_t kind;               /* enum tile_kind: how what it shows moves */
     uint16_t samples;           /* per pixel, at most: taps, instants or slots; 1: none but the frame itself */
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // app.js - the page begins. begin.js has joined these scripts, in this order:
 //
+//     methods.js    what there is to choose from (written by methods.c)
 //     settings.js   what the user has chosen
 //     engines.js    workers with the module
 //     frames.js     drawn ahead of the one that is shown

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // chart.js - speed against accuracy, with the present setting marked.
 
-const CURVES = [["accumulate", "accumulate: N whole frames", "#a9b2c3"], ["reconstruct", "reconstruct: N taps", "#f0b429"],
-    ["camera", "camera: from depth", "#d8875a"], ["pingpong", "ping-pong: 8 and 8 taps", "#a6d854"], ["half", "half: at half the size", "#e59ad6"],
-    ["object", "object: one velocity each", "#66d9ef"], ["layered", "layered: N taps", "#b79cf0"], ["subframes", "subframes: up to N", "#35c48d"],
-    ["timemask", "timemask: N slots", "#5aa9f5"], ["auto", "auto", "#ff7ab8"]];
+const CURVES = METHODS.filter(m => m.curve).map(m => [m.name, m.curve, m.color]);
 
 const ANY = 3;                          // quality, of methods that have but one
 

@@ -3,20 +3,7 @@
 
 const $ = id => document.getElementById(id);
 
-// samples: of each quality; 0: the method has none to choose.
-const METHODS = [
-    { name: "none", label: "sharp", hint: "One instant. What every small renderer shows.", samples: [0, 0, 0] },
-    { name: "accumulate", label: "accumulate", hint: "The mean of whole sharp frames: what you would write yourself.", samples: [4, 8, 16] },
-    { name: "reconstruct", label: "reconstruct", hint: "The filter of GPU engines: one sharp frame, smeared along its motion.", samples: [4, 8, 16] },
-    { name: "camera", label: "camera", hint: "The camera's motion alone, told from depth: nothing is done per vertex.", samples: [4, 8, 16] },
-    { name: "pingpong", label: "ping-pong", hint: "Few taps, twice over: the second round smooths the first.", samples: [0, 0, 0] },
-    { name: "half", label: "half", hint: "reconstruct at half the size, mixed in by the amount of motion.", samples: [4, 8, 16] },
-    { name: "object", label: "object", hint: "Each moving object along its one velocity, over the still scene: long streaks cost no more.", samples: [0, 0, 0] },
-    { name: "layered", label: "layered", hint: "What moves, by velocities of its pixels, over the still scene.", samples: [4, 8, 16] },
-    { name: "subframes", label: "subframes", hint: "Only tiles in which something moves are drawn at several instants.", samples: [8, 16, 32] },
-    { name: "timemask", label: "timemask", hint: "For each pixel, the time each triangle covers it, in closed form.", samples: [8, 16, 32] },
-    { name: "auto", label: "auto", hint: "Each tile gets the cheapest method that is good enough.", samples: [0, 0, 0] },
-];
+// METHODS, of tools/scenes/methods.c, comes before this.
 const methodNamed = name => METHODS.findIndex(m => m.name === name);
 const QUALITIES = ["draft", "balanced", "fine"];
 const RATES = [10, 15, 30, 60];

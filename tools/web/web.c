@@ -346,6 +346,9 @@ EXPORT(web_stats) void web_stats(void)
     double board_us = shown.core != NULL ? cost_us(shown.core, shown.cpu_hz, s) : 0.0;
     double sharp_us = shown.core != NULL && shown.left.stats.pixels > 0
                           ? cost_us(shown.core, shown.cpu_hz, &shown.left.stats) : 0.0;
+    unsigned long filtered = 0;
+    for (int m = 0; m < SMEAR_METHOD_COUNT; m++)
+        filtered += smear_method_is_filter(m) ? s->tiles[m] : 0;
     snprintf(text, sizeof text,
              "{\"crc\":\"%08lx\",\"us\":%.1f,\"sharp_us\":%.1f,\"board_us\":%.0f,"
              "\"board_sharp_us\":%.0f,\"wire_us\":%.0f,\"in\":%lu,\"drawn\":%lu,\"dropped\":%lu,"
@@ -357,7 +360,7 @@ EXPORT(web_stats) void web_stats(void)
              (unsigned long)s->arena_bytes, shown.main.options.arena, (unsigned long)s->samples,
              (unsigned long)s->tiles[SMEAR_NONE], (unsigned long)s->tiles[SMEAR_AUTO],
              (unsigned long)s->tiles[SMEAR_SUBFRAMES], (unsigned long)s->tiles[SMEAR_TIMEMASK],
-             (unsigned long)(s->tiles[SMEAR_RECONSTRUCT] + s->tiles[SMEAR_CAMERA] + s->tiles[SMEAR_PINGPONG] + s->tiles[SMEAR_HALF]),
+             filtered,
              (unsigned long)s->tiles[SMEAR_OBJECT], (unsigned long)s->tiles[SMEAR_LAYERED]);
 }
 

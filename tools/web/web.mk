@@ -9,7 +9,7 @@ WEB    := build/web
 # What the page needs of the tools, and scenes that are to be looked at in place of all.
 WEB_SRC := tools/web/web.c tools/web/catalog.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
     $(filter-out $(addprefix tools/image/,apng.c interrupt.c metrics.c pfm.c ppm.c),$(IMAGE_SRC)) \
-    $(addprefix tools/scenes/,build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c present_surface.c \
+    $(addprefix tools/scenes/,build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c methods.c model_scene.c present.c present_surface.c \
         scene.c stage.c) \
     $(filter-out $(addprefix tools/cli/,compare.c help.c info.c main.c measure.c render.c view.c) tools/options/sink.c \
         $(addprefix tools/player/,crew.c exact.c memory.c planes.c stats.c),$(CLI_SRC)) \
@@ -34,7 +34,7 @@ $(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.
 
 $(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
 # app.js comes last: it begins.
-WEB_TEXTS := $(addprefix tools/web/,worker.js settings.js engines.js frames.js screen.js controls.js chart.js models.js film.js app.js)
+WEB_TEXTS := tools/web/worker.js $(WEB)/methods.js $(addprefix tools/web/,settings.js engines.js frames.js screen.js controls.js chart.js models.js film.js app.js)
 $(WEB)/texts.joined: $(WEB)/pack $(WEB)/chart.csv $(WEB_TEXTS)
 $(WEB)/%.joined:
 	$(call say,GEN)
@@ -83,6 +83,14 @@ $(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c 
 	$(call say,LD)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+# The list of methods, as the tools have it.
+$(WEB)/methods: $(call objects,tools/web/methods.c tools/scenes/methods.c)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^
+
+$(WEB)/methods.js: $(WEB)/methods
+	$< > $@
 
 # The chart's numbers: those of the last whole `make chart` where there is one, else those that are kept.
 $(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) tools/web/chart.awk

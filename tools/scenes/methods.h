@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* methods.h - the list of methods: what the command line and its help, the viewer, the page and tests know of each. */
+#ifndef SMEAR_TOOLS_METHODS_H
+#define SMEAR_TOOLS_METHODS_H
+
+#include <smear.h>
+#include <stdint.h>
+
+struct method {
+    const char *name;           /* on the command line */
+    smear_method method;
+    const char *help;           /* of the command line, lines with \n between them */
+    const char *tiles;          /* what a tile that got it is called among counts */
+    uint32_t tile_color;        /* and in the viewer, 0xRRGGBB */
+    const char *label, *hint;   /* on the page */
+    uint8_t samples[3];         /* there: of qualities draft, balanced, fine; 0: there are none to choose */
+    const char *curve, *color;  /* in the page's chart */
+};
+
+/* In the order in which they are shown and cycled through. */
+extern const struct method method_list[];
+extern const int method_count;
+
+/* Null when there is none. */
+const struct method *method_named(const char *name);
+const struct method *method_of(smear_method method);
+
+/* "NAME, NAME or NAME" of all, in a text that stays. */
+const char *method_names(void);
+
+#endif
