@@ -25,7 +25,7 @@
 #ifndef SMEAR_WITH_ACCUMULATE
 #define SMEAR_WITH_ACCUMULATE SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, velocities; without it every desc is `sharp` */
+#ifndef SMEAR_WITH_RECONSTRUCT          /* the filter, velocities; without it there is no window */
 #define SMEAR_WITH_RECONSTRUCT SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_FILTERS              /* SMEAR_CAMERA, SMEAR_PINGPONG, SMEAR_HALF, other
@@ -39,7 +39,7 @@
 #define SMEAR_WITH_LAYERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
 #ifndef SMEAR_WITH_SUBFRAMES            /* without it there is nothing that looks at
-                                         * several instants: no desc.timed */
+                                         * several instants: no temporal methods */
 #define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
@@ -76,13 +76,13 @@
 #define SMEAR_WITH_ORTHOGRAPHIC SMEAR_WITH_ALL
 #endif
 
-#ifndef SMEAR_WITH_SCALES               /* turn_scale, way_scale, object_scale */
+#ifndef SMEAR_WITH_SCALES               /* smear_frame.scale */
 #define SMEAR_WITH_SCALES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds */
 #define SMEAR_WITH_BOUNDS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_SHUTTER_MODES        /* shutter_us, and shutters at another rate than the frames' */
+#ifndef SMEAR_WITH_SHUTTER_MODES        /* frame.shutter.us, and shutters at another rate than the frames' */
 #define SMEAR_WITH_SHUTTER_MODES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */

@@ -194,7 +194,7 @@ int smear_model_find_clip(const smear_model *model, const char *name);
 /* ------------------------------------------------------------------ actors */
 
 /* One model in one place, in `poses` poses: 1 for sharp frames; 2 keep the frame before; 3 for
- * smear_frame.shutter_poses. Several actors may share a model. */
+ * smear_frame.shutter.poses. Several actors may share a model. */
 typedef struct smear_actor smear_actor;
 
 typedef enum smear_pose { SMEAR_POSE_NOW, SMEAR_POSE_OPEN, SMEAR_POSE_CLOSE } smear_pose;
