@@ -37,6 +37,7 @@ struct smear_context {
     /* the frame */
     smear_frame frame;              /* defaults filled in */
     struct smear_shot shot;
+    struct smear_sun sun;
     uint32_t frame_number;
     smear_camera kept_camera;
     bool has_kept_camera;
@@ -52,8 +53,8 @@ struct smear_context {
     struct smear_sums sums;
     struct smear_filtered filtered;
     struct smear_temporal temporal;
-    struct smear_damage *damage;    /* null without desc.cache_static and desc.buffer_age */
-    struct smear_layers *layers;    /* null without desc.layers */
+    struct smear_damage *damage;    /* null without desc.reuse */
+    struct smear_layers *layers;    /* null without a method that has layers */
     int32_t filter_row;             /* rows taken by smear_filter_row */
 };
 

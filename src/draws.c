@@ -155,7 +155,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     if (!has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
-                       frame_is_linear(&c->rows.raster));
+                       frame_is_linear(&c->rows.raster), &c->sun);
     assembly_find_flat(a);
     if (!moves)
         return true;
@@ -178,7 +178,7 @@ void smear_draws_find_damage(struct smear_context *c)
     struct smear_damage *d = c->damage;
     if (d == NULL)
         return;
-    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, c->frame.light);
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, c->frame.light_space, &c->sun);
     for (uint32_t i = 0; i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)
             smear_damage_add(d, &c->submitted[i].draw);
@@ -309,6 +309,22 @@ static void cache_free_pool(struct smear_rows *rows)
     rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers);
 }
 
+static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
+{
+    fill->used = max_u32(fill->used, used);
+    fill->room = room;
+}
+
+/* Notes how full the lists of a part of the frame are. */
+static void note_fills(struct smear_context *c)
+{
+    const struct smear_bins *g = &c->rows.bins;
+    note_fill(&c->stats.fill.geometry, 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle),
+              4 * g->pool_words);
+    note_fill(&c->stats.fill.segments, g->segment_count, g->segment_limit);
+    note_fill(&c->stats.fill.draws, c->draw_count, c->desc.max_draws);
+}
+
 /* Begins the lists of rows [top, first), which have been drawn already, and of `first`. */
 static void begin_lists(struct smear_rows *rows, int top, int first)
 {
@@ -339,10 +355,11 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
             end = first + (end - first) / 2;
         else
             ++*top;
-        c->stats.triangles_split++;
+        c->stats.parts_added++;
     }
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
+    note_fills(c);
     begin_lists(&c->rows, *top, first);
-    stage_end(&c->rows, &c->stats.time_submit, start);
+    stage_end(&c->rows, &c->stats.time.submit, start);
     return end;
 }

@@ -127,18 +127,18 @@ static void prepare_stages(struct smear_context *c, bool filters)
     const bool camera_moves = c->shot.camera_moves
                            && !(smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[1])
                                 && smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2]));
-    raster->linear = c->frame.light == SMEAR_LIGHT_LINEAR;
+    raster->linear = c->frame.light_space == SMEAR_LIGHT_LINEAR;
     raster->velocity_scale = c->shot.shutter_poses ? 32768 : c->shot.half_exposure >> 8;
-    raster->inspect_scale = c->shot.shutter_poses ? (int32_t)((360u << 16) / c->frame.shutter_degrees) : 65536;
+    raster->inspect_scale = c->shot.shutter_poses ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
     raster->reach_q3 = rows->window.reach * 8;
-    raster->velocity_from_depth = filters && c->frame.camera_step != 0 && camera_moves && !c->shot.cut;
+    raster->velocity_from_depth = filters && c->frame.filter.camera_step != 0 && camera_moves && !c->shot.cut;
     c->shot.camera_moves = camera_moves;
     rows->clear = c->frame.clear & 0xffffffu;
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
     c->assembler.keep_paths = smear_method_is_temporal(method);
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
-    c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc);
+    c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc, c->filtered.ports != NULL);
 }
 
 static void prepare_methods(struct smear_context *c)
@@ -180,9 +180,9 @@ static void sum_up(struct smear_context *c)
         s->samples += c->rows.samples[i];
     const uint32_t tiles = (uint32_t)(w->columns * ((w->height + w->tile - 1) >> w->tile_shift));
     if (c->frame.method == SMEAR_NONE)
-        s->tiles_none = s->tiles_still = tiles;
+        s->tiles[SMEAR_NONE] = s->tiles_static = tiles;
     else if (c->frame.method == SMEAR_ACCUMULATE)
-        s->tiles_accumulate = s->tiles_complex = tiles;
+        s->tiles[SMEAR_ACCUMULATE] = s->tiles_complex = tiles;
 }
 
 /* What was not compiled in has been refused by smear_begin. */
@@ -207,7 +207,7 @@ int smear_frame_render(struct smear_context *c)
     const int result = render(c);
     smear_jobs_end_frame(&c->rows.jobs);
     sum_up(c);
-    stage_end(&c->rows, &c->stats.time_total, start);
+    stage_end(&c->rows, &c->stats.time.total, start);
     return result;
 }
 

@@ -2,6 +2,8 @@
 /* layout.c - see layout.h. smear_memory.h has the same sum as a constant. */
 #include "layout.h"
 
+#include "smear_memory.h"
+
 #include "display/pixel_format.h"
 #include "layers/layer_gather.h"
 #include "layers/streak.h"
@@ -13,8 +15,8 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_po
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_damage) <= SMEAR_DAMAGE_BYTES, "SMEAR_DAMAGE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= 272, "SMEAR_LAYERS_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= SMEAR_LAYER_BYTES, "SMEAR_LAYER_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
@@ -24,7 +26,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangl
 static uint32_t pool_words(const smear_desc *d)
 {
     const uint32_t least = 64;
-    return max_u32(d->max_triangles * ((is_temporal(d) ? SMEAR_TIMED_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4),
+    return max_u32(d->max_triangles * ((is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4),
                    least);
 }
 
@@ -88,7 +90,7 @@ static void lay_out_filtered(struct smear_filtered *f, struct smear_window *w, s
     lay_out_motion(w, a);
     f->row_offset = arena_take(a, (size_t)(d->tile + 2 * d->reach), sizeof *f->row_offset);
     f->ports = arena_take(a, 1, sizeof *f->ports);
-    for (int i = 0; SMEAR_WITH_FILTERS && i + 1 < d->passes; i++) {
+    for (int i = 0; SMEAR_WITH_FILTERS && i + 1 < d->filter.passes; i++) {
         uint32_t *pass = arena_take(a, plane_of(w), 4);
         if (f->ports != NULL)       /* not only measured */
             f->ports->pass_plane[i] = pass;
@@ -207,10 +209,10 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     lay_out_temporal(c, a, d);
     lay_out_damage(c, a, d);
     lay_out_layers(c, a, d);
-    rows->inspect = SMEAR_WITH_INSPECT && d->inspect != NULL && has_window(d) ? arena_take(a, plane_of(&rows->window), 8)
+    rows->inspect = SMEAR_WITH_INSPECT && d->debug.inspect != NULL && has_window(d) ? arena_take(a, plane_of(&rows->window), 8)
                                                                               : NULL;
-    c->sums.whole = d->accumulate == 1;
-    if (has_sums(d))
+    c->sums.whole = wants(d, SMEAR_SET(SMEAR_ACCUMULATE));
+    if (wants(d, SMEAR_SET_SUMS))
         c->sums.sum = arena_take(a, (size_t)d->width * (size_t)(c->sums.whole ? d->height : row_px(d)),
                                  3 * sizeof *c->sums.sum);
     rows->bands.bytes = smear_format_size(d->width, d->band_rows, (smear_format)d->format);

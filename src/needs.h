@@ -1,21 +1,42 @@
 /* SPDX-License-Identifier: MIT */
-/* needs.h - what a desc asks for, as far as it was compiled in. */
+/* needs.h - what a desc's set of methods needs, as far as it was compiled in. */
 #ifndef SMEAR_NEEDS_H
 #define SMEAR_NEEDS_H
 
 #include "base/base.h"
 #include "smear.h"
 
-static inline bool has_window(const smear_desc *d) { return SMEAR_WITH_RECONSTRUCT && !d->sharp; }
-static inline bool has_half(const smear_desc *d) { return SMEAR_WITH_FILTERS && d->half; }
-static inline bool is_temporal(const smear_desc *d) { return SMEAR_WITH_SUBFRAMES && d->timed; }
-static inline bool has_layers(const smear_desc *d) { return SMEAR_WITH_LAYERS && d->layers; }
-static inline bool has_sums(const smear_desc *d) { return SMEAR_WITH_ACCUMULATE && d->accumulate; }
-static inline bool caches_static(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->cache_static; }
-static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->buffer_age; }
+#define SMEAR_SET_SUMS (SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_ACCUMULATE_BANDS)
+
+/* All methods that were compiled in. */
+enum {
+    SMEAR_SET_COMPILED
+        = (int)(SMEAR_SET(SMEAR_NONE) | (SMEAR_WITH_ACCUMULATE ? SMEAR_SET_SUMS : 0u)
+                | (SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u)
+                | (SMEAR_WITH_FILTERS ? SMEAR_SET_FILTERS : 0u) | (SMEAR_WITH_LAYERS ? SMEAR_SET_LAYERS : 0u)
+                | (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_AUTO) : 0u)
+                | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
+};
+
+/* The desc has a method of the set; false without a look where none was compiled in. */
+static inline bool wants(const smear_desc *d, unsigned set)
+{
+    return (d->methods & (unsigned)SMEAR_SET_COMPILED & set) != 0;
+}
+
+static inline bool has_window(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS); }
+static inline bool is_temporal(const smear_desc *d) { return wants(d, SMEAR_SET_TEMPORAL); }
+static inline bool has_layers(const smear_desc *d) { return wants(d, SMEAR_SET_LAYERS); }
+static inline bool has_half(const smear_desc *d) { return wants(d, SMEAR_SET(SMEAR_HALF)); }
+static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS); }
+static inline bool caches_static(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->reuse.cache_static; }
+static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->reuse.buffer_age; }
 
 /* Rows are drawn a tile at a time; else a band at a time. */
-static inline bool has_tiles(const smear_desc *d) { return has_window(d) || is_temporal(d) || has_layers(d); }
+static inline bool has_tiles(const smear_desc *d)
+{
+    return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL);
+}
 
 /* Pixel rows that are drawn together. */
 static inline int32_t row_px(const smear_desc *d) { return has_tiles(d) ? d->tile : d->band_rows; }

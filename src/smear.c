@@ -35,7 +35,7 @@ size_t smear_memory_size(const smear_desc *desc)
     if (desc == NULL)
         return 0;
     smear_desc d = *desc;
-    if (!smear_resolve_desc(&d))
+    if (smear_resolve_desc(&d) != SMEAR_OK)
         return 0;
     struct smear_context measured;
     struct smear_arena a = { NULL, 0 };
@@ -63,12 +63,13 @@ static void connect(struct smear_context *c)
 
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes)
 {
-    if (ctx == NULL || desc == NULL || desc->flush == NULL)
+    if (ctx == NULL || desc == NULL)
         return SMEAR_ERR_ARG;
     *ctx = NULL;
     smear_desc d = *desc;
-    if (!smear_resolve_desc(&d))
-        return SMEAR_ERR_ARG;
+    const int result = d.flush == NULL ? FAULT(DESC_FLUSH) : smear_resolve_desc(&d);
+    if (result != SMEAR_OK)
+        return result;
     if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_memory_size(desc))
         return SMEAR_ERR_MEMORY;
 
@@ -95,31 +96,31 @@ static int32_t ratio_q24(uint32_t a, uint32_t b)
     return (int32_t)(ratio < (uint64_t)100 << 24 ? ratio : (uint64_t)100 << 24);
 }
 
-/* Half the exposure in frames, q24; brings frame->shutter_degrees up to date. */
+/* Half the exposure in frames, q24; brings f->shutter.degrees up to date. */
 static int32_t half_exposure(smear_frame *f)
 {
     const int32_t whole = 1 << 24, longest = 10 << 24;
     int32_t exposure;
-    if (SMEAR_WITH_SHUTTER_MODES && f->shutter_us != 0) {
-        exposure = ratio_q24(f->shutter_us, f->frame_us);
-        if (f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+    if (SMEAR_WITH_SHUTTER_MODES && f->shutter.us != 0) {
+        exposure = ratio_q24(f->shutter.us, f->shutter.frame_us);
+        if (f->shutter.mode == SMEAR_SHUTTER_CAPPED)
             exposure = min_i32(exposure, whole);
     } else {
         /* Frames in which the shutter is to be as it is in one at the rate of reference. */
         int32_t frames = whole;
-        if (SMEAR_WITH_SHUTTER_MODES && f->shutter_mode != SMEAR_SHUTTER_NATIVE)
-            frames = ratio_q24(1000000, f->reference_hz * f->frame_us);
-        if (SMEAR_WITH_SHUTTER_MODES && f->shutter_mode == SMEAR_SHUTTER_CAPPED)
+        if (SMEAR_WITH_SHUTTER_MODES && f->shutter.mode != SMEAR_SHUTTER_NATIVE)
+            frames = ratio_q24(1000000, f->shutter.reference_hz * f->shutter.frame_us);
+        if (SMEAR_WITH_SHUTTER_MODES && f->shutter.mode == SMEAR_SHUTTER_CAPPED)
             frames = min_i32(frames, whole);
         if (!SMEAR_WITH_SHUTTER_MODES || frames == whole)
-            return (int32_t)(((uint32_t)f->shutter_degrees << 20) / 45u);
+            return (int32_t)(((uint32_t)f->shutter.degrees << 20) / 45u);
         /* 2^32 / 360 = 11930465 */
-        uint64_t degrees = (uint64_t)f->shutter_degrees * (uint32_t)frames;
+        uint64_t degrees = (uint64_t)f->shutter.degrees * (uint32_t)frames;
         degrees = (degrees >> 8) * 11930465u >> 24;
         exposure = (int32_t)(degrees < (uint64_t)longest ? degrees : (uint64_t)longest);
     }
     exposure = clamp_i32(exposure, 2, longest);
-    f->shutter_degrees = (uint16_t)clamp_i32((int32_t)((int64_t)exposure * 360 >> 24), 1, 3600);
+    f->shutter.degrees = (uint16_t)clamp_i32((int32_t)((int64_t)exposure * 360 >> 24), 1, 3600);
     return exposure / 2;
 }
 
@@ -127,30 +128,30 @@ static int32_t half_exposure(smear_frame *f)
 static void set_exposure(struct smear_context *c, smear_frame *f)
 {
     c->shot.half_exposure = half_exposure(f);
-    c->shot.exposure = f->exposure;
-    c->shot.shutter_poses = f->shutter_poses;
+    c->shot.exposure = f->shutter.exposure;
+    c->shot.shutter_poses = f->shutter.poses;
     c->shot.cut = f->cut;
-    c->shot.object_scale = f->object_scale;
+    c->shot.object_scale = f->scale.object;
 }
 
-/* Brings a camera's pose nearer to that of now, or farther: its turn and its way each by their scale. */
+/* Brings a camera's pose nearer to that of now, or farther: its rotation and its translation each by their scale. */
 static void scale_camera(smear_camera *other, const smear_camera *now, const smear_frame *f)
 {
     smear_transform turned;
-    if (f->turn_scale != 256) {
-        smear_arc_between(&turned, &other->pose, &now->pose, -(int32_t)f->turn_scale * (1 << 16));
+    if (f->scale.rotation != 256) {
+        smear_arc_between(&turned, &other->pose, &now->pose, -(int32_t)f->scale.rotation * (1 << 16));
         for (int i = 0; i < 9; i++)
-            other->pose.basis[i] = f->turn_scale == 0 ? now->pose.basis[i] : turned.basis[i];
-        int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->turn_scale >> 8);
+            other->pose.basis[i] = f->scale.rotation == 0 ? now->pose.basis[i] : turned.basis[i];
+        int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->scale.rotation >> 8);
         int64_t half = now->half_height
-                     + (((int64_t)other->half_height - now->half_height) * f->turn_scale >> 8);
+                     + (((int64_t)other->half_height - now->half_height) * f->scale.rotation >> 8);
         other->focal = now->focal > 0 ? max_i32(narrow_sat(focal), 1) : 0;
         other->half_height = now->half_height > 0 ? max_i32(narrow_sat(half), 1) : 0;
     }
-    for (int i = 0; i < 3 && f->way_scale != 256; i++)
+    for (int i = 0; i < 3 && f->scale.translation != 256; i++)
         other->pose.origin[i] = narrow_sat(now->pose.origin[i]
                                            + (((int64_t)other->pose.origin[i] - now->pose.origin[i])
-                                              * f->way_scale >> 8));
+                                              * f->scale.translation >> 8));
 }
 
 /* Copies the frame's layers, or makes the one it has without. */
@@ -171,7 +172,7 @@ static void keep_layers(struct smear_layers *l, const smear_frame *f)
         }
         s->layer.camera = s->layer.open = s->layer.close = NULL;
         s->shutter = s->layer.shutter_degrees != 0
-                   ? (int32_t)(((uint32_t)s->layer.shutter_degrees << 16) / f->shutter_degrees) : 1 << 16;
+                   ? (int32_t)(((uint32_t)s->layer.shutter_degrees << 16) / f->shutter.degrees) : 1 << 16;
     }
 }
 
@@ -182,17 +183,17 @@ static bool same_kind(const smear_camera *a, const smear_camera *b)
 
 /* Finds the cameras of the three poses, of one kind: between a perspective and an orthographic view there is no path, as
  * after a cut. */
-static void find_cameras(struct smear_context *c, const smear_frame *frame, const smear_frame *resolved)
+static void find_cameras(struct smear_context *c, const smear_frame *frame)
 {
     struct smear_shot *shot = &c->shot;
     const smear_camera *now = frame->camera, *close = frame->close != NULL ? frame->close : now, *open = now;
     shot->camera_moves = true;
     if (frame->open != NULL)
         open = frame->open;
-    else if (c->has_kept_camera && !frame->shutter_poses)
+    else if (c->has_kept_camera && !frame->shutter.poses)
         open = &c->kept_camera;
     else
-        shot->camera_moves = frame->shutter_poses && frame->close != NULL;
+        shot->camera_moves = frame->shutter.poses && frame->close != NULL;
     if (!same_kind(open, now) || !same_kind(close, now)) {
         shot->camera_moves = false;
         open = close = now;
@@ -201,31 +202,50 @@ static void find_cameras(struct smear_context *c, const smear_frame *frame, cons
     shot->camera[1] = *open;
     shot->camera[2] = *close;
     if (SMEAR_WITH_SCALES) {
-        scale_camera(&shot->camera[1], now, resolved);
-        scale_camera(&shot->camera[2], now, resolved);
+        scale_camera(&shot->camera[1], now, frame);
+        scale_camera(&shot->camera[2], now, frame);
     }
     c->kept_camera = *now;
     c->has_kept_camera = true;
 }
 
+/* Validates a frame and fills in its defaults. */
+static int resolve(struct smear_context *c, smear_frame *f)
+{
+    int result = smear_check_cameras(f);
+    if (result == SMEAR_OK)
+        result = smear_resolve_frame(f, &c->desc);
+    if (result == SMEAR_OK)
+        result = smear_check_layers(f);
+    if (result == SMEAR_OK && SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f->shutter.curve))
+        result = FAULT(FRAME_CURVE);
+    return result;
+}
+
+/* Keeps a frame whose pointers have been followed. */
+static void keep_frame(struct smear_context *c, const smear_frame *f)
+{
+    c->frame = *f;
+    c->frame.camera = c->frame.open = c->frame.close = NULL;
+    c->frame.shutter.curve = NULL;
+    c->frame.light = NULL;
+    c->frame.layer = NULL;
+}
+
 int smear_begin(smear_context *c, const smear_frame *frame)
 {
-    if (c == NULL || frame == NULL || frame->camera == NULL || !smear_is_camera(frame->camera)
-        || (frame->open != NULL && !smear_is_camera(frame->open))
-        || (frame->close != NULL && !smear_is_camera(frame->close)))
+    if (c == NULL || frame == NULL)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!smear_resolve_frame(&f, &c->desc) || !smear_are_layers(&f)
-        || (SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f.shutter)))
-        return SMEAR_ERR_ARG;
+    const int result = resolve(c, &f);
+    if (result != SMEAR_OK)
+        return result;
     if (SMEAR_WITH_LAYERS && smear_method_has_layers(f.method))
         keep_layers(c->layers, &f);
-    f.layer = NULL;
-    find_cameras(c, frame, &f);
+    find_cameras(c, &f);
     set_exposure(c, &f);
-    f.camera = f.open = f.close = NULL;
-    f.shutter = NULL;
-    c->frame = f;
+    smear_sun_make(&c->sun, f.light);
+    keep_frame(c, &f);
     c->frame_number++;
     c->draw_count = 0;
     c->state = STATE_BEGUN;
@@ -265,6 +285,20 @@ static void keep_pose(struct smear_context *c, struct smear_submitted *s)
     k->pose = s->pose[0];
 }
 
+/* An id may be submitted once in a frame. */
+static bool is_submitted(struct smear_context *c, uint32_t id)
+{
+    if (!SMEAR_WITH_IDS || id == 0)
+        return false;
+    const int32_t at = find_kept(c, id);
+    if (at >= 0)
+        return c->kept[at].id == id && c->kept[at].frame == c->frame_number;
+    for (uint32_t i = 0; i < c->draw_count; i++)        /* there was no room to keep it */
+        if (c->submitted[i].draw.id == id)
+            return true;
+    return false;
+}
+
 /* Copies a pose of the application's to where the draw has its own; null stays null. */
 static void copy_pose(const smear_transform **given, smear_transform *own)
 {
@@ -277,10 +311,15 @@ static void copy_pose(const smear_transform **given, smear_transform *own)
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
-    if (c == NULL || draw == NULL || !smear_is_draw(draw))
+    if (c == NULL || draw == NULL)
         return SMEAR_ERR_ARG;
+    const int result = smear_check_draw(draw);
+    if (result != SMEAR_OK)
+        return result;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
+    if (is_submitted(c, draw->id))
+        return FAULT(DRAW_ID);
     if (c->draw_count == c->desc.max_draws)
         return SMEAR_ERR_FULL;
     struct smear_submitted *s = &c->submitted[c->draw_count++];
@@ -332,20 +371,24 @@ struct smear_probe smear_probe(const smear_context *c)
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || frame == NULL || frame->camera == NULL
-        || frame->camera->near_plane <= 0)
+    if (!SMEAR_WITH_FILTER_ALONE || c == NULL || frame == NULL)
         return SMEAR_ERR_ARG;
     smear_frame f = *frame;
-    if (!smear_resolve_frame(&f, &c->desc) || !smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA
-        || c->desc.workers > 1)
-        return SMEAR_ERR_ARG;
-    f.shutter_poses = 0;
-    c->shot.camera[0] = *frame->camera;
+    if (f.camera == NULL || f.camera->near_plane <= 0)
+        return FAULT(FRAME_CAMERA);
+    const int result = smear_resolve_frame(&f, &c->desc);
+    if (result != SMEAR_OK)
+        return result;
+    if (!smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA)
+        return FAULT(FRAME_METHOD);
+    if (c->desc.workers > 1)
+        return FAULT(DESC_WORKERS);
+    f.shutter.poses = 0;
+    c->shot.camera[0] = *f.camera;
     c->shot.camera[0].half_height = 0;
     c->shot.camera_moves = false;
     set_exposure(c, &f);
-    f.camera = f.open = f.close = NULL;
-    c->frame = f;
+    keep_frame(c, &f);
     c->state = STATE_FILTER;
     smear_frame_filter_begin(c);
     return SMEAR_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* validate.c - see validate.h. */
+/* validate.c - see validate.h. Single fields go by tables of ranges; what depends on several has a function each. */
 #include "validate.h"
+
+#include "smear_memory.h"
 
 #include "display/pixel_format.h"
 #include "methods/accumulate.h"
@@ -9,90 +11,287 @@
 #include "temporal/subframes.h"
 #include "temporal/tile_method.h"
 
-/* ------------------------------------------------------------------ desc */
+/* ------------------------------------------------------------------ ranges */
+
+/* A field of a struct: what 0 means, and its range. */
+struct field {
+    uint8_t offset, size;           /* size 1, 2 or 4 */
+    uint8_t fault;
+    uint8_t least;
+    uint16_t otherwise;
+    uint32_t most;
+};
+
+#define FIELD(type, member, fault, otherwise, least, most) \
+    { (uint8_t)offsetof(type, member), sizeof(((type *)0)->member), FAULT_NUMBER_##fault, least, otherwise, most }
+
+static uint32_t read_field(const uint8_t *at, int size)
+{
+    uint32_t value = 0;
+    if (size == 1)
+        return *at;
+    if (size == 4) {
+        __builtin_memcpy(&value, at, 4);
+        return value;
+    }
+    uint16_t narrow;
+    __builtin_memcpy(&narrow, at, 2);
+    return narrow;
+}
+
+static void write_field(uint8_t *at, int size, uint32_t value)
+{
+    const uint16_t narrow = (uint16_t)value;
+    if (size == 1)
+        *at = (uint8_t)value;
+    else
+        __builtin_memcpy(at, size == 2 ? (const void *)&narrow : (const void *)&value, (size_t)size);
+}
+
+/* Fills in what 0 means; returns SMEAR_OK or the first field that is out of range. Negative values are out of every
+ * range. */
+static int resolve_fields(void *record, const struct field *field, int count)
+{
+    for (int i = 0; i < count; i++, field++) {
+        uint8_t *at = (uint8_t *)record + field->offset;
+        uint32_t value = read_field(at, field->size);
+        if (value == 0 && field->otherwise != 0) {
+            value = field->otherwise;
+            write_field(at, field->size, value);
+        }
+        if (value < field->least || value > field->most)
+            return SMEAR_ERR_FIELD - 1 - field->fault;
+    }
+    return SMEAR_OK;
+}
 
 static bool is_power_of_two(uint32_t x)
 {
     return x != 0 && (x & (x - 1)) == 0;
 }
 
-/* What was compiled in (smear_config.h). */
-static bool has_method(int method)
+/* ------------------------------------------------------------------ desc */
+
+#define DESC(member, fault, otherwise, least, most) FIELD(smear_desc, member, DESC_##fault, otherwise, least, most)
+static const struct field desc_fields[] = {
+    DESC(width, WIDTH, 0, 1, 2048), DESC(height, HEIGHT, 0, 1, 2048),
+    DESC(max_triangles, TRIANGLES, 1024, 1, 16u << 20), DESC(max_draws, DRAWS, 16, 1, 65535),
+    DESC(bands, BANDS, 1, 1, 2), DESC(format, FORMAT, 0, 0, SMEAR_L1_PAGES),
+    DESC(workers, WORKERS, 1, 1, SMEAR_WORKERS_MAX), DESC(vertex_cache, VERTEX_CACHE, 64, 16, 4096),
+    DESC(reuse.cache_static, CACHE_STATIC, 0, 0, SMEAR_WITH_DAMAGE ? 1 : 0),
+    DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_WITH_DAMAGE ? 7 : 0),
+    DESC(filter.passes, PASSES, 0, 0, SMEAR_WITH_FILTERS ? PINGPONG_PASSES_MAX : 1),
+    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_WITH_FILTERS ? 1 : 0), DESC(dither, DITHER, 0, 0, SMEAR_DITHER_BLUE)
+};
+#undef DESC
+
+static int resolve_methods(smear_desc *d)
 {
-    return method == SMEAR_ACCUMULATE         ? SMEAR_WITH_ACCUMULATE
-         : method == SMEAR_RECONSTRUCT        ? SMEAR_WITH_RECONSTRUCT
-         : method == SMEAR_TIMEMASK           ? SMEAR_WITH_TIMEMASK
-         : smear_method_is_temporal(method)      ? SMEAR_WITH_SUBFRAMES
-         : smear_method_has_layers(method) ? SMEAR_WITH_LAYERS
-         : smear_method_is_filter(method)     ? SMEAR_WITH_FILTERS
-                                              : true;
+    if (d->methods == 0)
+        d->methods = SMEAR_SET(SMEAR_AUTO);
+    if ((d->methods & ~(unsigned)SMEAR_SET_COMPILED) != 0)
+        return FAULT(DESC_METHODS);
+    if (d->debug.inspect != NULL && !SMEAR_WITH_INSPECT)
+        return FAULT(DESC_INSPECT);
+    if (!is_temporal(d) && (d->reuse.cache_static || d->reuse.buffer_age))
+        return d->reuse.cache_static ? FAULT(DESC_CACHE_STATIC) : FAULT(DESC_BUFFER_AGE);
+    if (d->filter.scatter
+        && (!has_window(d) || wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_PINGPONG) | SMEAR_SET(SMEAR_HALF))))
+        return FAULT(DESC_SCATTER);
+    if (d->filter.passes == 0)
+        d->filter.passes = wants(d, SMEAR_SET(SMEAR_PINGPONG)) ? 2 : 1;
+    return d->filter.passes > 1 && !has_window(d) ? FAULT(DESC_PASSES) : SMEAR_OK;
 }
 
-/* Fills in defaults; false when something is out of range. */
-bool smear_resolve_desc(smear_desc *d)
+/* Returns the smallest usual tile that is not below `px`. */
+static int32_t tile_above(int32_t px)
 {
-    if ((d->timed && !SMEAR_WITH_SUBFRAMES) || (d->accumulate && !SMEAR_WITH_ACCUMULATE) || d->accumulate > 2
-        || (d->inspect != NULL && !SMEAR_WITH_INSPECT) || (d->layers && !SMEAR_WITH_LAYERS)
-        || ((d->passes > 1 || d->half || d->scatter) && !SMEAR_WITH_FILTERS))
-        return false;
-    /* Asked for, not as it turns out: the picture depends on the tile. */
-    const bool has_reach = !is_temporal(d) || !d->sharp;
-    if (!SMEAR_WITH_RECONSTRUCT)
-        d->sharp = 1;
-    if (d->width < 1 || d->width > 2048 || d->height < 1 || d->height > 2048)
-        return false;
-    if (d->scatter > 1 || (d->scatter && (d->sharp || d->timed || d->half || d->passes > 1)))
-        return false;
-    if (d->reach == 0)
+    return px <= 8 ? 8 : px <= 16 ? 16 : px <= 32 ? 32 : 64;
+}
+
+static int resolve_tile(smear_desc *d)
+{
+    const bool reaches = has_reach(d);
+    if (!reaches)
+        d->reach = 0;
+    else if (d->reach == 0)
         d->reach = (int16_t)clamp_i32(d->height * 5 / 100, 1, 64);
-    if (d->reach < 1 || d->reach > 64)
-        return false;
+    if (d->reach < 0 || d->reach > 64)
+        return FAULT(DESC_REACH);
     if (d->tile == 0)
-        d->tile = (int16_t)(!has_reach ? 32
-                          : d->reach <= 8 ? 8 : d->reach <= 16 ? 16 : d->reach <= 32 ? 32 : 64);
-    if (!is_power_of_two((uint32_t)d->tile) || d->tile < 4 || d->tile > 64
-        || (d->tile < d->reach && !d->scatter))
-        return false;
-    if (d->tile == 4 && (d->scatter || d->half || is_temporal(d) || has_layers(d)))
-        return false;
+        d->tile = (int16_t)(reaches ? tile_above(d->reach) : min_i32(tile_above((d->width + 19) / 20), 32));
+    const bool may_be_4 = !d->filter.scatter && !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
+    if (!is_power_of_two((uint32_t)d->tile) || d->tile < (may_be_4 ? 4 : 8) || d->tile > 64
+        || (d->tile < d->reach && !d->filter.scatter))
+        return FAULT(DESC_TILE);
+    return SMEAR_OK;
+}
+
+/* Bands and strips are measured in tiles. */
+static int resolve_bands(smear_desc *d)
+{
     if (d->band_rows == 0)
         d->band_rows = d->tile;
-    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0))
-        return false;
-    /* Tiles may be finished in strips, by filters that read the window alone. */
-    if (has_tiles(d) && d->band_rows != d->tile
-        && (d->tile % d->band_rows != 0 || is_temporal(d) || has_layers(d) || d->half))
-        return false;
-    if (SMEAR_WITH_SUBFRAMES && (d->cache_static || d->buffer_age)
-        && (!SMEAR_WITH_DAMAGE || !d->timed || d->cache_static > 1 || d->buffer_age > 7))
-        return false;
-    if (d->bands == 0)
-        d->bands = 1;
-    if (d->workers == 0)
-        d->workers = 1;
-    if (d->strip == 0 || !is_temporal(d))
-        d->strip = (int16_t)max_i32(d->tile, is_temporal(d) ? SMEAR_STRIP : 0);
-    if (d->strip % d->tile != 0 || d->strip > STRIP_TILES_MAX * d->tile)
-        return false;
+    /* Tiles may be finished in several bands by filters that read the window alone. */
+    const bool may_divide = !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
+    if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0)
+        || (has_tiles(d) && d->band_rows != d->tile && (!may_divide || d->tile % d->band_rows != 0)))
+        return FAULT(DESC_BAND_ROWS);
+    if (!is_temporal(d))
+        d->strip = d->tile;
+    else if (d->strip == 0)
+        d->strip = (int16_t)max_i32(d->tile, min_i32(8 * d->tile, SMEAR_STRIP));
+    if (d->strip < d->tile || d->strip % d->tile != 0 || d->strip > STRIP_TILES_MAX * d->tile)
+        return FAULT(DESC_STRIP);
     d->strip = (int16_t)min_i32(d->strip, (d->width + d->tile - 1) / d->tile * d->tile);
-    if (d->max_draws == 0)
-        d->max_draws = 16;
-    if (d->max_triangles == 0)
-        d->max_triangles = 1024;
-    if (d->passes == 0)
-        d->passes = 1;
-    if (d->vertex_cache == 0)
-        d->vertex_cache = 64;
-    if (d->passes > PINGPONG_PASSES_MAX || d->half > 1 || ((d->passes > 1 || d->half) && !has_window(d)))
-        return false;
-    return d->bands <= 2 && d->workers <= SMEAR_WORKERS_MAX && smear_format_has(d->format, d->dither)
-        && d->max_triangles <= 16u << 20
-        && is_power_of_two(d->vertex_cache) && d->vertex_cache >= 16 && d->vertex_cache <= 4096;
+    return SMEAR_OK;
+}
+
+int smear_resolve_desc(smear_desc *d)
+{
+    int result = resolve_fields(d, desc_fields, (int)(sizeof desc_fields / sizeof *desc_fields));
+    if (result == SMEAR_OK)
+        result = resolve_methods(d);
+    if (result == SMEAR_OK)
+        result = resolve_tile(d);
+    if (result == SMEAR_OK)
+        result = resolve_bands(d);
+    if (result != SMEAR_OK)
+        return result;
+    if (!is_power_of_two(d->vertex_cache))
+        return FAULT(DESC_VERTEX_CACHE);
+    if (!smear_format_has(d->format, SMEAR_DITHER_NONE))
+        return FAULT(DESC_FORMAT);
+    return smear_format_has(d->format, d->dither) ? SMEAR_OK : FAULT(DESC_DITHER);
 }
 
 /* ------------------------------------------------------------------ frame */
 
-bool smear_is_camera(const smear_camera *c)
+/* Scales as they are used, once SMEAR_SCALE_NONE has become 0. */
+enum { SCALE_MOST = SMEAR_WITH_SCALES ? 16128 : 256 };
+
+#define FRAME(member, fault, otherwise, least, most) FIELD(smear_frame, member, FRAME_##fault, otherwise, least, most)
+static const struct field frame_fields[] = {
+    FRAME(method, METHOD, 0, 0, SMEAR_METHOD_COUNT - 1),
+    FRAME(light_space, LIGHT_SPACE, 0, SMEAR_WITH_LINEAR ? 0 : SMEAR_LIGHT_ENCODED, SMEAR_LIGHT_ENCODED),
+    FRAME(samples, SAMPLES, 0, 0, 1024), FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
+    FRAME(shutter.exposure, EXPOSURE, 0, 0, SMEAR_LEADING),
+    FRAME(shutter.mode, MODE, 0, 0, SMEAR_WITH_SHUTTER_MODES ? SMEAR_SHUTTER_FIXED : SMEAR_SHUTTER_NATIVE),
+    FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
+    FRAME(shutter.us, US, 0, 0, SMEAR_WITH_SHUTTER_MODES ? UINT32_MAX : 0),
+    FRAME(filter.kind, KIND, 0, 0, SMEAR_FILTER_PINGPONG),
+    FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WITH_FILTERS ? SMEAR_WEIGHTS_JIMENEZ : SMEAR_WEIGHTS_STACK),
+    FRAME(filter.camera_step, STEP, 0, 0, SMEAR_WITH_FILTERS ? 4 : 0),
+    FRAME(filter.pingpong.passes, PASSES, 2, 1, PINGPONG_PASSES_MAX), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
+    FRAME(filter.pingpong.base, BASE, 0, 0, 64), FRAME(filter.pingpong.jitter, JITTER, 0, 0, 128),
+    FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1)
+};
+static const struct field scale_fields[] = {
+    FRAME(scale.rotation, ROTATION, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST),
+    FRAME(scale.translation, TRANSLATION, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST),
+    FRAME(scale.object, OBJECT, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST)
+};
+#undef FRAME
+
+/* SMEAR_SCALE_NONE, a number that means nothing, becomes 0 after 0 has become 256. */
+static int resolve_scales(smear_frame *f)
+{
+    uint16_t *scale[] = { &f->scale.rotation, &f->scale.translation, &f->scale.object };
+    bool none[3];
+    for (int i = 0; i < 3; i++) {
+        none[i] = SMEAR_WITH_SCALES && *scale[i] == SMEAR_SCALE_NONE;
+        if (none[i])
+            *scale[i] = 0;
+    }
+    const int result = resolve_fields(f, scale_fields, 3);
+    for (int i = 0; i < 3; i++)
+        if (none[i])
+            *scale[i] = 0;
+    return result;
+}
+
+/* Returns the method that a desc has by default. */
+static uint8_t default_method(const smear_desc *d)
+{
+    const unsigned set = d->methods & ~SMEAR_SET(SMEAR_NONE);
+    if (wants(d, SMEAR_SET(SMEAR_AUTO)))
+        return SMEAR_AUTO;
+    for (int method = SMEAR_ACCUMULATE; method < SMEAR_METHOD_COUNT; method++)
+        if ((set & SMEAR_SET(method)) != 0 || (method == SMEAR_ACCUMULATE && (set & SMEAR_SET_ACCUMULATE_BANDS) != 0))
+            return (uint8_t)method;
+    return SMEAR_NONE;
+}
+
+static bool is_one_bit(uint8_t format)
+{
+    return format == SMEAR_L1 || format == SMEAR_L1_PAGES;
+}
+
+static int resolve_method(smear_frame *f, const smear_desc *d)
+{
+    if (f->method == SMEAR_DEFAULT_METHOD)
+        f->method = default_method(d);
+    const bool sums = f->method == SMEAR_ACCUMULATE;
+    if (f->method != SMEAR_NONE && !wants(d, sums ? SMEAR_SET_SUMS : SMEAR_SET(f->method)))
+        return FAULT(FRAME_METHOD);
+    if (f->samples == 0)
+        f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
+    if ((sums && f->samples > SUM_SAMPLES_MAX)
+        || (!SMEAR_WITH_LINEAR && f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_PACKED_INSTANTS))
+        return FAULT(FRAME_SAMPLES);
+    /* Steps of so few greys hide an error of several codes. */
+    if (f->target == 0)
+        f->target = d->format == SMEAR_L4 || is_one_bit(d->format) ? SMEAR_DRAFT : SMEAR_BALANCED;
+    return SMEAR_OK;
+}
+
+static int resolve_filter(smear_frame *f, const smear_desc *d)
+{
+    smear_filter *filter = &f->filter;
+    smear_pingpong *p = &filter->pingpong;
+    if (f->method == SMEAR_CAMERA && filter->camera_step == 0)
+        filter->camera_step = 1;
+    if (filter->camera_step == 3)
+        return FAULT(FRAME_STEP);
+    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS
+        || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))
+        filter->kind = SMEAR_FILTER_RECONSTRUCT;
+    else if (f->method == SMEAR_PINGPONG)
+        filter->kind = SMEAR_FILTER_PINGPONG;
+    else if (filter->kind == SMEAR_FILTER_DEFAULT)
+        filter->kind = SMEAR_FILTER_MEAN;
+    if (p->base == 0)
+        p->base = p->taps;
+    if (p->bias == 0)
+        p->bias = p->spread ? 16 : 255;     /* what is nearest to the truth over the suite */
+    if (p->base < 2)
+        return FAULT(FRAME_BASE);
+    if (!smear_method_is_filter(f->method) || filter->kind != SMEAR_FILTER_PINGPONG)
+        return SMEAR_OK;
+    if (!wants(d, SMEAR_SET(SMEAR_PINGPONG)))
+        return FAULT(FRAME_KIND);
+    return p->passes > d->filter.passes ? FAULT(FRAME_PASSES) : SMEAR_OK;
+}
+
+int smear_resolve_frame(smear_frame *f, const smear_desc *d)
+{
+    int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
+    if (result == SMEAR_OK)
+        result = resolve_scales(f);
+    if (result == SMEAR_OK)
+        result = resolve_method(f, d);
+    if (result == SMEAR_OK)
+        result = resolve_filter(f, d);
+    if (result != SMEAR_OK)
+        return result;
+    if (f->shutter.frame_us == 0 && (f->shutter.mode != SMEAR_SHUTTER_NATIVE || f->shutter.us != 0))
+        return FAULT(FRAME_TIME);
+    const smear_light *light = f->light;
+    return light != NULL && (light->direction[0] | light->direction[1] | light->direction[2]) == 0 ? FAULT(FRAME_LIGHT)
+                                                                                                   : SMEAR_OK;
+}
+
+static bool is_camera(const smear_camera *c)
 {
     for (int i = 0; i < 9; i++)
         if (c->pose.basis[i] > 2 * SMEAR_BASIS_ONE || c->pose.basis[i] < -2 * SMEAR_BASIS_ONE)
@@ -103,79 +302,15 @@ bool smear_is_camera(const smear_camera *c)
                                                          : c->half_height == 0 && c->focal > 0;
 }
 
-/* A scale of motion as it is used. False when out of range, or left out. */
-static bool resolve_scale(uint16_t *scale)
-{
-    if (*scale == 0)
-        *scale = 256;
-    else if (*scale == SMEAR_SCALE_NONE)
-        *scale = 0;
-    return SMEAR_WITH_SCALES ? *scale <= 16128 : *scale == 256;
-}
+static bool is_camera_or_null(const smear_camera *c) { return c == NULL || is_camera(c); }
 
-static bool is_one_bit(uint8_t format)
+int smear_check_cameras(const smear_frame *f)
 {
-    return format == SMEAR_L1 || format == SMEAR_L1_PAGES;
-}
-
-/* Defaults of a frame; false when something is out of range. */
-bool smear_resolve_frame(smear_frame *f, const smear_desc *desc)
-{
-    if (f->method == SMEAR_DEFAULT_METHOD)
-        f->method = desc->timed                            ? SMEAR_AUTO
-                  : desc->sharp || !SMEAR_WITH_RECONSTRUCT ? SMEAR_NONE
-                                                             : SMEAR_RECONSTRUCT;
-    if (f->samples == 0)
-        f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
-    /* Steps of so few greys hide an error of several codes. */
-    if (f->target == 0)
-        f->target = desc->format == SMEAR_L4 || is_one_bit(desc->format) ? SMEAR_DRAFT : SMEAR_BALANCED;
-    if (f->shutter_degrees == 0)
-        f->shutter_degrees = 180;
-    if (SMEAR_WITH_FILTERS && f->method == SMEAR_CAMERA && f->camera_step == 0)
-        f->camera_step = 1;
-    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS
-        || (f->method == SMEAR_HALF && f->filter == SMEAR_FILTER_DEFAULT))
-        f->filter = SMEAR_FILTER_RECONSTRUCT;
-    else if (f->method == SMEAR_PINGPONG)
-        f->filter = SMEAR_FILTER_PINGPONG;
-    else if (f->filter == SMEAR_FILTER_DEFAULT)
-        f->filter = SMEAR_FILTER_MEAN;
-    if (SMEAR_WITH_FILTERS
-        && (f->filter > SMEAR_FILTER_PINGPONG || f->weights > SMEAR_WEIGHTS_JIMENEZ
-            || (f->camera_step & (f->camera_step - 1)) != 0 || f->camera_step > 4))
-        return false;
-    if (f->method > SMEAR_LAYERED || !has_method(f->method) || f->exposure > SMEAR_LEADING
-        || f->light > SMEAR_LIGHT_ENCODED || (f->light == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
-        || f->samples > 1024 || f->shutter_degrees > 3600
-        || (!SMEAR_WITH_LINEAR && f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_PACKED_INSTANTS))
-        return false;
-    if (!SMEAR_WITH_FILTERS && (f->camera_step != 0 || f->weights != 0))
-        return false;
-    if (SMEAR_WITH_FILTERS && !smear_pingpong_resolve(&f->pingpong))
-        return false;
-    if (SMEAR_WITH_SHUTTER_MODES && f->reference_hz == 0)
-        f->reference_hz = 30;
-    if (!SMEAR_WITH_SHUTTER_MODES && (f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0))
-        return false;
-    if (SMEAR_WITH_SHUTTER_MODES
-        && (f->shutter_mode > SMEAR_SHUTTER_FIXED || f->reference_hz > 1000 || f->frame_us > 1000000
-            || ((f->shutter_mode != SMEAR_SHUTTER_NATIVE || f->shutter_us != 0) && f->frame_us == 0)))
-        return false;
-    if (!resolve_scale(&f->turn_scale) || !resolve_scale(&f->way_scale) || !resolve_scale(&f->object_scale))
-        return false;
-    if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(f->method) && desc->sharp)
-        return false;
-    if (SMEAR_WITH_FILTERS && smear_method_is_filter(f->method) && f->filter == SMEAR_FILTER_PINGPONG
-        && f->pingpong.passes > desc->passes)
-        return false;
-    if (SMEAR_WITH_FILTERS && f->method == SMEAR_HALF && !desc->half)
-        return false;
-    if (SMEAR_WITH_LAYERS && smear_method_has_layers(f->method) && !desc->layers)
-        return false;
-    if (SMEAR_WITH_SUBFRAMES && smear_method_is_temporal(f->method) && !desc->timed)
-        return false;
-    return f->method != SMEAR_ACCUMULATE || (desc->accumulate != 0 && f->samples <= SUM_SAMPLES_MAX);
+    if (f->camera == NULL || !is_camera(f->camera))
+        return FAULT(FRAME_CAMERA);
+    if (!is_camera_or_null(f->open))
+        return FAULT(FRAME_OPEN);
+    return is_camera_or_null(f->close) ? SMEAR_OK : FAULT(FRAME_CLOSE);
 }
 
 static bool is_layer(const smear_layer *l)
@@ -183,20 +318,17 @@ static bool is_layer(const smear_layer *l)
     return l->mask != 0 && (l->method == 0 || l->method == SMEAR_NONE || smear_method_has_layers(l->method))
         && l->shutter_degrees <= 3600
         && (l->camera == NULL ? l->open == NULL && l->close == NULL
-                              : smear_is_camera(l->camera) && (l->open == NULL || smear_is_camera(l->open))
-                                    && (l->close == NULL || smear_is_camera(l->close)));
+                              : is_camera(l->camera) && is_camera_or_null(l->open) && is_camera_or_null(l->close));
 }
 
-bool smear_are_layers(const smear_frame *f)
+int smear_check_layers(const smear_frame *f)
 {
-    if (!SMEAR_WITH_LAYERS)
-        return f->layer == NULL && f->layer_count == 0;
-    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MAX)
-        return false;
+    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > (SMEAR_WITH_LAYERS ? SMEAR_LAYERS_MAX : 0))
+        return FAULT(FRAME_LAYER);
     for (int i = 0; i < f->layer_count; i++)
         if (!is_layer(&f->layer[i]))
-            return false;
-    return true;
+            return FAULT(FRAME_LAYER);
+    return SMEAR_OK;
 }
 
 /* ------------------------------------------------------------------ draw */
@@ -221,19 +353,25 @@ static bool is_mesh(const smear_mesh *m)
     return true;
 }
 
-bool smear_is_draw(const smear_draw *draw)
+static bool is_material(const smear_material *m)
 {
-    const smear_material *m = draw->material;
-    if (!is_mesh(draw->mesh) || draw->motion > SMEAR_MOTION_NONE
-        || draw->billboard > (SMEAR_WITH_BILLBOARDS ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_NONE))
-        return false;
-    if ((!SMEAR_WITH_IDS && draw->id != 0)
-        || (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
-        || (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL)))
-        return false;
-    if (m != NULL
-        && (m->alpha > (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE)
-            || (m->texture != NULL && !is_texture(m->texture)) || (m->bilinear && !SMEAR_WITH_BILINEAR)))
-        return false;
-    return true;
+    return m->alpha <= (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) && (m->texture == NULL || is_texture(m->texture))
+        && (SMEAR_WITH_BILINEAR || !m->bilinear);
+}
+
+int smear_check_draw(const smear_draw *draw)
+{
+    if (!is_mesh(draw->mesh))
+        return FAULT(DRAW_MESH);
+    if (draw->motion > SMEAR_MOTION_NONE)
+        return FAULT(DRAW_MOTION);
+    if (draw->billboard > (SMEAR_WITH_BILLBOARDS ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_NONE))
+        return FAULT(DRAW_BILLBOARD);
+    if (!SMEAR_WITH_IDS && draw->id != 0)
+        return FAULT(DRAW_ID);
+    if (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+        return FAULT(DRAW_MESH_COLORS);
+    if (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL))
+        return FAULT(DRAW_POSITION);
+    return draw->material == NULL || is_material(draw->material) ? SMEAR_OK : FAULT(DRAW_MATERIAL);
 }

@@ -4,14 +4,15 @@
 #define SMEAR_VALIDATE_H
 
 #include "base/base.h"
-#include "smear.h"
+#include "faults.h"
 
-/* Fill in defaults; false when something is out of range, or was not compiled in. */
-bool smear_resolve_desc(smear_desc *d);
-bool smear_resolve_frame(smear_frame *f, const smear_desc *desc);
+/* Fill in defaults. They return SMEAR_OK, or the number of the field that is out of range or was not compiled in. */
+int smear_resolve_desc(smear_desc *d);
+int smear_resolve_frame(smear_frame *f, const smear_desc *d);
 
-bool smear_is_camera(const smear_camera *c);
-bool smear_are_layers(const smear_frame *f);
-bool smear_is_draw(const smear_draw *draw);
+/* Return SMEAR_OK or the number of what is wrong. */
+int smear_check_cameras(const smear_frame *f);
+int smear_check_layers(const smear_frame *f);
+int smear_check_draw(const smear_draw *draw);
 
 #endif

@@ -54,7 +54,7 @@ int smear_band_flush(const struct row_job *r)
         .pixels = pixels, .x = (int16_t)x, .y = (int16_t)y, .width = (int16_t)width, .height = (int16_t)height,
         .stride = smear_format_stride(width, format), .size = smear_format_size(width, height, format)
     };
-    if (rows->desc->crc)
+    if (rows->desc->debug.crc)
         add_crc(rows, pixels, b.size);
     rows->bands.handed++;
     int result = rows->desc->flush(rows->desc->user, &b);
@@ -125,7 +125,7 @@ int smear_band_finish_row(struct smear_rows *rows, int row)
     while (result == SMEAR_OK && smear_band_next(&job)) {
         uint32_t start = stage_start(rows);
         smear_jobs_run(&rows->jobs, convert_job, &job, rows->jobs.workers);
-        stage_end(rows, &rows->stats->time_convert, start);
+        stage_end(rows, &rows->stats->time.convert, start);
         result = smear_band_flush(&job);
     }
     return result;

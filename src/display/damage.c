@@ -78,13 +78,17 @@ static void mix_material(uint32_t h[2], const smear_material *m)
 
 /* ------------------------------------------------------------------ frames */
 
-void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light)
+void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light_space,
+                        const struct smear_sun *sun)
 {
     const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane,
-                             (int32_t)(clear << 8 | light) };
+                             (int32_t)(clear << 8 | light_space) };
     d->next[0] = d->next[1] = 0;
     mix_transform(d->next, &camera->pose);
     mix(d->next, word, (int)(sizeof word / sizeof *word));
+    mix(d->next, sun->direction, 3);
+    mix(d->next, sun->ambient, 3);
+    mix(d->next, sun->diffuse, 3);
 }
 
 /* Takes in as much of a draw as its picture depends on. */
@@ -109,7 +113,7 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     for (uint32_t i = 0; i < rows->desc->max_draws; i++)
         d->seen[i] = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
-        d->tiles.tile[i] = rows->desc->buffer_age;
+        d->tiles.tile[i] = rows->desc->reuse.buffer_age;
 }
 
 void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed)
@@ -145,7 +149,7 @@ void smear_damage_row_sent(struct smear_damage *d, const struct smear_rows *rows
     uint8_t *tile = &d->tiles.tile[row * rows->window.columns];
     for (int32_t i = 0; i < rows->window.columns; i++) {
         rows->stats->tiles_kept += tile[i] == 0;
-        tile[i] = (tile[i] & TILE_DAMAGED_NOW) != 0 ? rows->desc->buffer_age
+        tile[i] = (tile[i] & TILE_DAMAGED_NOW) != 0 ? rows->desc->reuse.buffer_age
                 : tile[i] != 0 ? (uint8_t)(tile[i] - 1) : 0;
     }
 }

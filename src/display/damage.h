@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* damage.h - what is static from frame to frame, and what shows it already: the window (desc.cache_static), or the
- * display (desc.buffer_age). Only what differs, the damage, is drawn. */
+/* damage.h - what is static from frame to frame, and what shows it already: the window (desc.reuse.cache_static), or the
+ * display (desc.reuse.buffer_age). Only what differs, the damage, is drawn. */
 #ifndef SMEAR_DAMAGE_H
 #define SMEAR_DAMAGE_H
 
@@ -10,10 +10,10 @@
 struct smear_damage {
     uint32_t scene[2];              /* hash of all that a picture of what is static depends on */
     uint32_t next[2];               /* hash of this frame's, so far */
-    bool caches;                    /* desc.cache_static: the window has all rows of the frame */
+    bool caches;                    /* desc.reuse.cache_static: the window has all rows of the frame */
     bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
     bool is_same;                   /* and it is what this frame wants */
-    /* desc.buffer_age, else null: */
+    /* desc.reuse.buffer_age, else null: */
     struct smear_damaged_tiles tiles;   /* for how many frames each tile must still be drawn, this one included, or
                                          * TILE_DAMAGED_NOW */
     struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
@@ -40,7 +40,8 @@ static inline void damage_forget(struct smear_damage *d)
 
 /* Before anything is drawn: takes in the camera and what else a frame's picture of static draws depends on, then each
  * static draw, in order, then finds out whether it is the last frame's scene (is_same). */
-void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light);
+void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t light_space,
+                        const struct smear_sun *sun);
 void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
 

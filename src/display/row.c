@@ -28,32 +28,15 @@ void smear_job_columns(const struct smear_rows *rows, int job, int32_t *x0, int3
     *x1 = min_i32(units * (job + 1) / n * unit, rows->window.width);
 }
 
-/* Where tiles of a method are counted. */
-static uint32_t *count_of(smear_stats *s, smear_method method)
-{
-    switch (method) {
-    case SMEAR_ACCUMULATE: return &s->tiles_accumulate;
-    case SMEAR_SUBFRAMES: return &s->tiles_subframes;
-    case SMEAR_TIMEMASK: return &s->tiles_timemask;
-    case SMEAR_AUTO: return &s->tiles_smooth;
-    case SMEAR_CAMERA: return &s->tiles_camera;
-    case SMEAR_PINGPONG: return &s->tiles_pingpong;
-    case SMEAR_HALF: return &s->tiles_half;
-    case SMEAR_OBJECT: return &s->tiles_object;
-    case SMEAR_LAYERED: return &s->tiles_layered;
-    default: return &s->tiles_reconstruct;
-    }
-}
-
 void smear_row_count(const struct smear_rows *rows, int kind, smear_method method)
 {
     smear_stats *s = rows->stats;
     if (kind == TILE_STATIC) {
-        s->tiles_still++;
-        s->tiles_none++;
+        s->tiles_static++;
+        s->tiles[SMEAR_NONE]++;
         return;
     }
-    ++*count_of(s, method);
+    s->tiles[method]++;
     if (kind == TILE_UNIFORM)
         s->tiles_uniform++;
     else

@@ -42,7 +42,7 @@ struct smear_rows {
 
 static inline uint32_t stage_start(const struct smear_rows *rows)
 {
-    return rows->desc->clock != NULL ? rows->desc->clock(rows->desc->user) : 0;
+    return rows->desc->debug.clock != NULL ? rows->desc->debug.clock(rows->desc->user) : 0;
 }
 
 static inline void stage_end(const struct smear_rows *rows, uint32_t *stage, uint32_t start)

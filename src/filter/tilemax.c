@@ -214,7 +214,7 @@ static void scattered(const struct smear_window *w, int32_t row, int32_t column,
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
 {
     for (int32_t column = 0; column < w->columns; column++) {
-        if (SMEAR_WITH_FILTERS && w->lag > 1)       /* desc.scatter */
+        if (SMEAR_WITH_FILTERS && w->lag > 1)       /* desc.filter.scatter */
             scattered(w, row, column, known);
         else
             neighborhood(w, row, column, known, corner);

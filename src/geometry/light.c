@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* light.c - the directional light of the conventions: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70. */
+/* light.c - see light.h. */
 #include "geometry/light.h"
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
-
-/* World direction towards the light, q14; (0.36, 0.80, 0.48) has length one. */
-static const int32_t light_direction[3] = { 5898, 13107, 7864 };
 
 static int32_t dot_q(const int32_t a[3], const int32_t b[3], int shift)
 {
@@ -28,6 +25,32 @@ static SMEAR_RARE uint32_t length_from(uint64_t square)
 static int shift_to(uint64_t largest, int bits)
 {
     return 64 - count_leading_zeros_64(largest) - bits;
+}
+
+static uint32_t magnitude_of(int32_t a)
+{
+    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
+}
+
+void smear_sun_make(struct smear_sun *sun, const smear_light *light)
+{
+    static const smear_light usual = SMEAR_LIGHT_DEFAULT;
+    int32_t d[3];
+    if (light == NULL)
+        light = &usual;
+    const int shift = shift_to(magnitude_of(light->direction[0]) | magnitude_of(light->direction[1])
+                               | magnitude_of(light->direction[2]), 29);
+    for (int i = 0; i < 3; i++)
+        d[i] = shift >= 0 ? light->direction[i] >> shift : light->direction[i] * (1 << -shift);
+    const uint32_t length = max_u32(length_from(square_sum(d[0], d[1], d[2])), 1);
+    sun->white = true;
+    for (int i = 0; i < 3; i++) {
+        const int32_t along = ratio_q30((int64_t)min_u32(magnitude_of(d[i]), length), length) >> 16;
+        sun->direction[i] = d[i] < 0 ? -along : along;
+        sun->ambient[i] = light->ambient[i];
+        sun->diffuse[i] = light->diffuse[i];
+        sun->white = sun->white && light->ambient[i] == light->ambient[0] && light->diffuse[i] == light->diffuse[0];
+    }
 }
 
 /* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
@@ -80,8 +103,9 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 }
 
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *m, bool has_normals, bool linear)
+                        const smear_material *m, bool has_normals, bool linear, const struct smear_sun *sun)
 {
+    s->sun = sun;
     s->linear = linear;
     s->lit = !m->unlit;
     for (int i = 0; i < 3; i++)
@@ -103,7 +127,7 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
         for (int j = 0; j < 3; j++) {
             int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
                                   s->normal_matrix[2][j] };
-            s->direction[j] = dot_q(column, light_direction, 0) / (int32_t)max_u32(length, 1)
+            s->direction[j] = dot_q(column, sun->direction, 0) / (int32_t)max_u32(length, 1)
                             * 512 / 127;                        /* q14 to q23 / 127 */
         }
     }
@@ -120,8 +144,8 @@ static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3]
         /* 31 bits to 24 */
         int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;
         int32_t h = world >> 12, l = world & 4095;
-        along_high += h * light_direction[i];
-        along_low += l * light_direction[i];
+        along_high += h * s->sun->direction[i];
+        along_low += l * s->sun->direction[i];
         high += h * h;
         cross += h * l;
         low += l * l;
@@ -212,6 +236,13 @@ static uint32_t encode(uint32_t light)
     return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
 }
 
+/* Returns the light of a channel, q16: not above one. */
+static inline uint32_t light_of(const struct smear_shading *s, int channel, uint32_t cosine)
+{
+    const uint32_t diffuse = (uint32_t)s->sun->diffuse[channel] * cosine >> 16;
+    return min_u32((uint32_t)s->sun->ambient[channel] + diffuse, 65536u);
+}
+
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine)
 {
@@ -223,10 +254,11 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
         out->channel[3] = c != NULL ? (uint16_t)(c[3] * 257u) : 65535u;
         return;
     }
-    /* 0.30 and 0.70 in q16 */
-    uint32_t light = s->lit ? 19661u + (45875u * cosine >> 16) : 65536u;
+    uint32_t light = s->lit ? light_of(s, 0, cosine) : 65536u;
     for (int i = 0; i < 3; i++) {
         uint32_t c = s->base[i];
+        if (s->lit && !s->sun->white)
+            light = light_of(s, i, cosine);
         if (color != NULL)
             c = times_lin(c, smear_srgb_decode[color[i]]);
         if (face_color != NULL)

@@ -7,8 +7,19 @@
 
 #include "base/fixed.h"
 
+/* smear_light as it is used. */
+struct smear_sun {
+    int32_t direction[3];           /* towards the light in the world, of length one, q14 */
+    int32_t ambient[3], diffuse[3]; /* r g b, linear, q16 */
+    bool white;                     /* r g b alike */
+};
+
+/* `light`: null for SMEAR_LIGHT_DEFAULT. */
+void smear_sun_make(struct smear_sun *sun, const smear_light *light);
+
 /* The light seen from a draw's object space. */
 struct smear_shading {
+    const struct smear_sun *sun;
     int32_t normal_matrix[3][3];    /* cofactors of the basis, 15 bits: world
                                      * normal = matrix x object normal */
     int32_t direction[3];           /* q23 / 127: I = sum n_j direction_j for int8 normals, where even */
@@ -29,7 +40,7 @@ struct smear_color {
 
 /* Makes a draw's shading; with has_normals, smear_light_normal() may be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *material, bool has_normals, bool linear);
+                        const smear_material *material, bool has_normals, bool linear, const struct smear_sun *sun);
 
 /* Returns max(0, n.l), 0 .. 65536, for an object-space normal of length 127. */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);
@@ -38,7 +49,7 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
 uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
                           const int16_t c[3]);
 
-/* Shades: factor x color (sRGB r g b and alpha; null: white) x (0.30 + 0.70 cosine), cosine 0 .. 65536. */
+/* Shades: factor x color (sRGB r g b and alpha; null: white) x (ambient + diffuse x cosine), cosine 0 .. 65536. */
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
 

@@ -72,7 +72,7 @@ static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
 /* Deformation is not scaled further: weights of ten frames by it have eight bits. */
 enum { DEFORM_MOST = 8 << 8 };
 
-/* Brings the other poses nearer to that of now, or farther: smear_frame.object_scale. */
+/* Brings the other poses nearer to that of now, or farther: smear_frame.scale.object. */
 static void scale_object(struct smear_draw_poses *p, uint32_t scale)
 {
     for (int i = 1; i < 3; i++) {

@@ -2,7 +2,7 @@
 /* pose.h - where cameras and draws are at an instant of the exposure: sums of the poses that are known of them.
  *
  * Known are a pose now and one a frame ago, or those at shutter open, in the middle and at shutter close
- * (smear_frame.shutter_poses). Index 0 is now, 1 open (or a frame ago), 2 close. */
+ * (smear_shutter.poses). Index 0 is now, 1 open (or a frame ago), 2 close. */
 #ifndef SMEAR_POSE_H
 #define SMEAR_POSE_H
 
@@ -16,7 +16,7 @@ struct smear_shot {
     bool cut;                       /* nothing has motion */
     uint8_t exposure;               /* smear_exposure */
     int32_t half_exposure;          /* q24 frames */
-    uint32_t object_scale;          /* smear_frame.object_scale as it is used */
+    uint32_t object_scale;          /* smear_frame.scale.object as it is used */
     int32_t height;                 /* of the frame, px */
 };
 

@@ -105,10 +105,10 @@ void smear_groups_add(struct smear_layers *l, uint32_t index, const smear_draw *
         return;
     struct smear_group g = {
         .layer = l->layer_of[index],
-        .rank = (uint8_t)(over || setting->layer.plain ? l->layer_of[index] + 1 : 0),
+        .rank = (uint8_t)(over || setting->layer.two_camera ? l->layer_of[index] + 1 : 0),
         .method = (uint8_t)(moves ? setting->layer.method : (int)SMEAR_NONE)
     };
-    if (g.method == SMEAR_OBJECT && !setting->layer.plain && !is_constant(&m))
+    if (g.method == SMEAR_OBJECT && !setting->layer.two_camera && !is_constant(&m))
         g.method = SMEAR_LAYERED;
     if (m.count != 0) {
         g.vx = (int32_t)((int64_t)(m.x / m.count) * setting->shutter >> 16);
@@ -119,7 +119,7 @@ void smear_groups_add(struct smear_layers *l, uint32_t index, const smear_draw *
         g.vx = g.vy = 0;
     uint32_t at = l->group_count;
     for (uint32_t i = 0; i < min_u32(l->group_count, LOOKED_AT) && at == l->group_count; i++)
-        if (belongs(&l->group[l->group_count - 1 - i], &g, setting->layer.plain))
+        if (belongs(&l->group[l->group_count - 1 - i], &g, setting->layer.two_camera))
             at = l->group_count - 1 - i;
     if (at == l->group_count)
         l->group[l->group_count++] = g;

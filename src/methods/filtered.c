@@ -77,7 +77,7 @@ static void reduce_row(struct smear_filtered *f, struct smear_rows *rows, int ro
     if (SMEAR_WITH_FILTERS && f->window == f->half)
         smear_jobs_run(&rows->jobs, half_job, &job, rows->window.columns);
     smear_jobs_run(&rows->jobs, reduce_job, &job, rows->window.columns);
-    stage_end(rows, &rows->stats->time_reduce, start);
+    stage_end(rows, &rows->stats->time.reduce, start);
 }
 
 /* ------------------------------------------------------------------ tiles */
@@ -231,7 +231,7 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
     while (result == SMEAR_OK && smear_band_next(&job.row)) {
         const uint32_t start = stage_start(rows);
         smear_jobs_run(&rows->jobs, tile_job, &job, w->columns);
-        stage_end(rows, &rows->stats->time_blur, start);
+        stage_end(rows, &rows->stats->time.blur, start);
         result = smear_band_flush(&job.row);
     }
     return result;
@@ -276,20 +276,20 @@ void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *row
                           const smear_camera *camera)
 {
     f->method = frame->method;
-    f->kind = frame->filter;
+    f->kind = frame->filter.kind;
     f->blur = (struct smear_blur_settings){
         .linear = frame_is_linear(&rows->raster),
         .orthographic = SMEAR_WITH_ORTHOGRAPHIC && camera->half_height > 0,
         .samples = frame->samples, .dense = frame->method == SMEAR_HALF,
-        .flags = frame->reconstruct, .weights = frame->weights
+        .flags = frame->filter.flags, .weights = frame->filter.weights
     };
     if (f->blur.orthographic)
         f->blur.far_over_range = far_over_range(camera);
     f->window = frame->method == SMEAR_HALF ? f->half : &rows->window;
     if (!SMEAR_WITH_FILTERS)
         return;
-    f->ports->by_depth.step = frame->camera_step;
-    f->ports->passes = smear_pingpong_plan(f->ports->pass, &frame->pingpong, f->window->reach);
+    f->ports->by_depth.step = frame->filter.camera_step;
+    f->ports->passes = smear_pingpong_plan(f->ports->pass, &frame->filter.pingpong, f->window->reach);
     for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
         f->ports->pass_end[i] = 0;
 }

@@ -25,7 +25,7 @@ struct smear_filtered {
     struct smear_ports *ports;              /* null: there is no window */
     struct smear_blur_settings blur;
     uint8_t method;                         /* smear_method */
-    uint8_t kind;                           /* smear_filter */
+    uint8_t kind;                           /* smear_filter_kind */
 };
 
 /* Gets ready for a frame whose defaults are filled in. */

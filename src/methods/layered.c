@@ -39,7 +39,7 @@ struct layers_row {
 /* Few taps along one displacement. */
 static inline bool is_two_camera(const struct layers_row *r)
 {
-    return r->group->method == SMEAR_OBJECT && r->layers->setting[r->group->layer].layer.plain;
+    return r->group->method == SMEAR_OBJECT && r->layers->setting[r->group->layer].layer.two_camera;
 }
 
 /* Taps over a background, not sums along streaks. */
@@ -382,14 +382,14 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
     list_row(&r, first);
     r.mixes = smear_groups_find_mixed(l, rows->window.reach);
     smear_jobs_run(&rows->jobs, background_job, &r, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time_raster, start);
+    stage_end(rows, &rows->stats->time.raster, start);
     start = stage_start(rows);
     merge_row(&r);
-    stage_end(rows, &rows->stats->time_blur, start);
+    stage_end(rows, &rows->stats->time.blur, start);
     start = stage_start(rows);
     r.row.band = smear_band_begin(rows);
     smear_jobs_run(&rows->jobs, convert_job, &r, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time_convert, start);
+    stage_end(rows, &rows->stats->time.convert, start);
     return smear_band_flush(&r.row);
 }
 

@@ -42,7 +42,7 @@ static void inspect_row(const struct smear_rows *rows, int row)
         const int32_t at = window_ring_row(w, y) * w->width;
         if (!rows->keeps_motion)
             __builtin_memset(rows->inspect + 2 * at, 0, (size_t)w->width * 8);
-        rows->desc->inspect(rows->desc->user, y, w->color + at, w->depth + at, rows->inspect + 2 * at);
+        rows->desc->debug.inspect(rows->desc->user, y, w->color + at, w->depth + at, rows->inspect + 2 * at);
     }
 }
 
@@ -56,14 +56,14 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
     smear_jobs_run(&rows->jobs, draw_job, &job, rows->jobs.workers);
     if (SMEAR_WITH_INSPECT && rows->inspect != NULL)
         inspect_row(rows, row);
-    stage_end(rows, &rows->stats->time_raster, start);
+    stage_end(rows, &rows->stats->time.raster, start);
 }
 
 /* ------------------------------------------------------------------ straight into the band */
 
-bool smear_sharp_may_be_direct(const smear_desc *d)
+bool smear_sharp_may_be_direct(const smear_desc *d, bool has_window)
 {
-    return SMEAR_DIRECT && d->sharp && !d->cache_static && d->dither == SMEAR_DITHER_NONE
+    return SMEAR_DIRECT && !has_window && !d->reuse.cache_static && d->dither == SMEAR_DITHER_NONE
         && (d->format == SMEAR_RGB565 || d->format == SMEAR_RGB565_SWAPPED);
 }
 
@@ -100,7 +100,7 @@ static int draw_direct_row(struct smear_rows *rows, int row)
     rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows) };
     smear_jobs_run(&rows->jobs, direct_job, &job, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time_raster, start);
+    stage_end(rows, &rows->stats->time.raster, start);
     return smear_band_flush(&job);
 }
 

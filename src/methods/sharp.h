@@ -9,7 +9,7 @@
 /* How drawn rows get velocities for what does not move itself, from depth and two cameras; or null. */
 struct smear_depth_velocity {
     struct smear_reprojection reprojection;
-    int32_t step;               /* smear_frame.camera_step */
+    int32_t step;               /* smear_filter.camera_step */
 };
 
 /* Draws opaque triangles of tile row `row` into the window: colour, depth and, where the method reads them,
@@ -21,6 +21,6 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end);
 
 /* Whether frames of the context can be drawn directly; draws may still forbid it. */
-bool smear_sharp_may_be_direct(const smear_desc *desc);
+bool smear_sharp_may_be_direct(const smear_desc *desc, bool has_window);
 
 #endif

@@ -9,6 +9,7 @@
 #include "methods/temporal.h"
 
 #include "display/band.h"
+#include "smear_memory.h"
 
 #if SMEAR_WITH_SUBFRAMES
 
@@ -21,7 +22,7 @@ struct finish {
 
 int32_t smear_strip_columns(int32_t strip, int32_t width)
 {
-    return strip >= width ? strip : SMEAR_STRIP_COLUMNS(strip);
+    return strip + (strip >= SMEAR_STRIP && strip < width ? 16 : 0);
 }
 
 static bool is_static(const struct smear_tile_travel *tile)
@@ -214,7 +215,7 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     smear_row_target(rows, row, &finish.background);
     if (!static_is_cached(self->damage))
         smear_jobs_run(&rows->jobs, background_job, &finish, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time_raster, start);
+    stage_end(rows, &rows->stats->time.raster, start);
 
     start = stage_start(rows);
     finish.row.band = smear_band_begin(rows);
@@ -222,7 +223,7 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
         finish_static(&finish, run->first, run->end);
     else
         smear_jobs_run(&rows->jobs, finish_job, &finish, (rows->window.width + self->strip - 1) / self->strip);
-    stage_end(rows, &rows->stats->time_blur, start);
+    stage_end(rows, &rows->stats->time.blur, start);
     return smear_band_flush(&finish.row);
 }
 
@@ -242,7 +243,7 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
-    stage_end(rows, &rows->stats->time_raster, start);
+    stage_end(rows, &rows->stats->time.raster, start);
     struct smear_damage_run run = { 0, 0 };
     while (next_run(self, rows, row, &run)) {
         int result = finish_run(self, rows, row, &run);

@@ -16,7 +16,7 @@ struct smear_temporal {
     int32_t strip;                      /* tiles that share instants are so many pixels wide together, at most */
     int32_t target;                     /* smear_frame.target: the chooser's follows from it and the budget */
     uint32_t budget;                    /* smear_frame.budget */
-    struct smear_damage *damage;        /* null without desc.cache_static and desc.buffer_age */
+    struct smear_damage *damage;        /* null without desc.reuse */
 };
 
 /* Returns the columns that a strip of a frame takes with what is drawn beyond its sides: nothing where it is as wide as

@@ -6,20 +6,6 @@
 
 /* ------------------------------------------------------------------ passes */
 
-bool smear_pingpong_resolve(smear_pingpong *p)
-{
-    if (p->passes == 0)
-        p->passes = 2;
-    if (p->taps == 0)
-        p->taps = 8;
-    if (p->base == 0)
-        p->base = p->taps;
-    if (p->bias == 0)
-        p->bias = p->spread ? 16 : 255;     /* what is nearest to the truth over the suite */
-    return p->passes <= PINGPONG_PASSES_MAX && p->taps >= 2 && p->taps <= 64 && p->base >= 2 && p->base <= 64
-        && p->jitter <= 128 && p->spread <= 1;
-}
-
 int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear_pingpong *p, int32_t reach)
 {
     /* Taps lie at odd multiples (even ones for odd numbers) of half a spacing, base^k / whole in the k-th

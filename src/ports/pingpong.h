@@ -30,12 +30,9 @@ struct smear_pass {
     bool spread;                /* moving things come over what is still */
 };
 
-/* The passes of a frame; returns how many. p has no zeros where
- * they mean a default (smear_pingpong_resolve). */
+/* The passes of a frame; returns how many. p has no zeros where they
+ * mean a default. */
 int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear_pingpong *p, int32_t reach);
-
-/* Defaults; false when something is out of range. */
-bool smear_pingpong_resolve(smear_pingpong *p);
 
 /* One pass over the rows [y0, y1) of tile `column` in tile row `row`: reads `in`, a plane like the window's
  * colour, and writes to out, where the tile's first pixel in row y0 goes, rows `stride` pixels apart unless

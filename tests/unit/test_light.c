@@ -13,6 +13,14 @@
 
 void suite_light(void);
 
+/* What lights a frame that says nothing. */
+static const struct smear_sun *default_sun(void)
+{
+    static struct smear_sun sun;
+    smear_sun_make(&sun, NULL);
+    return &sun;
+}
+
 static const smear_material plain = { 0 };
 
 static void random_unit(double v[3])
@@ -95,7 +103,7 @@ static struct smear_shading shading_of(const double m[9])
 {
     struct smear_shading s;
     const smear_transform t = transform_of(m);
-    smear_shading_make(&s, &t, &plain, true, true);
+    smear_shading_make(&s, &t, &plain, true, true, default_sun());
     return s;
 }
 
@@ -229,7 +237,7 @@ static void test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm(voi
         for (int i = 0; i < 9; i++)
             t.basis[i] = n < 6 ? value[n] : value[between(0, 5)];
         struct smear_shading s;
-        smear_shading_make(&s, &t, &plain, true, n & 1);
+        smear_shading_make(&s, &t, &plain, true, n & 1, default_sun());
         CHECK(smear_light_face(&s, p[n % 4], p[n / 4 % 4], p[n / 16 % 4]) <= 65536);
         const int8_t normal[3] = { (int8_t)between(-128, 127), (int8_t)between(-128, 127), (int8_t)between(-128, 127) };
         if (!CHECK(smear_light_normal(&s, normal) <= 65536))
@@ -267,7 +275,7 @@ static void test_colours_are_products_in_linear_light(void)
         bool linear = n & 1, has_color = n & 2, has_face = n & 4;
         struct smear_shading s;
         struct smear_color out;
-        smear_shading_make(&s, &t, &material, true, linear);
+        smear_shading_make(&s, &t, &material, true, linear, default_sun());
         uint32_t cosine = (uint32_t)between(0, 65536);
         smear_shade(&out, &s, has_color ? color : NULL, has_face ? face : NULL, cosine);
         double factor = material.unlit ? 1 : 0.30 + 0.70 * cosine / 65536;
@@ -302,7 +310,7 @@ static void test_white_stays_white_and_codes_pass_unchanged(void)
         const smear_material unlit = { .unlit = 1 };
         struct smear_shading s;
         struct smear_color out;
-        smear_shading_make(&s, &t, &unlit, true, linear);
+        smear_shading_make(&s, &t, &unlit, true, linear, default_sun());
         smear_shade(&out, &s, NULL, NULL, 0);
         CHECK_EQ(smear_color_pack(&out, linear), 0xffffffffu);
         for (int code = 0; code < 256; code++) {
@@ -314,7 +322,7 @@ static void test_white_stays_white_and_codes_pass_unchanged(void)
             CHECK_EQ(smear_color_pack(&out, linear), want);
             const smear_material factor = { .unlit = 1, .color = { color[0], color[1], color[2], 255 } };
             struct smear_shading colored;
-            smear_shading_make(&colored, &t, &factor, true, linear);
+            smear_shading_make(&colored, &t, &factor, true, linear, default_sun());
             smear_shade(&out, &colored, NULL, NULL, 65536);
             CHECK_EQ(smear_color_pack(&out, linear), want | 0xff000000u);
         }
@@ -326,7 +334,7 @@ static void test_ambient_light_is_three_tenths(void)
     const smear_transform t = SMEAR_IDENTITY;
     struct smear_shading s;
     struct smear_color out;
-    smear_shading_make(&s, &t, &plain, true, true);
+    smear_shading_make(&s, &t, &plain, true, true, default_sun());
     smear_shade(&out, &s, NULL, NULL, 0);
     CHECK_NEAR(out.channel[0], 19661, 2);
     smear_shade(&out, &s, NULL, NULL, 65536);
