@@ -343,6 +343,7 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
     for (;;) {
         const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
         const bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, last);
+        note_fills(c);
         if (done && !static_is_disturbed(c))
             break;
         c->assembler.triangles_drawn = drawn;
@@ -358,7 +359,6 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
         c->stats.parts_added++;
     }
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
-    note_fills(c);
     begin_lists(&c->rows, *top, first);
     stage_end(&c->rows, &c->stats.time.submit, start);
     return end;

@@ -402,7 +402,7 @@ static void test_statistics_say_how_full_each_list_was(void)
             CHECK(all.fill.geometry.room == few.fill.geometry.room);
         }
     rig_end(&r);
-    desc.max_triangles = 24;
+    desc.max_triangles = 8;
     if (rig_begin(&r, &desc, false)) {
         smear_stats stats;
         CHECK_EQ(render_scene(&r, 0.2, SMEAR_NONE), SMEAR_OK);

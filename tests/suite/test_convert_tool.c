@@ -145,7 +145,7 @@ static smear_camera camera_of(const struct scene_camera *from, double scale)
 /* One frame of the actor as it stands. */
 static bool draw_actor(smear_actor *actor, const smear_camera *camera, smear_method method, uint8_t *rgb)
 {
-    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .max_draws = 64,
+    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .methods = (uint16_t)SMEAR_SET(method), .max_draws = 64,
                         .max_triangles = 20000, .flush = keep_band, .user = rgb };
     smear_frame frame = { .camera = camera, .open = camera, .method = (uint8_t)method };
     smear_context *ctx;
