@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of
- * the exposure, into time slots over the still scene; then their mean. */
+ * the exposure, into time samples over the background; then their mean. */
 #include "temporal/timemask.h"
 
 #include "geometry/shutter.h"
@@ -12,7 +12,7 @@
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
-enum { PIXELS_LOG2 = 7, PIECES_LOG2 = 4 };     /* entries of a block, at most */
+enum { PIXELS_LOG2 = 7, INTERVALS_LOG2 = 4 };     /* entries of a block, at most */
 
 enum {
     LISTED = 100,                               /* moving triangles that are drawn in order of depth */
@@ -23,16 +23,16 @@ enum {
 struct job {
     const struct smear_tile_run *tile;
     const struct smear_timemask_settings *settings;
-    struct timemask_samples slots;
+    struct timemask_samples samples;
     uint32_t *list;                             /* depth code, then place in the
                                                  * tile's list from `first` on */
     uint32_t listed, first, next;
     int32_t segments_log2;
-    int32_t slots_log2;                         /* of a segment */
+    int32_t samples_log2;                       /* of a segment */
     int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
     int32_t x, y, width, height;                /* the block's pixels */
     int32_t stride;                             /* from a row of entries to the next */
-    bool even;                                  /* slots are */
+    bool even;                                  /* samples are evenly spaced */
     uint32_t fragments;
 };
 
@@ -93,8 +93,8 @@ static inline uint32_t listed_moving(const struct job *j, uint32_t i)
 
 /* ------------------------------------------------------------------ segments */
 
-/* How far the shutter's slots lie off an even course within one of 2^log2 segments, q16 of the exposure. */
-static int32_t shutter_bend(const struct smear_shutter_times *s, int log2)
+/* Returns how far the shutter's times lie off an even course within one of 2^log2 segments, q16 of the exposure. */
+static int32_t shutter_curvature(const struct smear_shutter_times *s, int log2)
 {
     int step = SHUTTER_SAMPLES >> log2;
     int32_t worst = 0;
@@ -122,10 +122,10 @@ static void choose_segments(struct job *j)
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (curvature >> (2 * log2) > j->settings->curvature
-               || (!j->even && (int64_t)travel * shutter_bend(t->shutter, log2) >> 16 > j->settings->curvature)))
+               || (!j->even && (int64_t)travel * shutter_curvature(t->shutter, log2) >> 16 > j->settings->curvature)))
         log2++;
     j->segments_log2 = log2;
-    j->slots_log2 = j->slots.slots_log2 - log2;
+    j->samples_log2 = j->samples.samples_log2 - log2;
     for (int i = 0; i <= 1 << log2; i++)
         j->time[i] = t->shutter->time[i * (SHUTTER_SAMPLES >> log2)];
 }
@@ -153,31 +153,21 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
     }
 }
 
-/* Rows of the still scene. */
-static inline uint32_t still_at(const struct smear_plane_rows *r, const struct smear_raster_target *t,
-                                int32_t x, int32_t y)
-{
-    int32_t slot = r->ring_row + (y - t->y0);
-    if (slot >= r->ring)
-        slot -= r->ring;
-    return (uint32_t)(slot * r->stride + x - r->x0);
-}
-
-/* The slots of a run in which a fragment is nearer than the still scene, where both meet: `begin` is how much
- * nearer it is in slot `from`, in 1/32, and 2 `slope` how that changes per slot. */
-static SMEAR_NOINLINE uint32_t slots_before_still(int32_t begin, int32_t slope, int32_t from, int32_t count)
+/* Returns the samples of a run in which a fragment is nearer than the background, where both meet: `begin` is how much
+ * nearer it is in sample `from`, in 1/32, and 2 `slope` how that changes per sample. */
+static SMEAR_NOINLINE uint32_t samples_before_background(int32_t begin, int32_t slope, int32_t from, int32_t count)
 {
     int32_t end = begin + 2 * slope * (count - 1);
     if (begin > 0 && end > 0)
         return UINT32_MAX >> (32 - count) << from;
     if (begin <= 0 && end <= 0)
         return 0;
-    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* slots before they meet */
+    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* samples before they meet */
     return begin > 0 ? UINT32_MAX >> (32 - before) << from
                      : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
 
-/* Slots [0, i). */
+/* The samples [0, i). */
 static const uint32_t below[33] = {
     0, 0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff, 0x1ff, 0x3ff, 0x7ff, 0xfff, 0x1fff, 0x3fff, 0x7fff, 0xffff,
     0x1ffff, 0x3ffff, 0x7ffff, 0xfffff, 0x1fffff, 0x3fffff, 0x7fffff, 0xffffff, 0x1ffffff, 0x3ffffff,
@@ -187,7 +177,7 @@ static const uint32_t below[33] = {
 /* How depth codes follow from units q4, below and from code 32768. */
 struct code_slope {
     int32_t add, shift;
-    int32_t slope, size;        /* per slot, 1/16, as it is kept; its magnitude */
+    int32_t slope, size;        /* per sample, 1/16, as it is kept; its magnitude */
     uint32_t kept;
 };
 
@@ -195,23 +185,33 @@ struct code_slope {
 struct painter {
     const struct timemask_shade *shade;
     struct code_slope code[2];
-    int32_t first;              /* slot */
-    int32_t last_slot;          /* of the exposure, less 2 `first` */
-    int32_t time_shift;         /* from twice a slot to time */
+    int32_t first;              /* sample */
+    int32_t last_sample;        /* of the exposure, less 2 `first` */
+    int32_t time_shift;         /* from twice a sample to time */
 };
 
-/* The fragments of a block. */
+/* Returns the depth in pixel x of a row at a time. `turns`: how it changes differs from pixel to pixel or with time. */
+SMEAR_INLINE int32_t depth_at(const struct timemask_timed *depth, const struct timemask_here *row, int32_t x,
+                              int32_t time, bool turns)
+{
+    int32_t change = row->change;
+    if (turns)
+        change = add_wrap(change, add_wrap(mul_wrap(depth->change_dx, x), timemask_part(depth->curve, time)));
+    return add_wrap(add_wrap(row->at, mul_wrap(depth->dx, x)), timemask_part(change, time));
+}
+
+/* Adds the fragments of a block to its samples; returns how many. */
 SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p,
-                            bool plain, bool turns)
+                            bool has_one_color, bool turns)
 {
     /* Own copies: what is written might be anything. */
     const struct timemask_shade *s = p->shade;
     const struct smear_raster_target *target = &j->tile->background;
     const struct timemask_timed depth = s->depth;
-    const int32_t low = s->depth_low, high = s->depth_high, first = p->first, last_slot = p->last_slot + 1;
+    const int32_t low = s->depth_low, high = s->depth_high, first = p->first, last_sample = p->last_sample + 1;
     const int32_t time_shift = p->time_shift;
     const uint32_t flat = s->color;
-    struct timemask_samples own = j->slots;
+    struct timemask_samples own = j->samples;
     uint32_t fragments = 0, run[TIMEMASK_RUNS];
     for (int32_t y = c->y0; y < c->y1; y++) {
         const int32_t n = smear_timemask_row(c, y, run);
@@ -219,35 +219,29 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
             continue;
         const struct timemask_here row = timemask_here(&depth, 0, y);
         const uint32_t pixel = (uint32_t)(y * j->stride);
-        const uint16_t *still = target->depth + still_at(&target->window_rows, target, j->x, j->y + y);
+        const uint16_t *background = target->depth + target_row(&target->window_rows, target, j->y + y) + j->x;
         for (int32_t i = 0; i < n; i++) {
             int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]),
                     to = timemask_run_to(run[i]);
             int32_t time = ((from + to) << time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
-            int32_t change = row.change;
-            if (turns)
-                change = add_wrap(change,
-                                  add_wrap(mul_wrap(depth.change_dx, x), timemask_part(depth.curve, time)));
-            int32_t units = add_wrap(add_wrap(row.at, mul_wrap(depth.dx, x)), timemask_part(change, time));
-            units = clamp_i32(units, low, high);
+            int32_t units = clamp_i32(depth_at(&depth, &row, x, time, turns), low, high);
             const struct code_slope *k = &p->code[units >= 32768 << 4];
             int32_t code = (units + k->add) >> k->shift, slope = k->slope,
                     reach = k->size * (to - from - 1) >> 5;
-            int32_t behind = still[x];
+            int32_t behind = background[x];
             if (code + reach <= behind)
                 continue;
             struct timemask_fragment f;
             f.low = max_i32(code - reach, 0);
             f.mask = below[first + to] ^ below[first + from];
             if (code - reach <= behind) {
-                f.mask = slots_before_still((code - behind) * 32 - slope * (to - from - 1), slope,
-                                            first + from, to - from);
+                f.mask = samples_before_background((code - behind) * 32 - slope * (to - from - 1), slope, first + from,
+                                                   to - from);
                 if (f.mask == 0)
                     continue;
             }
-            /* From the run's middle to that of the exposure; a depth that
-             * would leave its range there stays level. */
-            f.depth = code + (slope * (last_slot - (from + to)) >> 5);
+            /* From the run's middle to that of the exposure. A depth that would leave its range there stays as it is. */
+            f.depth = code + (slope * (last_sample - (from + to)) >> 5);
             f.slope = slope;
             f.color = k->kept;
             if ((uint32_t)f.depth > 65535u) {
@@ -255,7 +249,7 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
                 f.slope = 0;
                 f.color = 0;
             }
-            f.color |= plain ? flat : smear_timemask_color(s, y, run[i]);
+            f.color |= has_one_color ? flat : smear_timemask_color(s, y, run[i]);
             timemask_samples_add(&own, pixel + (uint32_t)x, f, code + reach);
             fragments++;
         }
@@ -263,14 +257,14 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
     return fragments;
 }
 
-/* A triangle in a segment of 2^slots_log2 slots with poses at its start,
- * middle and end; `first` is its first slot. */
+/* Draws a triangle in a segment of 2^samples_log2 samples with poses at its start, middle and end; `first` is its first
+ * sample. */
 static void draw_segment(struct job *j, const struct moving *m, const struct timemask_pose *const pose[3],
-                         int32_t first, int32_t slots_log2)
+                         int32_t first, int32_t samples_log2)
 {
     struct timemask_cover c;
     struct timemask_shade s;
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, slots_log2, j->settings->edge))
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, samples_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
                          (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
@@ -279,8 +273,8 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         s.depth.change = s.depth.change_dx = s.depth.change_dy = s.depth.curve = 0;
         s.slope = 0;
     }
-    struct painter p = { .shade = &s, .first = first, .last_slot = (1 << j->slots.slots_log2) - 1 - 2 * first,
-                         .time_shift = TIMEMASK_TIME_LOG2 - 1 - slots_log2 };
+    struct painter p = { .shade = &s, .first = first, .last_sample = (1 << j->samples.samples_log2) - 1 - 2 * first,
+                         .time_shift = TIMEMASK_TIME_LOG2 - 1 - samples_log2 };
     for (int i = 0; i < 2; i++) {
         struct code_slope *k = &p.code[i];
         k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
@@ -305,31 +299,31 @@ static void draw_whole(struct job *j, const struct moving *m)
         const struct timemask_pose *poses[3] = { &pose[i & 1 ? 2 : 0], &pose[1], &pose[i & 1 ? 0 : 2] };
         pose_at(&pose[1], j, m, (j->time[i] + j->time[i + 1]) >> 1);
         pose_at(&pose[i & 1 ? 0 : 2], j, m, j->time[i + 1]);
-        draw_segment(j, m, poses, i << j->slots_log2, j->slots_log2);
+        draw_segment(j, m, poses, i << j->samples_log2, j->samples_log2);
     }
 }
 
-/* One that is there for a interval of the exposure: a segment of its slots, where slots are even and there is
- * one at least; else as it is in the middle of each slot. */
-static void draw_piece(struct job *j, const struct moving *m)
+/* Draws a triangle that is there for a sub-interval of the exposure: in a segment of its samples, where samples are
+ * evenly spaced and it has one at least; else as it is in the middle of each sample. */
+static void draw_interval(struct job *j, const struct moving *m)
 {
     struct timemask_pose pose[3];
     const struct timemask_pose *poses[3] = { &pose[0], &pose[1], &pose[2] };
-    int32_t slots = 1 << j->slots.slots_log2;
-    if (slots >= PATH_INTERVALS && j->even) {
+    int32_t samples = 1 << j->samples.samples_log2;
+    if (samples >= PATH_INTERVALS && j->even) {
         for (int i = 0; i < 3; i++)
             pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
-        draw_segment(j, m, poses, (m->bounds->interval - 1) * (slots / PATH_INTERVALS),
-                     j->slots.slots_log2 - PIECES_LOG2);
+        draw_segment(j, m, poses, (m->bounds->interval - 1) * (samples / PATH_INTERVALS),
+                     j->samples.samples_log2 - INTERVALS_LOG2);
         return;
     }
     poses[1] = poses[2] = &pose[0];
-    for (int32_t slot = 0; slot < slots; slot++) {
-        int32_t time = smear_shutter_instant(j->tile->shutter, slot, slots);
+    for (int32_t sample = 0; sample < samples; sample++) {
+        int32_t time = smear_shutter_instant(j->tile->shutter, sample, samples);
         if (!path_interval_time(&time, m->bounds->interval))
             continue;
         pose_at(&pose[0], j, m, time);
-        draw_segment(j, m, poses, slot, 0);
+        draw_segment(j, m, poses, sample, 0);
     }
 }
 
@@ -343,7 +337,7 @@ static void draw_moving(struct job *j, uint32_t i)
     if (b->interval == 0)
         draw_whole(j, &m);
     else
-        draw_piece(j, &m);
+        draw_interval(j, &m);
 }
 
 /* The listed moving triangles, the nearest first, until the rest is hidden. */
@@ -352,7 +346,7 @@ static void draw_listed(struct job *j)
     for (uint32_t i = 0; i < j->listed; i++) {
         if (i != 0 && i % LOOK_EVERY == 0
             && (int32_t)(j->list[i] >> 16)
-                   <= smear_timemask_samples_hidden(&j->slots, j->width, j->height, j->stride))
+                   <= smear_timemask_samples_hidden(&j->samples, j->width, j->height, j->stride))
             return;
         draw_moving(j, listed_moving(j, i));
     }
@@ -363,13 +357,13 @@ static void draw_listed(struct job *j)
 static void finish_block(const struct job *j)
 {
     const struct smear_tile_run *t = j->tile;
-    const struct smear_raster_target *still = &t->background;
+    const struct smear_raster_target *background = &t->background;
     for (int32_t y = 0; y < j->height; y++) {
-        const uint32_t *color = still->color + still_at(&still->color_rows, still, j->x, j->y + y);
-        uint32_t *out = t->out + (j->y + y - still->y0) * t->pitch + (j->x - still->x0);
+        const uint32_t *color = background->color + target_row(&background->color_rows, background, j->y + y) + j->x;
+        uint32_t *out = t->out + (j->y + y - background->y0) * t->pitch + (j->x - background->x0);
         for (int32_t x = 0; x < j->width; x++) {
             uint32_t at = (uint32_t)(y * j->stride + x);
-            out[x] = j->slots.count[at] == 0 ? color[x] : smear_timemask_samples_mean(&j->slots, at, color[x]);
+            out[x] = j->samples.count[at] == 0 ? color[x] : smear_timemask_samples_mean(&j->samples, at, color[x]);
         }
     }
 }
@@ -377,7 +371,7 @@ static void finish_block(const struct job *j)
 /* Draws the block's moving triangles, as many at a time as the list has room for. */
 static void draw_block(struct job *j)
 {
-    smear_timemask_samples_clear(&j->slots);
+    smear_timemask_samples_clear(&j->samples);
     if (j->first != 0) {        /* they did not fit at once: from the start */
         j->next = 0;
         list_moving(j);
@@ -410,10 +404,10 @@ size_t smear_timemask_work(int32_t tile)
 uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings)
 {
     const int log2 = pixels_log2(t->work_bytes);
-    const struct smear_raster_target *still = &t->background;
+    const struct smear_raster_target *background = &t->background;
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
-    smear_timemask_samples_place(&j.slots, j.list + LISTED, log2,
-                               31 - count_leading_zeros((uint32_t)settings->slots),
+    smear_timemask_samples_place(&j.samples, j.list + LISTED, log2,
+                               31 - count_leading_zeros((uint32_t)settings->samples),
                                frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
@@ -424,10 +418,10 @@ uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_
         j.stride >>= 1;
     while (height > TIMEMASK_HEIGHT || height * j.stride > 1 << log2)
         height >>= 1;
-    for (j.y = still->y0; j.y < still->y1; j.y += height)
-        for (j.x = still->x0; j.x < still->x1; j.x += j.stride) {
-            j.width = min_i32(still->x1 - j.x, j.stride);
-            j.height = min_i32(still->y1 - j.y, height);
+    for (j.y = background->y0; j.y < background->y1; j.y += height)
+        for (j.x = background->x0; j.x < background->x1; j.x += j.stride) {
+            j.width = min_i32(background->x1 - j.x, j.stride);
+            j.height = min_i32(background->y1 - j.y, height);
             draw_block(&j);
         }
     return j.fragments;

@@ -10,7 +10,7 @@
 size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {
-    int32_t slots;              /* 8, 16 or 32 */
+    int32_t samples;            /* 8, 16 or 32 */
     int32_t curvature;               /* q8 px: an edge may be off by this much where paths are
                                  * bent; else the shutter is split */
     int32_t edge;               /* what an edge may err where it turns: 2^-edge px of contrast

@@ -3,8 +3,8 @@
 #include "temporal/timemask_cover.h"
 
 enum {
-    SLOT_Q = 14,                /* fraction bits of slots in planes */
-    BENT_Q = 12                 /* after a multiplication with bends */
+    SAMPLE_Q = 14,              /* fraction bits of samples in planes */
+    CURVED_Q = 12               /* after a multiplication with curvatures */
 };
 
 /* ------------------------------------------------------------------ bounds */
@@ -54,7 +54,7 @@ SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i,
     int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
     int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
     /* Steps are below 2^22: far beyond 2^26 the sign is the same all
-     * over the block. Differences of two still fit. */
+     * over the block. Differences of two fit, too. */
     const int32_t most = (1 << 30) - (1 << 28);
     int32_t at = here > most ? most : here < -most ? -most : (int32_t)here;
     return (struct timemask_plane){ at, -dy, dx };
@@ -87,8 +87,8 @@ static inline struct timemask_plane other_side(const struct timemask_plane *p)
     return (struct timemask_plane){ ~p->at, -p->dx, -p->dy };
 }
 
-/* a n / d in q14 for n = 2^slots_log2, to nearest: d = 2^(61 - zeros) / recip, its sign apart. */
-static inline int32_t slots_over(int32_t a, uint32_t recip, int shift)
+/* a n / d in q14 for n = 2^samples_log2, to nearest: d = 2^(61 - zeros) / recip, its sign apart. */
+static inline int32_t samples_over(int32_t a, uint32_t recip, int shift)
 {
     return (int32_t)(((int64_t)a * (int32_t)recip + ((int64_t)1 << (shift - 1))) >> shift);
 }
@@ -143,17 +143,17 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     if (!is_near(w, (w->h >> 1) + (w->bows >> 1), edge)) {
         part = (int32_t)(mulh_u32((uint32_t)w->h << zeros, r) >> 14);           /* h / d, q15 */
         int32_t off = (int32_t)((int64_t)w->h * part >> 16);
-        form = is_near(w, off + (w->bows >> 1), edge) ? COVER_BENT : COVER_BOWED;
+        form = is_near(w, off + (w->bows >> 1), edge) ? COVER_CURVED : COVER_BOWED;
         if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, edge)))
             return false;
     }
     bool leaves = (w->d > 0) != w->reversed;
     struct timemask_crossing *x = leaves ? &c->leave[c->leaves++] : &c->enter[c->enters++];
-    int shift = 61 - zeros - (SLOT_Q - 1) - c->slots_log2;
+    int shift = 61 - zeros - (SAMPLE_Q - 1) - c->samples_log2;
     int32_t sign = w->d < 0 ? -1 : 1;
-    x->mean = (struct timemask_plane){ slots_over(sign * (w->start.at + w->end.at + 1), r, shift),
-                                       slots_over(sign * (w->start.dx + w->end.dx), r, shift),
-                                       slots_over(sign * (w->start.dy + w->end.dy), r, shift) };
+    x->mean = (struct timemask_plane){ samples_over(sign * (w->start.at + w->end.at + 1), r, shift),
+                                       samples_over(sign * (w->start.dx + w->end.dx), r, shift),
+                                       samples_over(sign * (w->start.dy + w->end.dy), r, shift) };
     x->curvature = (struct timemask_plane){ 1 << 30, 0, 0 };
     x->bow = 0;
     c->form = form > c->form ? form : c->form;
@@ -167,11 +167,11 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
         int32_t bow = w->bow.at + w->bow.dx * c->middle_x + w->bow.dy * c->middle_y;
         x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
     }
-    x->slack = (part << c->slots_log2 >> 1) + (abs_i32(x->bow) << c->slots_log2 >> 2);
+    x->slack = (part << c->samples_log2 >> 1) + (abs_i32(x->bow) << c->samples_log2 >> 2);
     /* Covered only where it is left after the start, entered before the end. */
     struct timemask_plane seen = leaves ? x->mean
         : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
-    seen.at += (1 << (SLOT_Q - 1 + c->slots_log2)) + x->slack;
+    seen.at += (1 << (SAMPLE_Q - 1 + c->samples_log2)) + x->slack;
     bound_add(c, &seen);
     return true;
 }
@@ -212,7 +212,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     if (w.reversed)
         p = other_side(&p);
     if (moves <= w.length >> 7) {       /* by less than 1/128 px */
-        c->still[c->stills++] = p;
+        c->stay[c->stays++] = p;
     } else {
         c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
         p.at = add_wrap(p.at, (moves >> 1) + 1);
@@ -240,7 +240,7 @@ static int64_t area_of(const struct timemask_pose *p)
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2, int32_t edge)
+                          int32_t height, int32_t samples_log2, int32_t edge)
 {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int k = 0; k < 3; k++)
@@ -257,10 +257,10 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
     if (c->x0 >= c->x1 || c->y0 >= c->y1
         || (area_of(pose[0]) <= 0 && area_of(pose[1]) <= 0 && area_of(pose[2]) <= 0))
         return false;
-    c->slots_log2 = slots_log2;
+    c->samples_log2 = samples_log2;
     c->middle_x = (width + 1) >> 1;
     c->middle_y = (height + 1) >> 1;
-    c->enters = c->leaves = c->stills = c->turns = c->lefts = c->rights = 0;
+    c->enters = c->leaves = c->stays = c->turns = c->lefts = c->rights = 0;
     c->form = COVER_EVEN;
     if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))
         return false;
@@ -279,20 +279,20 @@ static inline uint32_t below(int32_t n)
 /* e(u) = start + (end - start) u + 2 bow u (1 - u), brought to 18 bits and times 4 n^2, which fits. */
 struct parabola {
     int32_t start, end, bow;    /* 2 n start, 2 n end, 2 bow */
-    int32_t slots;
+    int32_t samples;
 };
 
-/* In the middle of a slot. */
-static inline int32_t parabola_at(const struct parabola *p, int32_t slot)
+/* Returns its value in the middle of a sample. */
+static inline int32_t parabola_at(const struct parabola *p, int32_t sample)
 {
-    int32_t u = 2 * slot + 1, rest = 2 * p->slots - u;
+    int32_t u = 2 * sample + 1, rest = 2 * p->samples - u;
     return rest * (p->start + p->bow * u) + p->end * u;
 }
 
-/* The first slot of (low, high] whose sign is that of `high`; that of `low` is the other one. */
+/* The first sample of (low, high] whose sign is that of `high`; that of `low` is the other one. */
 static int32_t sign_change(const struct parabola *p, int32_t low, int32_t high)
 {
-    int32_t sign = high < p->slots ? parabola_at(p, high) : p->end;
+    int32_t sign = high < p->samples ? parabola_at(p, high) : p->end;
     while (high - low > 1) {
         int32_t middle = (low + high) >> 1;
         if ((parabola_at(p, middle) ^ sign) >= 0)
@@ -304,24 +304,24 @@ static int32_t sign_change(const struct parabola *p, int32_t low, int32_t high)
 }
 
 /* Slots in which e >= 0. */
-static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t slots_log2)
+static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t samples_log2)
 {
-    const int32_t slots = 1 << slots_log2;
+    const int32_t samples = 1 << samples_log2;
     uint32_t size = (uint32_t)abs_i32(start) | (uint32_t)abs_i32(end) | (uint32_t)abs_i32(bow) | 1u;
     int shift = count_leading_zeros(size) - 14, up = max_i32(shift, 0), down = max_i32(-shift, 0);
-    struct parabola p = { (shl_wrap(start, up) >> down) * 2 * slots, (shl_wrap(end, up) >> down) * 2 * slots,
-                          (shl_wrap(bow, up) >> down) * 2, slots };
+    struct parabola p = { (shl_wrap(start, up) >> down) * 2 * samples, (shl_wrap(end, up) >> down) * 2 * samples,
+                          (shl_wrap(bow, up) >> down) * 2, samples };
     if ((start ^ end) < 0) {    /* it crosses once */
-        uint32_t before = below(sign_change(&p, -1, slots));
+        uint32_t before = below(sign_change(&p, -1, samples));
         return start >= 0 ? before : ~before;
     }
     /* Not at all, or twice: around u = 1/2 + (end - start) / (4 bow), where it is farthest off. */
     if (p.bow == 0)
         return start >= 0 ? UINT32_MAX : 0;
-    int32_t top = clamp_i32((slots >> 1) + (p.end - p.start) / (4 * p.bow), 0, slots - 1);
+    int32_t top = clamp_i32((samples >> 1) + (p.end - p.start) / (4 * p.bow), 0, samples - 1);
     if ((parabola_at(&p, top) ^ start) >= 0)
         return start >= 0 ? UINT32_MAX : 0;
-    uint32_t away = below(sign_change(&p, top, slots)) & ~below(sign_change(&p, -1, top));
+    uint32_t away = below(sign_change(&p, top, samples)) & ~below(sign_change(&p, -1, top));
     return start >= 0 ? ~away : away;
 }
 
@@ -339,7 +339,7 @@ static int32_t put_runs(uint32_t *out, int32_t x, uint32_t mask)
     return count;
 }
 
-/* What still and turning edges leave of runs. */
+/* What edges that stay or turn leave of runs. */
 static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out, int32_t count)
 {
     uint32_t run[TIMEMASK_WIDTH];
@@ -349,8 +349,8 @@ static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out,
     count = 0;
     for (int32_t k = 0; k < n; k++) {
         int32_t x = timemask_run_x(run[k]), outside = 0;
-        for (int i = 0; i < c->stills; i++)
-            outside |= timemask_plane_at(&c->still[i], x, y);
+        for (int i = 0; i < c->stays; i++)
+            outside |= timemask_plane_at(&c->stay[i], x, y);
         if (outside < 0)
             continue;
         uint32_t mask = UINT32_MAX, all = 0;
@@ -365,7 +365,7 @@ static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out,
                 mask &= (low >= 0) != t->reversed ? UINT32_MAX : 0;
                 continue;
             }
-            uint32_t inside = turn_mask(start, end, bow, c->slots_log2);
+            uint32_t inside = turn_mask(start, end, bow, c->samples_log2);
             mask &= t->reversed ? ~inside : inside;
             all = 1;
         }
@@ -382,7 +382,7 @@ static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out,
 
 /* A crossing on its way along a row. */
 struct walk {
-    int32_t mean, step, curvature, bend_step;
+    int32_t mean, step, curvature, curvature_step;
 };
 
 SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x, int32_t y)
@@ -391,33 +391,33 @@ SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x
                           p->curvature.dx };
 }
 
-/* The slot in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
-SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t slots_log2,
+/* The sample in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
+SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t samples_log2,
                              enum timemask_form form)
 {
-    int32_t slot;
+    int32_t sample;
     if (form == COVER_EVEN) {
-        slot = w->mean;
+        sample = w->mean;
     } else {
-        slot = mulh_i32(w->mean, w->curvature);
-        w->curvature = add_wrap(w->curvature, w->bend_step);
+        sample = mulh_i32(w->mean, w->curvature);
+        w->curvature = add_wrap(w->curvature, w->curvature_step);
     }
     w->mean = add_wrap(w->mean, w->step);
     if (form == COVER_BOWED) {
-        const int32_t most = 1 << (BENT_Q + slots_log2);
-        slot = clamp_i32(slot + (most >> 1), 0, most);
-        slot += ((slot >> 3) * ((most - slot) >> 3) >> (6 + slots_log2)) * p->bow >> 14;
+        const int32_t most = 1 << (CURVED_Q + samples_log2);
+        sample = clamp_i32(sample + (most >> 1), 0, most);
+        sample += ((sample >> 3) * ((most - sample) >> 3) >> (6 + samples_log2)) * p->bow >> 14;
     }
-    return slot;
+    return sample;
 }
 
 SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
                               uint32_t *out, int enters, int leaves, enum timemask_form form)
 {
-    const int q = form == COVER_EVEN ? SLOT_Q : BENT_Q;
-    const int32_t slots = 1 << c->slots_log2;
+    const int q = form == COVER_EVEN ? SAMPLE_Q : CURVED_Q;
+    const int32_t samples = 1 << c->samples_log2;
     /* Slots count from the segment's middle, but for bows. */
-    const int32_t half = (form == COVER_BOWED ? 0 : slots << q >> 1) + (1 << (q - 1));
+    const int32_t half = (form == COVER_BOWED ? 0 : samples << q >> 1) + (1 << (q - 1));
     struct walk enter[3], leave[3];
     int32_t count = 0;
     for (int i = 0; i < enters; i++)
@@ -425,11 +425,11 @@ SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_
     for (int i = 0; i < leaves; i++)
         leave[i] = walk_start(&c->leave[i], x0, y);
     for (int32_t x = x0; x < x1; x++) {
-        int32_t from = -half, to = (slots << q) - half;
+        int32_t from = -half, to = (samples << q) - half;
         for (int i = 0; i < leaves; i++)
-            to = min_i32(to, walk_on(&leave[i], &c->leave[i], c->slots_log2, form));
+            to = min_i32(to, walk_on(&leave[i], &c->leave[i], c->samples_log2, form));
         for (int i = 0; i < enters; i++)
-            from = max_i32(from, walk_on(&enter[i], &c->enter[i], c->slots_log2, form));
+            from = max_i32(from, walk_on(&enter[i], &c->enter[i], c->samples_log2, form));
         to = (to + half) >> q;
         from = (from + half) >> q;
         if (from < to)
@@ -461,16 +461,16 @@ int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, uint32_t *
     if (x0 >= x1)
         return 0;
     if ((c->enters | c->leaves) == 0) {
-        const uint32_t run = timemask_run(0, 0, 1 << c->slots_log2);
+        const uint32_t run = timemask_run(0, 0, 1 << c->samples_log2);
         for (int32_t x = x0; x < x1; x++)
             out[x - x0] = run + (uint32_t)x;
         count = x1 - x0;
     } else if (c->form == COVER_EVEN) {
         count = row_kind(c, x0, x1, y, out, COVER_EVEN);
-    } else if (c->form == COVER_BENT) {
-        count = row_kind(c, x0, x1, y, out, COVER_BENT);
+    } else if (c->form == COVER_CURVED) {
+        count = row_kind(c, x0, x1, y, out, COVER_CURVED);
     } else {
         count = row_kind(c, x0, x1, y, out, COVER_BOWED);
     }
-    return (c->stills | c->turns) == 0 || count == 0 ? count : row_cut(c, y, out, count);
+    return (c->stays | c->turns) == 0 || count == 0 ? count : row_cut(c, y, out, count);
 }

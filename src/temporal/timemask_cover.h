@@ -3,11 +3,11 @@
  *
  * During a segment of the exposure an edge function goes from its value at the segment's start to that at
  * its end, along the parabola through its value in the middle: exact where vertices move along chords. Where
- * it changes its sign the pixel is entered or left; what three edges leave are runs of time slots, most
- * often one. A slot is covered when its middle is.
+ * it changes its sign the pixel is entered or left; what three edges leave are runs of time samples, most
+ * often one. A sample is covered when its middle is.
  *
  * An edge's numbers come from its two vertices in one order, whichever triangle asks: runs of the triangles
- * on both its sides add up to the whole segment, slot for slot. */
+ * on both its sides add up to the whole segment, sample for sample. */
 #ifndef SMEAR_TIMEMASK_COVER_H
 #define SMEAR_TIMEMASK_COVER_H
 
@@ -32,14 +32,14 @@ static inline int32_t timemask_plane_at(const struct timemask_plane *p, int32_t 
     return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
-/* An edge that crosses pixels one way: in which slot. */
+/* An edge that crosses pixels one way: in which sample. */
 struct timemask_crossing {
-    struct timemask_plane mean;     /* slots q14 after the segment's middle, for the
+    struct timemask_plane mean;     /* samples q14 after the segment's middle, for the
                                      * difference in the block's middle */
     struct timemask_plane curvature;     /* q30: what that is to be multiplied with where
                                      * the difference is another one */
     int32_t bow;                    /* q14: how far the parabola leaves the chord */
-    int32_t slack;                  /* q14 slots: what curvature and bow may make of it */
+    int32_t slack;                  /* q14 samples: what curvature and bow may make of it */
 };
 
 /* An edge that may do anything. */
@@ -49,24 +49,24 @@ struct timemask_turning {
     bool reversed;                          /* the triangle lies on the edge's other side */
 };
 
-enum timemask_form { COVER_EVEN, COVER_BENT, COVER_BOWED };
+enum timemask_form { COVER_EVEN, COVER_CURVED, COVER_BOWED };
 
 /* How the edges move in this block. */
 struct timemask_cover {
     int32_t x0, y0, x1, y1;     /* pixels of the block that may be covered */
     int32_t middle_x, middle_y; /* of the block */
-    int32_t slots_log2;         /* of the segment */
+    int32_t samples_log2;       /* of the segment */
     enum timemask_form form;    /* what crossings need: none bends or bows, some curvature, some bow */
-    uint8_t enters, leaves, stills, turns;      /* edges of each kind; those inside everywhere are in none */
+    uint8_t enters, leaves, stays, turns;       /* edges of each kind; those inside everywhere are in none */
     uint8_t lefts, rights;
     struct timemask_crossing enter[3], leave[3];
-    struct timemask_plane still[3];             /* inside is >= 0 */
+    struct timemask_plane stay[3];              /* inside is >= 0 */
     struct timemask_turning turn[3];
     /* What is covered in row y lies right of left.at + y left.step and left of the right ones, q16 px. */
     struct { int32_t at, step; } left[8], right[8];
 };
 
-/* Runs of a row: slots [from, to) of pixel x, each in 8 bits. */
+/* Runs of a row: samples [from, to) of pixel x, each in 8 bits. */
 static inline uint32_t timemask_run(int32_t x, int32_t from, int32_t to)
 {
     return (uint32_t)(x | from << 8 | to << 16);
@@ -76,10 +76,10 @@ static inline int32_t timemask_run_x(uint32_t run) { return (int32_t)(run & 255u
 static inline int32_t timemask_run_from(uint32_t run) { return (int32_t)(run >> 8 & 255u); }
 static inline int32_t timemask_run_to(uint32_t run) { return (int32_t)(run >> 16); }
 
-/* False when no pixel of the block's width x height is covered in the segment of 2^slots_log2 slots that
+/* False when no pixel of the block's width x height is covered in the segment of 2^samples_log2 samples that
  * begins, is halfway and ends at the poses. `edge` as in struct smear_timemask_settings. */
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,
-                          int32_t height, int32_t slots_log2, int32_t edge);
+                          int32_t height, int32_t samples_log2, int32_t edge);
 
 enum { TIMEMASK_RUNS = 4 * TIMEMASK_WIDTH };        /* three edges that bow in and out again */
 

@@ -3,7 +3,7 @@
 #include "temporal/timemask_samples.h"
 
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                int32_t slots_log2, bool linear)
+                                int32_t samples_log2, bool linear)
 {
     size_t pixels = (size_t)1 << pixels_log2;
     b->any = (uint32_t *)memory;
@@ -13,7 +13,7 @@ void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int3
     b->farthest = b->depth + TIMEMASK_ENTRIES * pixels;
     b->count = (uint8_t *)(b->farthest + pixels);
     b->pixels_log2 = pixels_log2;
-    b->slots_log2 = slots_log2;
+    b->samples_log2 = samples_log2;
     b->linear = linear;
 }
 
@@ -45,15 +45,15 @@ uint32_t smear_timemask_slope(int32_t slope)
 
 /* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of
  * the exposure less b's, in 1/32, `slope` a's slope less b's. */
-static SMEAR_NOINLINE uint32_t nearer_slots(int32_t depth, int32_t slope, uint32_t both, int32_t last_slot)
+static SMEAR_NOINLINE uint32_t nearer_samples(int32_t depth, int32_t slope, uint32_t both, int32_t last_sample)
 {
     int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
-    int32_t begin = depth + slope * (2 * first - last_slot), end = depth + slope * (2 * last - last_slot);
+    int32_t begin = depth + slope * (2 * first - last_sample), end = depth + slope * (2 * last - last_sample);
     if (begin > 0 && end > 0)
         return both;
     if (begin <= 0 && end <= 0)
         return 0;
-    /* They cross: slots before are those whose difference has the sign of the first. */
+    /* They cross: samples before are those whose difference has the sign of the first. */
     int32_t count = clamp_i32(-begin / (2 * slope), 0, last - first - 1) + 1;
     uint32_t before = both & ((2u << (first + count - 1)) - 1u);
     return begin > 0 ? before : both & ~before;
@@ -68,7 +68,7 @@ static const uint32_t over[33] = {
     174763, 167773, 161320, 155345, 149797, 144632, 139811, 135301, 131072
 };
 
-/* (a wa + b wb) / n with n = wa + wb slots: equal codes keep their mean. */
+/* (a wa + b wb) / n with n = wa + wb samples: equal codes keep their mean. */
 static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
 {
     uint32_t n = wa + wb, by = over[n];
@@ -160,8 +160,8 @@ static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, con
     entry_put(b, pixel, first, &joined);
     if (second < TIMEMASK_ENTRIES)
         entry_put(b, pixel, second, fresh);
-    /* It goes on in the longer's course for the other's slots, too. */
-    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->slots_log2) - 1) >> 5;
+    /* It goes on in the longer's course for the other's samples, too. */
+    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->samples_log2) - 1) >> 5;
     int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
     if (lowest < b->farthest[pixel])
         b->farthest[pixel] = (uint16_t)lowest;
@@ -171,16 +171,16 @@ static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, con
 
 void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, const struct timemask_fragment *f)
 {
-    const int32_t last_slot = (1 << b->slots_log2) - 1;
+    const int32_t last_sample = (1 << b->samples_log2) - 1;
     uint32_t mask = f->mask, n = b->count[pixel];
     for (uint32_t i = 0; i < n;) {
         uint32_t at = (i << b->pixels_log2) + pixel, both = b->held[at] & mask;
         if (both != 0) {
             int32_t deeper = (f->depth - (int32_t)b->depth[at]) * 32;
-            int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_slot;
+            int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_sample;
             uint32_t taken = deeper > most   ? both
                            : deeper <= -most ? 0
-                                             : nearer_slots(deeper, turn, both, last_slot);
+                                             : nearer_samples(deeper, turn, both, last_sample);
             mask &= ~both | taken;
             b->held[at] &= ~taken;
             if (b->held[at] == 0) {     /* the last one takes its place */
@@ -216,7 +216,7 @@ void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, 
 int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
                                     int32_t stride)
 {
-    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2));
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->samples_log2));
     int32_t farthest = UINT16_MAX;
     for (int32_t y = 0; y < rows; y++)
         for (int32_t i = y * stride; i < y * stride + width; i++) {
@@ -230,37 +230,37 @@ int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t 
 /* ------------------------------------------------------------------ means */
 
 /* Linear light. */
-static uint32_t mean_linear(const struct timemask_samples *b, uint32_t pixel, uint32_t still)
+static uint32_t mean_linear(const struct timemask_samples *b, uint32_t pixel, uint32_t background)
 {
-    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red = half, green = half, blue = half;
+    uint32_t rest = 1u << b->samples_log2, half = rest >> 1, red = half, green = half, blue = half;
     for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
         bool own = i < b->count[pixel];
-        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : still;
+        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : background;
         rest -= n;
         red += n * smear_srgb_decode[pixel_red(color)];
         green += n * smear_srgb_decode[pixel_green(color)];
         blue += n * smear_srgb_decode[pixel_blue(color)];
     }
-    const int down = b->slots_log2 + 4;
+    const int down = b->samples_log2 + 4;
     return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down],
                       smear_srgb_encode[blue >> down]);
 }
 
-uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t still)
+uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t background)
 {
-    const uint32_t all = UINT32_MAX >> (32 - (1 << b->slots_log2)), count = b->count[pixel];
+    const uint32_t all = UINT32_MAX >> (32 - (1 << b->samples_log2)), count = b->count[pixel];
     if (count == 1 && b->held[pixel] == all)
         return b->color[pixel] & 0xffffffu;
     if (b->linear)
-        return mean_linear(b, pixel, still);
-    uint32_t rest = 1u << b->slots_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
+        return mean_linear(b, pixel, background);
+    uint32_t rest = 1u << b->samples_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
     for (uint32_t i = 0, at = pixel; i < count; i++, at += 1u << b->pixels_log2) {
         uint32_t n = count_bits(b->held[at]), color = b->color[at];
         rest -= n;
         red_blue += (color & 0xff00ffu) * n;
         green += (color >> 8 & 0xffu) * n;
     }
-    red_blue += (still & 0xff00ffu) * rest;
-    green += (still >> 8 & 0xffu) * rest;
-    return (red_blue >> b->slots_log2 & 0xff00ffu) | (green >> b->slots_log2 & 0xffu) << 8;
+    red_blue += (background & 0xff00ffu) * rest;
+    green += (background >> 8 & 0xffu) * rest;
+    return (red_blue >> b->samples_log2 & 0xff00ffu) | (green >> b->samples_log2 & 0xffu) << 8;
 }

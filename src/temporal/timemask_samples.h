@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* timemask_samples.h - who is seen in a pixel in which time slots: an A-buffer over time.
+/* timemask_samples.h - who is seen in a pixel in which time samples: an A-buffer over time.
  *
- * A pixel has up to five entries, each with the slots it holds, a colour, and a depth code that goes evenly
- * with time. A slot is in at most one entry: the nearer of two takes it. What no entry holds shows the still
- * scene. When a sixth is needed, the two most alike become one, coloured by their shares. */
+ * A pixel has up to five entries, each with the time samples it holds, a colour, and a depth code that goes evenly with
+ * time. A sample is in at most one entry: the nearer of two takes it. What no entry holds shows the background. When a
+ * sixth is needed, the two most alike become one, coloured by their shares. */
 #ifndef SMEAR_TIMEMASK_SAMPLES_H
 #define SMEAR_TIMEMASK_SAMPLES_H
 
@@ -15,20 +15,20 @@ enum { TIMEMASK_ENTRIES = 5 };
 
 /* Entries of a block: e of pixel p at e * pixels + p. */
 struct timemask_samples {
-    uint32_t *any;              /* slots held by some entry */
-    uint32_t *held;             /* a bit per slot, never 0 in use */
+    uint32_t *any;              /* samples held by some entry */
+    uint32_t *held;             /* a bit per sample, never 0 in use */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
     uint16_t *depth;            /* code in the middle of the exposure */
-    uint16_t *farthest;         /* no entry is farther than this in a slot it holds */
+    uint16_t *farthest;         /* no entry is farther than this in a sample it holds */
     uint8_t *count;             /* entries in use */
     int32_t pixels_log2;
-    int32_t slots_log2;         /* of the whole exposure */
+    int32_t samples_log2;       /* of the whole exposure */
     bool linear;
 };
 
 /* What may be seen of a moving triangle in a pixel. */
 struct timemask_fragment {
-    uint32_t mask;              /* slots, at least one */
+    uint32_t mask;              /* samples, at least one */
     uint32_t color;             /* as it is kept */
     int32_t depth;              /* code in the middle of the exposure */
     int32_t slope;              /* timemask_slope_of(color) */
@@ -44,12 +44,12 @@ static inline size_t timemask_samples_bytes(uint32_t pixels)
 
 /* Over `memory` of that size, aligned for words. */
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                int32_t slots_log2, bool linear);
+                                int32_t samples_log2, bool linear);
 
 /* Frees all entries. */
 void smear_timemask_samples_clear(struct timemask_samples *b);
 
-/* Slope of a depth code, in 1/16 per slot, in 8 bits: sign, exponent, 3 bits of mantissa. */
+/* Slope of a depth code, in 1/16 per sample, in 8 bits: sign, exponent, 3 bits of mantissa. */
 uint32_t smear_timemask_slope(int32_t slope);
 
 static inline int32_t timemask_slope_of(uint32_t color)
@@ -101,11 +101,11 @@ SMEAR_INLINE void timemask_samples_add(struct timemask_samples *b, uint32_t pixe
 }
 
 /* Depth code at or beyond which nothing new is seen in rows of `width`
- * pixels, `stride` apart: 0 while slots are free. */
+ * pixels, `stride` apart: 0 while samples are free. */
 int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
                                     int32_t stride);
 
-/* The pixel over the still scene's colour. */
-uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t still);
+/* The pixel over the background's colour. */
+uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t background);
 
 #endif

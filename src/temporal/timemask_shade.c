@@ -16,7 +16,20 @@ enum {
 
 /* ------------------------------------------------------------------ slopes */
 
-bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p)
+/* What turns differences along the edges from vertex 0 into slopes: the edges' parts over the area, times 2^shift. */
+struct shape {
+    int32_t x1, y1, x2, y2;
+    int shift;
+};
+
+/* The slopes of a plane through values at the vertices, per pixel; 0 where they would be too steep to have exact
+ * pixels. */
+struct slopes {
+    int32_t dx, dy;
+};
+
+/* False when the triangle has no area. */
+static bool shape_make(struct shape *s, const struct timemask_pose *p)
 {
     int32_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
     int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
@@ -39,17 +52,17 @@ bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *
     return true;
 }
 
-struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t a[3])
+static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
 {
     int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
     int64_t dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> s->shift;
     int64_t dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> s->shift;
     if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
-        return (struct timemask_slopes){ 0, 0 };
-    return (struct timemask_slopes){ (int32_t)dx, (int32_t)dy };
+        return (struct slopes){ 0, 0 };
+    return (struct slopes){ (int32_t)dx, (int32_t)dy };
 }
 
-/* At the point that attributes go with. */
+/* Returns the value at the point that attributes go with. */
 static inline int32_t point_of(const int32_t a[3])
 {
     return (int32_t)(((int64_t)a[0] + a[0] + a[1] + a[2]) >> 2);
@@ -61,7 +74,7 @@ static inline int32_t point_of(const int32_t a[3])
 struct course {
     bool started;
     bool turns;                 /* its shape is another one at the end */
-    struct timemask_shape shape, start, end;         /* in the middle; where it turns also at both ends */
+    struct shape shape, start, end;         /* in the middle; where it turns also at both ends */
     int32_t x, y, x_change, y_change;       /* the point that attributes go with: q8 px from
                                              * the block's first centre */
 };
@@ -69,7 +82,7 @@ struct course {
 /* Whether slopes change so much between two poses that it matters: edges by more than 1/8 of the longest (or,
  * where texels or colours go with the surface, by more than 1/4 px: elsewhere in a large triangle so much is
  * all there is of its motion), or depths along them by more than a part of depth. */
-static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b, bool is_plain)
+static bool shape_turns(const struct timemask_pose *a, const struct timemask_pose *b, bool has_one_color)
 {
     int32_t change = 0, deeper = 0, size = 0;
     for (int i = 1; i < 3; i++) {
@@ -79,17 +92,17 @@ static bool shape_turns(const struct timemask_pose *a, const struct timemask_pos
         change = max_i32(change, max_i32(abs_i32(fx - ex), abs_i32(fy - ey)));
         deeper = max_i32(deeper, abs_i32((fz >> 1) - (ez >> 1)));
     }
-    return change > (is_plain ? size >> 3 : 64) || deeper > a->depth[0] >> TURN_LOG2;
+    return change > (has_one_color ? size >> 3 : 64) || deeper > a->depth[0] >> TURN_LOG2;
 }
 
-static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool is_plain)
+static void course_start(struct course *c, const struct timemask_pose *const pose[3], bool has_one_color)
 {
     c->started = true;
-    bool seen = smear_timemask_shape(&c->shape, pose[1]);
-    c->turns = !seen || shape_turns(pose[0], pose[2], is_plain);
+    bool seen = shape_make(&c->shape, pose[1]);
+    c->turns = !seen || shape_turns(pose[0], pose[2], has_one_color);
     if (c->turns) {     /* where it is seen from its edge, slopes are those of another time */
-        bool at_start = smear_timemask_shape(&c->start, pose[0]),
-             at_end = smear_timemask_shape(&c->end, pose[2]);
+        bool at_start = shape_make(&c->start, pose[0]),
+             at_end = shape_make(&c->end, pose[2]);
         if (!seen)
             c->shape = at_start ? c->start : c->end;
         if (!at_start)
@@ -118,15 +131,15 @@ static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve
  * A plane that changes by more than there are bits for becomes one value. */
 static void timed_make(struct timemask_timed *t, const struct course *c, const int32_t *const value[3])
 {
-    struct timemask_slopes g = smear_timemask_slopes(&c->shape, value[1]);
+    struct slopes g = slopes_of(&c->shape, value[1]);
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
     int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
     int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
-        struct timemask_slopes start = smear_timemask_slopes(&c->start, value[0]),
-                               end = smear_timemask_slopes(&c->end, value[2]);
+        struct slopes start = slopes_of(&c->start, value[0]),
+                               end = slopes_of(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
@@ -202,7 +215,7 @@ static void attribute_make(struct timemask_timed *t, const struct course *c, con
 /* ------------------------------------------------------------------ set-up */
 
 static void shade_depth(struct timemask_shade *s, struct course *c, const struct timemask_pose *const pose[3],
-                        const struct timemask_cover *cover, bool is_plain)
+                        const struct timemask_cover *cover, bool has_one_color)
 {
     int32_t depth[3][3];
     s->depth_low = INT32_MAX;
@@ -218,12 +231,12 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
                                             .change = point_of(depth[2]) - point_of(depth[0]) };
     } else {
         const int32_t *value[3] = { depth[0], depth[1], depth[2] };
-        course_start(c, pose, is_plain);
+        course_start(c, pose, has_one_color);
         timed_make(&s->depth, c, value);
     }
     int32_t change = s->depth.change + s->depth.change_dx * cover->middle_x
                    + s->depth.change_dy * cover->middle_y;
-    s->slope = clamp_i32(change >> s->slots_log2, -MOST_SLOPE, MOST_SLOPE);
+    s->slope = clamp_i32(change >> s->samples_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
 static uint32_t channels_pixel(int32_t red, int32_t green, int32_t blue, bool linear)
@@ -311,7 +324,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
 }
 
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const struct smear_segment *segment, uint32_t color, bool is_flat,
                           const int32_t *const record[3], const struct timemask_pose *const pose[3],
                           const struct timemask_cover *cover, int32_t tap)
 {
@@ -319,14 +332,14 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     course.started = false;
     s->frame = frame;
     s->segment = segment;
-    s->slots_log2 = cover->slots_log2;
+    s->samples_log2 = cover->samples_log2;
     s->tap = tap;
     s->color = color & 0xffffffu;
     s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
-    s->gouraud = segment_gouraud(segment) && !is_level;
-    const bool is_plain = !s->gouraud && s->sampler == NULL;
-    shade_depth(s, &course, pose, cover, is_plain);
-    if (is_plain)
+    s->gouraud = segment_gouraud(segment) && !is_flat;
+    const bool has_one_color = !s->gouraud && s->sampler == NULL;
+    shade_depth(s, &course, pose, cover, has_one_color);
+    if (has_one_color)
         return;
     if (!course.started)
         course_start(&course, pose, false);
@@ -402,8 +415,8 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
 {
     uint32_t texel[TAPS_MAX];
     const bool linear = frame_is_linear(s->frame);
-    const int up = TIMEMASK_TIME_LOG2 - s->slots_log2;
-    int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->slots_log2;
+    const int up = TIMEMASK_TIME_LOG2 - s->samples_log2;
+    int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->samples_log2;
     int log2 = 0;
     while (1 << log2 < TAPS_MAX && s->tap << log2 < travel)
         log2++;

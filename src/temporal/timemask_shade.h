@@ -31,42 +31,24 @@ struct timemask_shade {
                                              * gouraud; or light over a texture */
     struct timemask_timed depth;            /* units q4 */
     int32_t depth_low, depth_high;          /* what the vertices have, too */
-    int32_t slope;                          /* of depth codes below 32768, 1/16 per slot */
+    int32_t slope;                          /* of depth codes below 32768, 1/16 per sample */
     struct timemask_timed channel[3];       /* as setup.h has them, q16 */
     int32_t channel_low[3], channel_high[3];
     struct timemask_timed q, u, v;
     int32_t travel;                         /* during the segment, q8 px */
     int32_t tap;
-    int32_t slots_log2;
+    int32_t samples_log2;
 };
 
-/* From the poses at a segment's start, middle and end, for the block and segment of `cover`. `is_level`: the
- * triangle is of one colour, whatever its vertices have. `tap`: travel per texel, in q8 of the block's px. */
+/* Makes the planes of a triangle from its poses at a segment's start, middle and end, for the block and segment of
+ * `cover`. `is_flat`: the triangle is of one colour, whatever its vertices have. `tap`: travel per texel, q8 px. */
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
-                          const struct smear_segment *segment, uint32_t color, bool is_level,
+                          const struct smear_segment *segment, uint32_t color, bool is_flat,
                           const int32_t *const record[3], const struct timemask_pose *const pose[3],
                           const struct timemask_cover *cover, int32_t tap);
 
-/* Colour of a pixel of the block over a run. */
+/* Returns the colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
-
-/* What turns differences along the edges from vertex 0 into slopes: the
- * edges' parts over the area, times 2^shift. */
-struct timemask_shape {
-    int32_t x1, y1, x2, y2;
-    int shift;
-};
-
-/* False when it has no area. */
-bool smear_timemask_shape(struct timemask_shape *s, const struct timemask_pose *p);
-
-/* Of a plane through values at the vertices, per pixel; level where
- * that would be too steep to have exact pixels. */
-struct timemask_slopes {
-    int32_t dx, dy;
-};
-
-struct timemask_slopes smear_timemask_slopes(const struct timemask_shape *s, const int32_t value[3]);
 
 /* The two planes at a pixel. */
 struct timemask_here {
@@ -100,7 +82,7 @@ static inline int32_t timemask_value(const struct timemask_timed *p, const struc
 
 static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t run)
 {
-    return ((timemask_run_from(run) + timemask_run_to(run)) << (TIMEMASK_TIME_LOG2 - 1 - s->slots_log2))
+    return ((timemask_run_from(run) + timemask_run_to(run)) << (TIMEMASK_TIME_LOG2 - 1 - s->samples_log2))
          - (1 << (TIMEMASK_TIME_LOG2 - 1));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_timemask.c - the time mask against what it stands for: the same triangles drawn at the middle of every slot by exact
+/* test_timemask.c - the time mask against what it stands for: the same triangles drawn at the middle of every sample by exact
  * integer arithmetic, and averaged. Needs neither libc nor floating point. */
 #include "temporal/timemask.h"
 
@@ -149,9 +149,9 @@ static struct path path_moved(struct place p, int32_t dx, int32_t dy, int32_t de
 /* ------------------------------------------------------------------ the time mask */
 
 /* Whether the memory around the work area is as it was. */
-static bool draw_movers(int32_t slots, int32_t tile, int32_t bend, int32_t tap)
+static bool draw_movers(int32_t samples, int32_t tile, int32_t bend, int32_t tap)
 {
-    const struct smear_timemask_settings settings = { slots, bend, 10, tap };
+    const struct smear_timemask_settings settings = { samples, bend, 10, tap };
     const size_t words = (smear_timemask_work(tile) + 3) / 4;
     const struct smear_plane_rows rows = { W, 0, H, 0 };
     bool intact = CHECK(words <= WORK_WORDS);
@@ -277,13 +277,13 @@ static void truth_draw(const struct smear_triangle *t, int32_t time)
         }
 }
 
-/* The mean of the instants of all slots, into `sum`: codes times 256. */
-static void truth(int32_t slots)
+/* The mean of the instants of all samples, into `sum`: codes times 256. */
+static void truth(int32_t samples)
 {
     for (int i = 0; i < W * H; i++)
         sum[i][0] = sum[i][1] = sum[i][2] = 0;
-    for (int32_t k = 0; k < slots; k++) {
-        int32_t step = SHUTTER_SAMPLES / slots;
+    for (int32_t k = 0; k < samples; k++) {
+        int32_t step = SHUTTER_SAMPLES / samples;
         int32_t time = (shutter.time[k * step] + shutter.time[(k + 1) * step]) / 2;
         for (int i = 0; i < W * H; i++) {
             instant_color[i] = still_color[i];
@@ -299,7 +299,7 @@ static void truth(int32_t slots)
     }
     for (int i = 0; i < W * H; i++)
         for (int c = 0; c < 3; c++) {
-            uint32_t mean = (sum[i][c] + (uint32_t)slots / 2) / (uint32_t)slots;
+            uint32_t mean = (sum[i][c] + (uint32_t)samples / 2) / (uint32_t)samples;
             sum[i][c] = frame.linear ? smear_srgb_encode[mean >> 4] : mean;
         }
 }
@@ -339,10 +339,10 @@ static int32_t mean_square(const struct difference *d)
     return d->touched == 0 ? 0 : (int32_t)(d->squares * 100 / (3 * d->touched));
 }
 
-/* A channel's step, as a code, when `n` of the slots are wrong: dark ones are large in linear light. */
-static int32_t step_of(int32_t n, int32_t slots)
+/* A channel's step, as a code, when `n` of the samples are wrong: dark ones are large in linear light. */
+static int32_t step_of(int32_t n, int32_t samples)
 {
-    return frame.linear ? smear_srgb_encode[4095 * n / slots] : 255 * n / slots + 1;
+    return frame.linear ? smear_srgb_encode[4095 * n / samples] : 255 * n / samples + 1;
 }
 
 /* ------------------------------------------------------------------ scenes */
@@ -434,23 +434,23 @@ static void still_noise(void)
 }
 
 /* The time mask and the truth; prints what came out when it is not as it should be. `square`: mean of squares, x 100. */
-static bool check_against_truth(int32_t slots, int32_t bend, int32_t wrong_slots, int32_t square)
+static bool check_against_truth(int32_t samples, int32_t bend, int32_t wrong_samples, int32_t square)
 {
-    truth(slots);
-    bool ok = draw_movers(slots, 16, bend, 256);
+    truth(samples);
+    bool ok = draw_movers(samples, 16, bend, 256);
     struct difference d = compare();
-    ok = CHECK_NEAR(d.most, 0, step_of(wrong_slots, slots)) && ok;
+    ok = CHECK_NEAR(d.most, 0, step_of(wrong_samples, samples)) && ok;
     return CHECK_NEAR(mean_square(&d), 0, square) && ok;
 }
 
 /* ------------------------------------------------------------------ coverage */
 
-static void test_a_triangle_that_translates_covers_every_slot_that_it_should(void)
+static void test_a_triangle_that_translates_covers_every_sample_that_it_should(void)
 {
     random_state = 1;
     int32_t unequal = 0, touched = 0;
     for (int n = 0; n < 120; n++) {
-        int32_t slots = 8 << n % 3, size = 200 << n % 6;
+        int32_t samples = 8 << n % 3, size = 200 << n % 6;
         scene_begin(n & 1);
         int32_t dx = between(-6000, 6000), dy = n % 5 == 0 ? 0 : between(-6000, 6000);
         if (n % 7 == 0)
@@ -459,10 +459,10 @@ static void test_a_triangle_that_translates_covers_every_slot_that_it_should(voi
         uint16_t a = random_vertex(FLAT, x, y, size, dx, dy), b = random_vertex(FLAT, x, y, size, dx, dy);
         uint16_t c = random_vertex(FLAT, x, y, size, dx, dy);
         add_mover(FLAT, a, b, c, 0xffe0c0u);
-        truth(slots);
-        draw_movers(slots, 16, 64, 256);
+        truth(samples);
+        draw_movers(samples, 16, 64, 256);
         struct difference d = compare();
-        if (!CHECK_NEAR(d.most, 0, step_of(max_i32(slots / 4, 1), slots)))
+        if (!CHECK_NEAR(d.most, 0, step_of(max_i32(samples / 4, 1), samples)))
             return;
         unequal += d.unequal;
         touched += d.touched;
@@ -537,18 +537,18 @@ static void test_a_closed_mesh_that_translates_leaks_nothing(void)
     for (int n = 0; n < 60; n++) {
         scene_begin(n & 1);
         still_noise();
-        int32_t slots = 8 << n % 3, cells = between(2, 8);
+        int32_t samples = 8 << n % 3, cells = between(2, 8);
         struct motion m = { between(-3000, 3000), between(-3000, 3000), 0, 0 };
         add_mesh(FLAT, cells, 7000 / cells, W * 128, H * 128, depth_middle, between(-100000, 100000), &m, 0x80c040u);
-        truth(slots);
-        draw_movers(slots, 16 << n % 2, 64, 256);
+        truth(samples);
+        draw_movers(samples, 16 << n % 2, 64, 256);
         for (int i = 0; i < W * H; i++)
             if (is_core(i, 0x80c040u, 0)) {
                 core++;
                 off += result[i] != 0x80c040u;
             }
     }
-    /* Where a vertex passes a centre by less than 1/256 px, a slot may fall between the edges that meet there. */
+    /* Where a vertex passes a centre by less than 1/256 px, a sample may fall between the edges that meet there. */
     CHECK(core > 10000);
     CHECK_NEAR(off, 0, core / 400);
 }
@@ -560,11 +560,11 @@ static void test_a_closed_mesh_that_turns_leaks_next_to_nothing(void)
     for (int n = 0; n < 60; n++) {
         scene_begin(n & 1);
         still_noise();
-        int32_t slots = 8 << n % 3, cells = between(2, 8);
+        int32_t samples = 8 << n % 3, cells = between(2, 8);
         struct motion m = { between(-2000, 2000), between(-2000, 2000), between(-60, 60), between(-40, 40) };
         add_mesh(FLAT, cells, 7000 / cells, W * 128, H * 128, depth_middle, 0, &m, 0x80c040u);
-        truth(slots);
-        draw_movers(slots, 16, 32, 256);
+        truth(samples);
+        draw_movers(samples, 16, 32, 256);
         for (int i = 0; i < W * H; i++)
             if (is_core(i, 0x80c040u, 1)) {
                 core++;
@@ -679,7 +679,7 @@ static void test_more_surfaces_than_entries_still_add_up(void)
     for (int n = 0; n < 20; n++) {
         scene_begin(n & 1);
         still_noise();
-        /* Splinters of less than a slot's travel, at many depths. */
+        /* Splinters of less than a sample's travel, at many depths. */
         for (int i = 0; i < 100; i++) {
             int32_t x = between(-1000, W * 256 + 1000), y = between(-1000, H * 256 + 1000), size = between(200, 700);
             int32_t dx = between(2000, 6000), dy = between(-1000, 1000);
@@ -887,7 +887,7 @@ static void test_a_shutter_that_is_not_a_box_weighs_time(void)
     random_state = 16;
     for (int n = 0; n < 20; n++) {
         scene_begin(n & 1);
-        /* Open in the middle: half the slots in a quarter of the time. */
+        /* Open in the middle: half the samples in a quarter of the time. */
         for (int i = 0; i <= SHUTTER_SAMPLES; i++) {
             int32_t u = i * 4096 - 65536;                               /* -1 .. 1 */
             shutter.time[i] = 32768 + ((u >> 1) + (int32_t)((int64_t)u * u / 65536 * u / 65536 >> 1)) / 2;
@@ -938,7 +938,7 @@ static void test_textures_are_taken_along_the_motion(void)
 
 void suite_timemask(void)
 {
-    RUN(test_a_triangle_that_translates_covers_every_slot_that_it_should);
+    RUN(test_a_triangle_that_translates_covers_every_sample_that_it_should);
     RUN(test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them);
     RUN(test_a_closed_mesh_that_translates_leaks_nothing);
     RUN(test_a_closed_mesh_that_turns_leaks_next_to_nothing);
