@@ -46,7 +46,7 @@ SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
-TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite fuzz target shell)
+TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples fuzz target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
@@ -257,7 +257,7 @@ $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
 
-.PHONY: print-suites print-san-suites run-suite test-headers test-tables test-readme fuzz-corpus
+.PHONY: print-suites print-san-suites run-suite test-headers test-examples test-tables test-readme fuzz-corpus
 print-suites:
 	@echo $(SUITES)
 
@@ -287,6 +287,19 @@ test-headers:
 	    printf '#include <%s>\n' $$header | $(CXX) -std=c++11 $(STRICT) -c -o $(BUILD)/header.o -x c++ - || exit 1; done
 	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/unit/header.c
 	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c
+
+# Programs by the public headers alone, as C99, as C++11 and by smear.hpp: one picture, of more than a few colours.
+EXAMPLES := $(BUILD)/examples
+test-examples: $(LIB)
+	@mkdir -p $(EXAMPLES)
+	[ $$(wc -l < tests/examples/orbit.c) -lt 60 ]
+	$(CC) -std=c99 -O1 $(STRICT) -o $(EXAMPLES)/orbit_c tests/examples/orbit.c $(LIB)
+	$(CXX) -std=c++11 -O1 $(STRICT) -o $(EXAMPLES)/orbit_cxx -x c++ tests/examples/orbit.c -x none $(LIB)
+	$(CXX) -std=c++11 -O1 -fno-exceptions -fno-rtti $(STRICT) -o $(EXAMPLES)/orbit_hpp tests/examples/orbit.cpp $(LIB)
+	for form in c cxx hpp; do $(EXAMPLES)/orbit_$$form > $(EXAMPLES)/$$form.ppm || exit 1; done
+	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/cxx.ppm
+	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/hpp.ppm
+	[ $$(tail -c 57600 $(EXAMPLES)/c.ppm | od -An -v -tx1 -w3 | sort -u | wc -l) -gt 100 ]
 
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c

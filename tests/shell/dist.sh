@@ -51,6 +51,7 @@ strict="-O1 -Wall -Wextra -Wpedantic -Werror"
             -Wextra -Werror -c -o "$base/o" "$dist/single/smear.c"
     claim "smear.h as C99" ${CC:-cc} -std=c99 $strict -fsyntax-only -x c "$dist/single/smear.h"
     claim "smear.h as C++11" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -x c++ "$dist/single/smear.h"
+    claim "smear.hpp beside smear.h" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -I"$dist/single" tests/examples/orbit.cpp
 }
 
 # ---------------------------------------------------------------------- Arduino, PlatformIO

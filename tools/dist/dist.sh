@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # dist.sh SINGLE-TOOL OUT ROOM...
-# Writes the forms in which people take a library: OUT/single (smear.c, smear.h and two small headers), and
+# Writes the forms in which people take a library: OUT/single (smear.c, smear.h and three small headers), and
 # OUT/FORM/smear for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests. ROOM... are the
 # folders of src/, src/ itself last, the lowest first.
 set -eu
@@ -63,7 +63,7 @@ mkdir -p "$out/single"
 # shellcheck disable=SC2086
 "$tool" SOURCE "$out/single/smear.c" $headers $sources
 "$tool" HEADER "$out/single/smear.h" include/smear_config.h include/smear.h include/smear_model.h
-cp include/smear_memory.h include/smear_math.h LICENSE "$out/single"
+cp include/smear_memory.h include/smear_math.h include/smear.hpp LICENSE "$out/single"
 
 tree cmake
 : >"$out/definitions"
@@ -76,7 +76,7 @@ awk '/^```c$/ { on = 1; next } /^```$/ { on = 0 } on' README.md >"$out/platformi
 
 # One file: Arduino compiles all that lies in src/, with every library's folder in the path of all others.
 mkdir -p "$out/arduino/smear/src" "$out/arduino/smear/examples/cube"
-cp "$out/single/smear.c" "$out"/single/*.h "$out/arduino/smear/src"
+cp "$out/single/smear.c" "$out"/single/*.h* "$out/arduino/smear/src"
 cp LICENSE "$out/arduino/smear"
 fill $from/arduino/library.properties "$out/arduino/smear/library.properties" ""
 cp $from/arduino/cube.ino "$out/arduino/smear/examples/cube/cube.ino"
