@@ -24,67 +24,53 @@ static int32_t place_term(int32_t x, int32_t ratio, int32_t displaced, int down)
     return (int32_t)(n > far_out ? far_out : n < -far_out ? -far_out : n);
 }
 
-void smear_setup_velocity(struct setup *s)
+/* How far depths change between the poses: the least and the greatest ratio of them. Returns the triangle's size, q8. */
+static uint32_t find_ratios(const struct setup *s, int32_t *low, int32_t *high)
 {
     const struct smear_segment *g = s->segment;
-    s->poses = g->moves;
-    if (s->poses == 0)
-        return;
-
-    /* How far depths change between the poses, and how large the triangle is. */
-    int32_t low = INT32_MAX, high = INT32_MIN;
     uint32_t size = 0;
+    *low = INT32_MAX;
+    *high = INT32_MIN;
     for (int i = 0; i < 3; i++) {
         for (int pose = 0; pose < s->poses; pose++) {
             int32_t ratio = s->v[i][g->motion + pose * MOTION_WORDS + MOTION_RATIO];
-            low = min_i32(low, ratio);
-            high = max_i32(high, ratio);
+            *low = min_i32(*low, ratio);
+            *high = max_i32(*high, ratio);
         }
         size = max_u32(size, max_u32(magnitude_i32(s->v[i][VERTEX_X] - s->v[0][VERTEX_X]),
                                      magnitude_i32(s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y])));
     }
+    return size;
+}
 
-    /* Displacement close - open (or now - before) per vertex, q8. */
-    int32_t dx[3] = { 0, 0, 0 }, dy[3] = { 0, 0, 0 };
+/* Displacement close - open (or now - before) per vertex, q8. Returns the longest, |dx| + |dy|. */
+static uint32_t find_displacements(const struct setup *s, int32_t dx[3], int32_t dy[3])
+{
     uint32_t longest = 0;
-    bool in_front = low > 1 << 10;
-    for (int i = 0; i < 3 && in_front; i++) {
+    for (int i = 0; i < 3; i++) {
         for (int pose = 0; pose < s->poses; pose++) {
-            const int32_t *m = s->v[i] + g->motion + pose * MOTION_WORDS;
+            const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
             int32_t sign = pose == 0 ? -1 : 1;
             dx[i] += sign * over_ratio(m[MOTION_DX], m[MOTION_RATIO]);
             dy[i] += sign * over_ratio(m[MOTION_DY], m[MOTION_RATIO]);
         }
         longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
     }
-    /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
-    s->velocity_affine = in_front
-        && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
-    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
-     * depths change, pixels may go further than their vertices. */
-    s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
-                                               >= (uint32_t)s->frame->reach_q3;
-    if (s->velocity_affine) {
-        const int32_t limit = (1 << 20) - 1;
-        for (int i = 0; i < 3; i++) {
-            dx[i] = clamp_i32(dx[i], -limit, limit) * 1024;
-            dy[i] = clamp_i32(dy[i], -limit, limit) * 1024;
-        }
-        smear_plane_make(s, &s->vx, dx[0], dx[1], dx[2]);
-        smear_plane_make(s, &s->vy, dy[0], dy[1], dy[2]);
-        return;
-    }
-    /* A surface point's place in a pose is sum(b n) / sum(b r): b screen weights, n = r
-     * X + displacement x r. Places are taken from v[0]. Ratios are brought to 2^16 at the
-     * largest, so that all values stay in 31 bits. */
+    return longest;
+}
+
+/* A surface point's place in a pose is sum(b n) / sum(b r): b screen weights, n = r X + displacement x r. Places are
+ * counted from v[0]. Ratios, of which `largest` is the largest, are brought to 2^16, so that all values
+ * stay in 31 bits. */
+static void setup_poses(struct setup *s, uint32_t largest)
+{
     int down = 4;
-    uint32_t largest = max_u32(magnitude_i32(low), magnitude_i32(high));
     while (largest >> down > 0xffff)
         down++;
     for (int pose = 0; pose < s->poses; pose++) {
         int32_t x[3], y[3], r[3];
         for (int i = 0; i < 3; i++) {
-            const int32_t *m = s->v[i] + g->motion + pose * MOTION_WORDS;
+            const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
             int32_t ratio = m[MOTION_RATIO] >> down;
             x[i] = place_term(s->v[i][VERTEX_X] - s->v[0][VERTEX_X], ratio, m[MOTION_DX], down);
             y[i] = place_term(s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y], ratio, m[MOTION_DY], down);
@@ -94,6 +80,35 @@ void smear_setup_velocity(struct setup *s)
         smear_plane_make(s, &s->py[pose], y[0], y[1], y[2]);
         smear_plane_make(s, &s->ratio[pose], r[0], r[1], r[2]);
     }
+}
+
+void smear_setup_velocity(struct setup *s)
+{
+    int32_t low, high, dx[3] = { 0, 0, 0 }, dy[3] = { 0, 0, 0 };
+    s->poses = s->segment->moves;
+    if (s->poses == 0)
+        return;
+    const uint32_t size = find_ratios(s, &low, &high);
+    const bool in_front = low > 1 << 10;
+    const uint32_t longest = in_front ? find_displacements(s, dx, dy) : 0;
+    /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
+    s->velocity_affine = in_front
+        && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
+    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
+     * depths change, pixels may go further than their vertices. */
+    s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
+                                               >= (uint32_t)s->frame->reach_q3;
+    if (!s->velocity_affine) {
+        setup_poses(s, max_u32(magnitude_i32(low), magnitude_i32(high)));
+        return;
+    }
+    const int32_t limit = (1 << 20) - 1;
+    for (int i = 0; i < 3; i++) {
+        dx[i] = clamp_i32(dx[i], -limit, limit) * 1024;
+        dy[i] = clamp_i32(dy[i], -limit, limit) * 1024;
+    }
+    smear_plane_make(s, &s->vx, dx[0], dx[1], dx[2]);
+    smear_plane_make(s, &s->vy, dy[0], dy[1], dy[2]);
 }
 
 /* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of
