@@ -66,7 +66,7 @@ static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint
 }
 
 /* Pixels [a, b) of a row whose column 0 is at index `at`. */
-static void draw(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t a, int32_t b,
+static void draw(const struct setup *s, const struct row_run *p, int32_t at, int32_t a, int32_t b,
                  const struct shade *k)
 {
     const struct smear_raster_target *t = s->target;
@@ -89,7 +89,7 @@ static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t 
 }
 
 /* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
-static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t y,
+static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
                                        int32_t left, int32_t right)
 {
     const int32_t last = right - 1;
@@ -114,7 +114,7 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct rows_
     }
 }
 
-static void draw_piece(const struct setup *s, const struct rows_piece *p, int32_t at, int32_t y,
+static void draw_run(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
                        const struct span_side *side)
 {
     struct shade k;
@@ -131,22 +131,22 @@ static void draw_piece(const struct setup *s, const struct rows_piece *p, int32_
 
 void smear_rows_shade(const struct setup *s, const struct span_rows *r)
 {
-    const bool plain = rows_are_plain(s, r);
+    const bool whole = rows_are_whole(s, r);
     int32_t at = r->at;
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
         const struct span_side *side = &r->side[row];
         const int32_t y = r->y + row;
-        struct rows_piece p = { side->left, side->right, 0, 0 };
+        struct row_run p = { side->left, side->right, 0, 0 };
         if (p.a >= p.b)
             continue;
-        if (plain) {
+        if (whole) {
             p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
             p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-            draw_piece(s, &p, at, y, side);
+            draw_run(s, &p, at, y, side);
             continue;
         }
-        while (smear_rows_piece(&p, s, r, row, p.a)) {
-            draw_piece(s, &p, at, y, side);
+        while (smear_row_run_next(&p, s, r, row, p.a)) {
+            draw_run(s, &p, at, y, side);
             p.a = p.b;
         }
     }

@@ -68,7 +68,7 @@ static SMEAR_NOINLINE void draw_cutout(const struct setup *s, struct span *p, sm
 }
 
 /* Pixels [p->a, p->b), which lie in one slope of the depth code and within the target's columns. */
-static inline void draw_piece(const struct setup *s, struct span *p, const struct row *r,
+static inline void draw_run(const struct setup *s, struct span *p, const struct row *r,
                               enum depth_slope slope, int32_t units, smear_span_fn *write)
 {
     const struct smear_raster_target *t = s->target;
@@ -88,14 +88,14 @@ static inline void draw_piece(const struct setup *s, struct span *p, const struc
     write(s, p);
 }
 
-/* The code bends within the span: draws up to the first pixel beyond the break. Returns that pixel. */
-static SMEAR_NOINLINE int32_t draw_to_bend(const struct setup *s, struct span *p, const struct row *r,
+/* The depth code's break lies within the span: draws up to the first pixel beyond it. Returns that pixel. */
+static SMEAR_NOINLINE int32_t draw_to_break(const struct setup *s, struct span *p, const struct row *r,
                                            int32_t units, smear_span_fn *write)
 {
     enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
     int32_t a = p->a, b = p->b;
-    p->b = a + pixels_to_bend(units, s->depth.dx, b - a);
-    draw_piece(s, p, r, slope, units, write);
+    p->b = a + pixels_to_break(units, s->depth.dx, b - a);
+    draw_run(s, p, r, slope, units, write);
     a = p->b;
     p->b = b;
     return a;
@@ -118,12 +118,12 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
     if (slope == SLOPE_BOTH) {
         int32_t last = add_wrap(units, mul_wrap(s->depth.dx, p.b - 1 - p.a));
         if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK)) {
-            p.a = draw_to_bend(s, &p, r, units, write);
+            p.a = draw_to_break(s, &p, r, units, write);
             units = add_wrap(r->units, mul_wrap(s->depth.dx, p.a));
         }
         slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
     }
-    draw_piece(s, &p, r, slope, units, write);
+    draw_run(s, &p, r, slope, units, write);
 }
 
 /* ------------------------------------------------------------------ large triangles */
@@ -358,7 +358,7 @@ SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, i
 
 /* Pixels [a, b) of row y, of which some may lie in the other slope of the depth
  * code. Column 0 of the row is at index `at`. */
-static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
+static SMEAR_NOINLINE void row_flat_break(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
 {
     const struct smear_raster_target *t = s->target;
     const int32_t dx = s->depth.dx;
@@ -367,7 +367,7 @@ static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32
         enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
         int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
         if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
-            n = pixels_to_bend(units, dx, n);
+            n = pixels_to_break(units, dx, n);
         run_flat_at(t, at + a, n, code_from_units(units, slope), (uint32_t)step_from_units(dx, slope),
                     target_pixel(t, s->color));
         units = add_wrap(units, mul_wrap(dx, n));
@@ -375,10 +375,10 @@ static SMEAR_NOINLINE void row_flat_bent(const struct setup *s, int32_t y, int32
     }
 }
 
-/* One colour, no motion: the plainest rows, without a call for each but where depths bend. Colour and depth
+/* One colour, no motion: the simplest rows, without a call for each but at a depth break. Colour and depth
  * of opaque draws lie in the window's rows alike. `cut`: the target's columns may cut rows off;
- * `bends`: depth codes may bend. */
-SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool bends)
+ * `breaks`: depth codes may have their break in rows. */
+SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool breaks)
 {
     const struct smear_raster_target *t = s->target;
     struct sides d;
@@ -418,12 +418,12 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
             if (a >= b)
                 continue;
             uint32_t first = row_z + dz * (uint32_t)a, step = dz;
-            if (bends) {
+            if (breaks) {
                 const int32_t here = add_wrap(row_units, mul_wrap(s->depth.dx, a)),
                               last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
                 const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
                 if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
-                    row_flat_bent(s, y - n, at, a, b);
+                    row_flat_break(s, y - n, at, a, b);
                     continue;
                 }
                 first = code_from_units(here, slope);
@@ -446,7 +446,7 @@ static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
     cover_flat(s, true, false);
 }
 
-static SMEAR_NOINLINE void cover_flat_bent(const struct setup *s)
+static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
     cover_flat(s, true, true);
 }
@@ -571,7 +571,7 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
     const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
         if (s->slope == SLOPE_BOTH)
-            cover_flat_bent(s);
+            cover_flat_break(s);
         else if (box->left < target->x0 || box->right > target->x1)
             cover_flat_cut(s);
         else

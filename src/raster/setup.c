@@ -232,13 +232,13 @@ static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, 
     uint32_t n = (uint32_t)min_i32(width, 16);
     if (off < 1u << 20)
         off = off * (n * n) >> 8;
-    t->bent = false;
+    t->parabolic = false;
     t->block = 16;
     if (off <= TEXTURE_OFF)
         return;
     uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 13 : UINT32_MAX;
-    t->bent = rest <= 64 * TEXTURE_OFF && change <= 4096;
-    t->block = !t->bent ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
+    t->parabolic = rest <= 64 * TEXTURE_OFF && change <= 4096;
+    t->block = !t->parabolic ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
 }
 
 /* A triangle's texture coordinates, mesh units, and depths. */
@@ -260,7 +260,7 @@ static void setup_affine(struct setup *s, const struct corners *k)
     struct texture_setup *t = &s->texture;
     t->mode = TEXTURE_AFFINE;
     t->q = (struct plane){ 0, 0, 0 };
-    t->bent = false;
+    t->parabolic = false;
     t->block = 16;
     t->shift = (int8_t)(18 - s->draw->sampler.uv_shift);
     for (int i = 0; i < 2; i++) {

@@ -49,7 +49,7 @@ enum texture_mode {
 struct texture_setup {
     enum texture_mode mode;
     bool turns;
-    bool bent;              /* parabolas; else chords */
+    bool parabolic;              /* parabolas; else chords */
     uint8_t block;          /* pixels: 1, 4, 8 or 16 */
     uint8_t up;             /* turns: shift; texels: 0 */
     int8_t shift;           /* what planes yield is turns in 2^(32 - shift) */

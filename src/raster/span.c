@@ -45,14 +45,14 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
     w->start = w->x;
     w->x += n;
     if (t->mode == TEXTURE_CURVED) {
-        w->run = course_packed(course_curved(t, &s->draw->sampler, w->start, w->y));
+        w->run = texcoord_packed(texcoord_curved(t, &s->draw->sampler, w->start, w->y));
         return count;
     }
     w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));
     w->u = add_wrap(w->u, mul_wrap(t->uv[0].dx, n));
     w->v = add_wrap(w->v, mul_wrap(t->uv[1].dx, n));
     w->place = place_at(t, t->mode, &s->draw->sampler, w->q, w->u, w->v, t->turns);
-    w->run = course_packed(course_between(t, from, w->place, n, t->turns));
+    w->run = texcoord_packed(texcoord_between(t, from, w->place, n, t->turns));
     return count;
 }
 
@@ -177,7 +177,7 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
 }
 
 /* Interpolated colours without a texture. */
-static void shade_plain(uint32_t *out, const struct setup *s, const struct span *p, const struct block *k,
+static void shade_untextured(uint32_t *out, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
 {
     uint32_t c[4], d[4];
@@ -235,7 +235,7 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
 }
 
 /* Blocks without a texture. */
-static int32_t plain_next(struct walk *w)
+static int32_t untextured_next(struct walk *w)
 {
     int32_t n = min_i32(w->block, w->last - w->x);
     w->start = w->x;
@@ -243,10 +243,10 @@ static int32_t plain_next(struct walk *w)
     return n + (w->x == w->last);
 }
 
-static int32_t plain_first(struct walk *w, const struct setup *s, const struct span *p)
+static int32_t untextured_first(struct walk *w, const struct setup *s, const struct span *p)
 {
     walk_begin(w, s, p, false);
-    return plain_next(w);
+    return untextured_next(w);
 }
 
 /* In blocks: texels, then light, then the write. */
@@ -264,7 +264,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
     if (textured)
         count = walk_first(&w, s, p);
     else
-        count = plain_first(&w, s, p);
+        count = untextured_first(&w, s, p);
     for (;;) {
         n = min_i32(w.start + count, p->b) - k.x;
         k.start = w.start;
@@ -274,7 +274,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
             if (s->segment->shade != SHADE_NONE)
                 modulate(block, s, p, &k, n);
         } else if (segment_gouraud(s->segment)) {
-            shade_plain(block, s, p, &k, n);
+            shade_untextured(block, s, p, &k, n);
         } else {
             for (int32_t i = 0; i < n; i++)
                 block[i] = s->color;
@@ -286,6 +286,6 @@ void smear_span_general(const struct setup *s, const struct span *p)
         z += (uint32_t)p->dz * (uint32_t)n;
         if (k.x >= p->b)
             return;
-        count = textured ? walk_next(&w, s) : plain_next(&w);
+        count = textured ? walk_next(&w, s) : untextured_next(&w);
     }
 }

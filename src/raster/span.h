@@ -8,7 +8,7 @@
 /* Longest span: a frame's width, and what blurred layers have beyond it on both sides (layer.h). */
 enum { SPAN_MAX = 2048 + 2 * 64 };
 
-/* Pixels [a, b) of row y, a piece of the triangle's whole span [left, right). */
+/* Pixels [a, b) of row y, a part of the triangle's whole span [left, right). */
 struct span {
     int32_t a, b, left, right, y;
     void *color;                /* of pixel a: 16 bits where the target is direct, else 32 */
@@ -27,7 +27,7 @@ smear_span_fn smear_span_flat, smear_span_general;
 
 /* How many of n pixels come before the first one beyond the
  * break of the depth code, which lies among them. */
-static inline int32_t pixels_to_bend(int32_t units, int32_t dx, int32_t n)
+static inline int32_t pixels_to_break(int32_t units, int32_t dx, int32_t n)
 {
     int32_t before = dx > 0 ? (SLOPE_BREAK - units + dx - 1) / dx : (units - SLOPE_BREAK) / -dx + 1;
     return clamp_i32(before, 1, n - 1);

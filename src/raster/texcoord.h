@@ -51,47 +51,47 @@ SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_m
             p.u = smear_sampler_texel(m, 0, shl_wrap(p.u, 2));
             p.v = smear_sampler_texel(m, 1, shl_wrap(p.v, 2));
         }
-        if (t->bent)
+        if (t->parabolic)
             p.nearness = mulh_i32(t->slope, r) >> (20 - zeros);
     }
     return p;
 }
 
-/* Coordinates of a block on its way: start, steps, and what these lose from pixel to pixel. */
-struct course {
-    uint32_t u, v, du, dv, bend_u, bend_v;
+/* Coordinates along a block: those of its first pixel, their steps, and what these lose from pixel to pixel. */
+struct texcoord {
+    uint32_t u, v, du, dv, curvature_u, curvature_v;
 };
 
 /* From one place to another n pixels further on.
  *
  * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start
  * to its end has steps from d + b (n - 1) on, each 2 b less. */
-SMEAR_INLINE struct course course_between(const struct texture_setup *t, struct place from, struct place to,
+SMEAR_INLINE struct texcoord texcoord_between(const struct texture_setup *t, struct place from, struct place to,
                                           int32_t n, bool turns)
 {
     const int up = t->up;
-    struct course c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
+    struct texcoord c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
     int32_t du = part_of(sub_wrap(to.u, from.u), n), dv = part_of(sub_wrap(to.v, from.v), n);
-    if (t->bent) {
+    if (t->parabolic) {
         int32_t rate = (from.nearness + to.nearness) >> 1;                                  /* q'/q, q16 */
         int32_t bu = mul_wrap(du >> 13, rate) >> 2, bv = mul_wrap(dv >> 13, rate) >> 2;     /* 2 b */
         du = add_wrap(du, mul_wrap(bu, n - 1) >> 1);
         dv = add_wrap(dv, mul_wrap(bv, n - 1) >> 1);
-        c.bend_u = (uint32_t)bu << up;
-        c.bend_v = (uint32_t)bv << up;
+        c.curvature_u = (uint32_t)bu << up;
+        c.curvature_v = (uint32_t)bv << up;
     }
     c.du = (uint32_t)du << up;
     c.dv = (uint32_t)dv << up;
     if (turns) {
         c.v = turns_start(c.v);
         c.dv = turns_step(c.dv);
-        c.bend_v = turns_step(c.bend_v);
+        c.curvature_v = turns_step(c.curvature_v);
     }
     return c;
 }
 
 /* Where polynomials hold: from pixel (x, y) on. */
-static inline struct course course_curved(const struct texture_setup *t, const struct smear_sampler *m,
+static inline struct texcoord texcoord_curved(const struct texture_setup *t, const struct smear_sampler *m,
                                           int32_t x, int32_t y)
 {
     uint32_t word[2][3];
@@ -106,7 +106,7 @@ static inline struct course course_curved(const struct texture_setup *t, const s
         for (int k = 0; k < 3; k++)
             word[i][k] = (uint32_t)(t->turns ? value[k] : smear_sampler_texel(m, i, value[k]));
     }
-    return (struct course){ word[0][0], word[1][0], word[0][1], word[1][1], word[0][2], word[1][2] };
+    return (struct texcoord){ word[0][0], word[1][0], word[0][1], word[1][1], word[0][2], word[1][2] };
 }
 
 /* Value of a channel whose plane is value / w, q16. */
@@ -115,10 +115,10 @@ static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
     return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
 }
 
-SMEAR_INLINE struct smear_texture_run course_packed(struct course c)
+SMEAR_INLINE struct smear_texture_run texcoord_packed(struct texcoord c)
 {
     return (struct smear_texture_run){ packed_uv(c.u, c.v), packed_step(c.du, c.dv),
-                                       0u - packed_step(c.bend_u, c.bend_v) };
+                                       0u - packed_step(c.curvature_u, c.curvature_v) };
 }
 
 /* Where the block begins in which pixel a is drawn, of a span from `left` to `last`. */

@@ -114,21 +114,21 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
                              const struct smear_texture_run *run, int first, int n, bool turns, int format)
 {
     uint64_t at = run->at, step = run->step;
-    if (run->bend == 0) {
+    if (run->curvature == 0) {
         if (first != 0)
             at += step * (uint32_t)first;
         for (; n > 0; n--, at += step)
             *out++ = sample_at(s, at, turns, format);
         return;
     }
-    const uint64_t bend = run->bend;
+    const uint64_t curvature = run->curvature;
     for (int i = 0; n > 0; i++) {
         if (i >= first) {
             *out++ = sample_at(s, at, turns, format);
             n--;
         }
         at += step;
-        step += bend;
+        step += curvature;
     }
 }
 

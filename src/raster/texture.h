@@ -42,9 +42,9 @@ static inline int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32
 }
 
 /* Coordinates of a block of pixels: v above u, each in turns or in texels q16. One addition steps both (two
- * where words have 32 bits); what u carries into v is the last bit. Steps change by the bend. */
+ * where words have 32 bits); what u carries into v is the last bit. Steps change by the curvature from pixel to pixel. */
 struct smear_texture_run {
-    uint64_t at, step, bend;
+    uint64_t at, step, curvature;
 };
 
 /* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17

@@ -29,20 +29,20 @@ static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup
 }
 
 /* Along a block: its curvature is what changes lose. */
-SMEAR_INLINE void run_texcoord(struct texel_run *r, struct course c)
+SMEAR_INLINE void run_texcoord(struct texel_run *r, struct texcoord c)
 {
 #if TEXELS_PACKED
-    const struct smear_texture_run run = course_packed(c);
+    const struct smear_texture_run run = texcoord_packed(c);
     r->uv = run.at;
     r->duv = run.step;
-    r->dduv = run.bend;
+    r->dduv = run.curvature;
 #else
     r->u = c.u;
     r->v = c.v;
     r->du = c.du;
     r->dv = c.dv;
-    r->ddu = 0u - c.bend_u;
-    r->ddv = 0u - c.bend_v;
+    r->ddu = 0u - c.curvature_u;
+    r->ddv = 0u - c.curvature_v;
 #endif
 }
 
@@ -71,7 +71,7 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
     const int32_t v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
     const struct place to = place_at(t, mode, NULL, q, u, v, true);
-    const struct course c = course_between(t, from, to, n, true);
+    const struct texcoord c = texcoord_between(t, from, to, n, true);
     k->q = q;
     k->u = u;
     k->v = v;
@@ -87,7 +87,7 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
 #endif
 
 #if UINTPTR_MAX > 0xffffffffu
-/* The course of the next n pixels. */
+/* Finds the coordinates of the next n pixels. */
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
     track_go(k, t, t->mode, n);
@@ -107,33 +107,33 @@ struct going {
     int32_t n, part;            /* 2^16 / n */
     int32_t recip, rate;        /* place_at's r; change of q, q16 */
     int up, recip_up;
-    bool bent;
+    bool parabolic;
 };
 
 /* track_go for one coordinate after the other: what both take at once is more than there are registers. */
 SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t *restrict value,
                                 int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
-                                uint32_t *restrict bend, uint32_t mask)
+                                uint32_t *restrict change, uint32_t mask)
 {
     const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
     const int32_t to = mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip);
-    int32_t change = part_by(sub_wrap(to, from), g->part);
+    int32_t slope = part_by(sub_wrap(to, from), g->part);
     *value = here;
     *place = to;
     *at = (uint32_t)from << g->up;
-    *bend = 0;
-    if (g->bent) {
-        const int32_t b = mul_wrap(change >> 13, g->rate) >> 2;
-        change = add_wrap(change, mul_wrap(b, g->n - 1) >> 1);
-        *bend = 0u - ((uint32_t)b << g->up & mask);
+    *change = 0;
+    if (g->parabolic) {
+        const int32_t b = mul_wrap(slope >> 13, g->rate) >> 2;
+        slope = add_wrap(slope, mul_wrap(b, g->n - 1) >> 1);
+        *change = 0u - ((uint32_t)b << g->up & mask);
     }
-    *step = (uint32_t)change << g->up & mask;
+    *step = (uint32_t)slope << g->up & mask;
 }
 
 static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t,
                                       int32_t n)
 {
-    struct going g = { .n = n, .part = inverse[n], .up = t->up, .bent = t->bent };
+    struct going g = { .n = n, .part = inverse[n], .up = t->up, .parabolic = t->parabolic };
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
     const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
     const int zeros = count_leading_zeros(d);
@@ -141,7 +141,7 @@ static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct tex
     k->q = q;
     g.recip = (int32_t)recip_norm(d << zeros);
     g.recip_up = zeros - 1;
-    if (g.bent)
+    if (g.parabolic)
         nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
     g.rate = (k->place.nearness + nearness) >> 1;
     k->place.nearness = nearness;
@@ -150,7 +150,7 @@ static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct tex
     k->run.v = turns_start(k->run.v);
 }
 
-/* The course of the next n pixels. */
+/* Finds the coordinates of the next n pixels. */
 TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
 {
     if (t->mode == TEXTURE_DIVIDED)
@@ -169,10 +169,10 @@ TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, 
     k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
 }
 
-/* ------------------------------------------------------------------ pieces */
+/* ------------------------------------------------------------------ runs of a row */
 
-SMEAR_NOINLINE bool smear_rows_piece(struct rows_piece *p, const struct setup *s, const struct span_rows *r,
-                                     int32_t row, int32_t a)
+SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r,
+                                       int32_t row, int32_t a)
 {
     int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
     enum depth_slope slope = s->slope;
@@ -184,7 +184,7 @@ SMEAR_NOINLINE bool smear_rows_piece(struct rows_piece *p, const struct setup *s
         int32_t here = add_wrap(units, mul_wrap(dx, p->a)), last = add_wrap(units, mul_wrap(dx, p->b - 1));
         slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
         if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK))
-            p->b = p->a + pixels_to_bend(here, dx, p->b - p->a);
+            p->b = p->a + pixels_to_break(here, dx, p->b - p->a);
     }
     p->z = code_from_units(units, slope);
     p->dz = (uint32_t)step_from_units(dx, slope);
@@ -200,15 +200,15 @@ SMEAR_NOINLINE bool smear_rows_piece(struct rows_piece *p, const struct setup *s
     return true;
 }
 
-/* How texels become pixels where there is no loop for each way: lit where `lit` is not null. */
+/* How texels become pixels where there is no loop for each way: lit where `light` is not null. */
 static inline enum texel_kind texels_of(const struct setup *s, const struct texel_light *light)
 {
     const bool narrow = target_is_direct(s->target);
     return light != NULL ? (narrow ? TEXELS_LIT_NARROW : TEXELS_LIT) : narrow ? TEXELS_NARROW : TEXELS_WIDE;
 }
 
-/* Pixels [first, end) of a block of which the run has come to pixel i. */
-static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
+/* Pixels [first, end) of a block whose run has come to pixel i. */
+static void draw_part(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
 {
     const enum texel_kind kind = texels_of(s, r->light);
     const struct smear_sampler *m = &s->draw->sampler;
@@ -221,17 +221,16 @@ static void run_texels_cut(const struct setup *s, struct texel_run *r, int32_t i
     }
 }
 
-/* Pixels [from, end) of a row, which are a block; some may lie outside the
- * piece. False when no more are to be drawn. */
-static SMEAR_NOINLINE bool run_texels_pieces(const struct setup *s, const struct span_rows *r, int32_t row,
-                                             struct texel_run *run, struct rows_piece *p, int32_t from,
-                                             int32_t end)
+/* Draws pixels [from, end) of a row, which are a block; some may lie outside the run `p`, which then goes
+ * on to the next. False when no more are to be drawn. */
+static SMEAR_NOINLINE bool draw_row_runs(const struct setup *s, const struct span_rows *r, int32_t row,
+                                         struct texel_run *run, struct row_run *p, int32_t from, int32_t end)
 {
     for (int32_t x = from;; x = p->a) {
-        run_texels_cut(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
+        draw_part(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
         if (p->b >= end)
             return true;
-        if (!smear_rows_piece(p, s, r, row, p->b))
+        if (!smear_row_run_next(p, s, r, row, p->b))
             return false;
         run->dz = p->dz;
         run->z = p->z + p->dz * (uint32_t)p->a;
@@ -255,17 +254,17 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     const struct texture_setup *t = texture_of(s);
     const struct smear_sampler *m = &s->draw->sampler;
     const enum texel_kind kind = texels_of(s, light);
-    const bool narrow = texels_are_narrow(kind), plain = rows_are_plain(s, r);
+    const bool narrow = texels_are_narrow(kind), whole = rows_are_whole(s, r);
     const int up = t->up, log2_width = m->log2_width, log2_height = m->log2_height;
     const void *const texels = m->texels;
-    struct rows_piece p;
+    struct row_run p;
     p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     for (int32_t i = 0; i < list->count; i++) {
         const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
         p.a = r->side[row].left;
         p.b = r->side[row].right;
         p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
-        if (!plain && !smear_rows_piece(&p, s, r, row, p.a))
+        if (!whole && !smear_row_run_next(&p, s, r, row, p.a))
             continue;
         do {
             int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y),
@@ -286,7 +285,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 u = add_wrap(u, t->uv[0].dx);
                 v = add_wrap(v, t->uv[1].dx);
             }
-        } while (!plain && smear_rows_piece(&p, s, r, row, p.b));
+        } while (!whole && smear_row_run_next(&p, s, r, row, p.b));
     }
 }
 
@@ -298,7 +297,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
-    const bool plain = rows_are_plain(s, r);
+    const bool whole = rows_are_whole(s, r);
     struct track k;
     uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
@@ -308,17 +307,17 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
-        struct rows_piece p;
+        struct row_run p;
         if (right - left <= least) {
             *next_quotient = (uint8_t)row;
             next_quotient += left < right;
             continue;
         }
-        int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the piece */
-        if (plain) {
+        int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the run */
+        if (whole) {
             k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
         } else {
-            if (!smear_rows_piece(&p, s, r, row, left))
+            if (!smear_row_run_next(&p, s, r, row, left))
                 continue;
             x = block_start(left, right - 1, p.a, block);
             least_rest = x < p.a ? INT32_MAX : right - 1 - p.b;
@@ -340,7 +339,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             } else {
                 const int32_t end = right - 1 - rest + last;
                 struct texel_run run = k.run;       /* that one stays in registers */
-                if (!run_texels_pieces(s, r, row, &run, &p, end - count, end))
+                if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
                     break;
                 least_rest = right - 1 - p.b;
                 k.run = run;
@@ -359,11 +358,11 @@ SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return packed_step((uint32_
 SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return a + b; }
 SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return a * (uint64_t)(int64_t)n; }
 
-SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
+SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair change)
 {
     r->uv = at;
     r->duv = step;
-    r->dduv = bend;
+    r->dduv = change;
 }
 #else
 typedef struct { uint32_t u, v; } uv_pair;
@@ -376,18 +375,18 @@ SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n)
     return (uv_pair){ a.u * (uint32_t)n, a.v * (uint32_t)n };
 }
 
-SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair bend)
+SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair change)
 {
     r->u = at.u;
     r->v = at.v;
     r->du = step.u;
     r->dv = step.v;
-    r->ddu = bend.u;
-    r->ddv = bend.v;
+    r->ddu = change.u;
+    r->ddv = change.v;
 }
 #endif
 
-/* course_curved, whose values go on from row to row. */
+/* texcoord_curved, whose values go on from row to row. */
 SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, struct texel_light *light,
                               int log2_width, int log2_height, enum texel_kind kind)
 {
@@ -398,12 +397,12 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     const int32_t x0 = t->x0, y = r->y - t->y0;
     const uv_pair dxx = uv_make(cu->dxx, cv->dxx), dyy = uv_make(cu->dyy, cv->dyy),
                   dxy = uv_make(cu->dxy, cv->dxy);
-    const uv_pair bend = uv_add(dxx, dxx), dyy2 = uv_add(dyy, dyy);
+    const uv_pair change = uv_add(dxx, dxx), dyy2 = uv_add(dyy, dyy);
     uv_pair dx = uv_add(uv_make(cu->dx, cv->dx), uv_times(dxy, y)),
             dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
     uv_pair place = uv_add(uv_make(cu->at, cv->at), uv_times(dy, y));
     dy = uv_add(dy, uv_times(dyy, y + 1));
-    const bool plain = rows_are_plain(s, r);
+    const bool whole = rows_are_whole(s, r);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                                       : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
@@ -418,21 +417,21 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
         const int32_t left = side->left, n = side->right - left, x = left - x0,
                       row = (int32_t)(side - r->side);
-        struct rows_piece p;
-        if (n > 0 && (plain || smear_rows_piece(&p, s, r, row, left))) {
+        struct row_run p;
+        if (n > 0 && (whole || smear_row_run_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
             run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
-                     uv_add(dx, uv_add(along, uv_add(along, dxx))), bend);
+                     uv_add(dx, uv_add(along, uv_add(along, dxx))), change);
             run.depth = depth + left;
             run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
             run.z = z + run.dz * (uint32_t)left;
-            if (!plain) {
+            if (!whole) {
                 run.dz = p.dz;
                 run.z = p.z + p.dz * (uint32_t)left;
             }
-            if (!plain && (p.a != left || p.b != left + n)) {
-                struct texel_run piece = run;       /* that one stays in registers */
-                run_texels_pieces(s, r, row, &piece, &p, left, left + n);
+            if (!whole && (p.a != left || p.b != left + n)) {
+                struct texel_run part = run;        /* that one stays in registers */
+                draw_row_runs(s, r, row, &part, &p, left, left + n);
             } else if (n < TEXELS_LEAST) {
                 texel_pixel(run.color, run.depth, run.z, run.texels, light, texel_run_uv(&run), log2_width,
                             log2_height, kind);

@@ -5,7 +5,7 @@
 
 #include "raster/span.h"
 
-/* Flat colours and plain texels in rows of their own: twice to four times as
+/* Flat colours and copied texels in rows of their own: twice to four times as
  * fast, of the same bits, and 3.4 kB larger. */
 #ifndef SMEAR_SPAN_ROWS
 #ifdef __OPTIMIZE_SIZE__
@@ -40,20 +40,20 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 smear_rows_fn smear_rows_shade;
 
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
-static inline bool rows_are_plain(const struct setup *s, const struct span_rows *r)
+static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {
     return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
-/* A part of a row: pixels [a, b), and depth codes 16.16 from pixel 0 on. */
-struct rows_piece {
+/* Pixels [a, b) of a row, and depth codes 16.16 from pixel 0 on. */
+struct row_run {
     int32_t a, b;
     uint32_t z, dz;
 };
 
-/* The next piece of a row after pixel a: within the target's columns and one slope of the depth
+/* Finds the next run of a row after pixel a: within the target's columns and one slope of the depth
  * code. False when there is none. Writes its velocities. */
-bool smear_rows_piece(struct rows_piece *p, const struct setup *s, const struct span_rows *r, int32_t row,
+bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row,
                       int32_t a);
 
 #endif

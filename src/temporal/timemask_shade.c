@@ -427,7 +427,7 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     int32_t du = sub_wrap(u1, u0) >> log2, dv = sub_wrap(v1, v0) >> log2;
     const struct smear_texture_run along = {
         .at = packed_uv((uint32_t)add_wrap(u0, du >> 1), (uint32_t)add_wrap(v0, dv >> 1)),
-        .step = packed_step((uint32_t)du, (uint32_t)dv), .bend = 0
+        .step = packed_step((uint32_t)du, (uint32_t)dv), .curvature = 0
     };
     int32_t n = 1 << log2;
     smear_sample(texel, s->sampler, &along, 0, n);

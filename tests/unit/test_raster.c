@@ -607,7 +607,7 @@ static void test_depth_is_the_plane_through_the_corners(void)
         bool large = n % 4 == 3;
         if (!fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
             continue;
-        /* Everywhere from the far end to the near plane; a third of them bends. */
+        /* Everywhere from the far end to the near plane; a third of them reaches over its break. */
         int32_t level = between(0, 13);
         for (int i = 0; i < 3; i++)
             q[i] = n % 3 == 0 ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
@@ -668,7 +668,7 @@ static void test_depth_stays_between_the_corners_even_of_slivers(void)
     }
 }
 
-static void test_depth_codes_grow_over_the_bend(void)
+static void test_depth_codes_grow_over_the_break(void)
 {
     /* A row in which units run from 16384 to 65536: every pixel is drawn, codes never fall. */
     list_begin();
@@ -1451,7 +1451,7 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
-/* Triangles with loops of their own, of any size and near any bend of the depth code. */
+/* Triangles with loops of their own, of any size and near any break of the depth code. */
 static void random_kind(int level, int far)
 {
     const uint16_t light[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
@@ -1519,7 +1519,7 @@ static bool check_general(void)
 }
 
 /* Texels have loops of their own, which must say what the general one says. Formats, lights, sizes with loops of their
- * own and others, velocities, bends of the depth code, all blocks. */
+ * own and others, velocities, breaks of the depth code, all blocks. */
 static void test_texels_in_rows_are_those_of_the_general_loop(void)
 {
     static const uint8_t size[][2] = { { 64, 64 }, { 32, 32 }, { 64, 32 }, { 2, 64 } };
@@ -1691,7 +1691,7 @@ void suite_raster(void)
     RUN(test_fans_to_the_guard_band_cover_every_pixel_once);
     RUN(test_depth_is_the_plane_through_the_corners);
     RUN(test_depth_stays_between_the_corners_even_of_slivers);
-    RUN(test_depth_codes_grow_over_the_bend);
+    RUN(test_depth_codes_grow_over_the_break);
     RUN(test_tiny_and_small_triangles_have_the_depth_of_large_ones);
     RUN(test_colors_are_interpolated_within_a_code);
     RUN(test_colors_are_right_in_perspective);

@@ -127,7 +127,7 @@ static void test_powers_of_two_repeat_without_end(void)
     }
 }
 
-static void test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_cut(void)
+static void test_curved_runs_change_their_step_every_two_pixels_wherever_they_are_cut(void)
 {
     random_state = 5;
     random_texels();
@@ -140,7 +140,7 @@ static void test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_
         for (int i = 0; i < 6; i++)
             word[i] = (uint32_t)between(-reach[i / 2], reach[i / 2]);
         const struct smear_texture_run run = {
-            .at = packed_uv(word[0], word[1]), .step = packed_step(word[2], word[3]), .bend = packed_step(word[4], word[5])
+            .at = packed_uv(word[0], word[1]), .step = packed_step(word[2], word[3]), .curvature = packed_step(word[4], word[5])
         };
         /* Pixel by pixel: each as a run of one. */
         uint32_t want[16], out[17];
@@ -149,7 +149,7 @@ static void test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_
             struct smear_texture_run one = { .at = at.at };
             smear_sample(&want[i], &s, &one, 0, 1);
             at.at += at.step;
-            at.step += run.bend;
+            at.step += run.curvature;
         }
         int first = between(0, 15), count = between(1, 16 - first);
         out[count] = 0x5a5a5a5au;
@@ -273,7 +273,7 @@ void suite_texture(void)
 {
     RUN(test_nearest_texels_are_those_at_the_floor_of_the_coordinate);
     RUN(test_powers_of_two_repeat_without_end);
-    RUN(test_bent_runs_change_their_step_every_two_pixels_wherever_they_are_cut);
+    RUN(test_curved_runs_change_their_step_every_two_pixels_wherever_they_are_cut);
     RUN(test_565_texels_are_expanded_to_the_nearest_code);
     RUN(test_bilinear_texels_are_the_mean_of_four_around);
     RUN(test_bilinear_texels_of_one_colour_are_that_colour);
