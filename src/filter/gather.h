@@ -21,7 +21,7 @@ static inline int32_t speed_of(struct smear_pixel_velocity v)
 
 /* ------------------------------------------------------------------ weighed sums */
 
-/* Channels times weights. The caller sees to it that they fit. */
+/* Sums of channels times weights, which the caller keeps within 32 bits. */
 struct weighed_sum {
     uint32_t r, g, b, weight;
 };
@@ -43,8 +43,8 @@ SMEAR_INLINE void weighed_add(struct weighed_sum *s, uint32_t pixel, uint32_t we
 
 /* ------------------------------------------------------------------ plain sums */
 
-/* Sums of pixels of equal weight. Codes: red and blue lie side by side in red_blue, all three channels in `all`, so
- * that the difference is green, times 256. */
+/* Sums of pixels of equal weight. Of codes, red_blue has red and blue side by side and `all` the three channels, so
+ * that their difference is green, times 256. */
 struct plain_sum {
     uint32_t r, g, b;           /* linear light */
     uint32_t all, red_blue;     /* codes */

@@ -18,7 +18,8 @@
 
 /* ------------------------------------------------------------------ lengths */
 
-/* |v| for lengths below 2^15, to nearest from 2^6 on: the table's root, good to 2^-8, and a Newton step. */
+/* Returns |(x, y)| for lengths below 2^15, to nearest from 2^6 on: the table's root, good to 2^-8, and a Newton
+ * step. */
 static int32_t length_of(int32_t x, int32_t y)
 {
     uint32_t square = (uint32_t)(x * x + y * y);
@@ -30,7 +31,7 @@ static int32_t length_of(int32_t x, int32_t y)
     return (int32_t)((root + quotient + 1u) >> 1);
 }
 
-/* 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4: enough for a
+/* Returns 2^28 / speed, for a speed in q8 of 16 .. 2^15. The seed of a reciprocal is good to 2^-9.4, enough for a
  * weight. */
 static inline uint32_t inverse_speed(int32_t speed)
 {
@@ -38,7 +39,7 @@ static inline uint32_t inverse_speed(int32_t speed)
     return (uint32_t)smear_recip_seed[(uint32_t)speed << zeros >> 22 & 511u] << (zeros - 14);
 }
 
-/* v scaled to `length` from its own, `speed`; lengths below 2^15, `speed` at least 32. */
+/* Scales v from its own length, `speed`, to `length`; lengths are below 2^15, `speed` is at least 32. */
 static struct vector stretch(struct vector v, int32_t length, int32_t speed)
 {
     int zeros = count_leading_zeros((uint32_t)speed);
@@ -49,7 +50,7 @@ static struct vector stretch(struct vector v, int32_t length, int32_t speed)
 
 /* ------------------------------------------------------------------ what is shared */
 
-/* A neighbourhood's direction. */
+/* The direction of a neighbourhood. */
 struct direction {
     struct vector v;
     int32_t length;             /* |v|, q8 */
@@ -58,9 +59,9 @@ struct direction {
     uint32_t center;            /* the centre's weight times its speed: 1.2 / (2 pairs), q12 */
 };
 
-/* A pixel's velocity in a neighbourhood. */
+/* What follows from a pixel's velocity in a neighbourhood. */
 struct own_motion {
-    const struct direction *around;     /* what it is valid for: null at first */
+    const struct direction *around;     /* the neighbourhood it is valid for; null at first */
     uint32_t word;
     struct vector second;       /* the second direction, as long as the first */
     int32_t background;         /* speed that taps not in front start with, q8 */
@@ -68,7 +69,7 @@ struct own_motion {
     bool slow;                  /* at most 1/2 px */
 };
 
-/* A pixel's depth: what lies in front and behind, each once it is needed. */
+/* What follows from a pixel's depth: what lies in front and behind, each found once it is needed. */
 struct own_depth {
     uint32_t units;
     uint32_t front, front_scale;        /* fully in front from here on; 2^30 / (front - units) */
@@ -103,9 +104,10 @@ static void direction_make(struct direction *d, const struct gathering *g,
     };
     d->v = (struct vector){ around->x, around->y };
     d->length = length_of(around->x, around->y);
-    /* What makes all taps lie in the table of rows: less than the half pixel from a centre to the border. */
+    /* All taps lie in the table of rows: the reach is passed by less than the half pixel from a centre to the
+     * border. */
     SMEAR_ASSERT(d->length <= (g->w->reach << 8) + 64);
-    /* A pair per 2 px; whether it is that long, the exact square decides. */
+    /* There is a pair per 2 px; the exact square decides whether the direction is that long. */
     int32_t pairs = (d->length + 1) >> 9;
     if (around->x * around->x + around->y * around->y < pairs * pairs << 18)
         pairs--;
@@ -149,7 +151,7 @@ static SMEAR_NOINLINE void own_motion_make(struct gathering *g, const struct dir
     m->slow = speed <= 128;
 }
 
-/* 2^30 / x for 0 < x < 2^20. */
+/* Returns 2^30 / x for 0 < x < 2^20. */
 static uint32_t inverse_q30(uint32_t x)
 {
     int zeros = count_leading_zeros(x);
@@ -164,8 +166,8 @@ static inline uint32_t part_of(uint32_t units, uint32_t share_q20)
     return units < 1u << 16 ? units * share_q20 >> 20 : (units >> 4) * share_q20 >> 16;
 }
 
-/* Fully in front is 5 % nearer: z_q = 0.95 z_p. Perspective: units are 1 / z. Orthographic: z is far_units -
- * units. */
+/* Finds where taps are fully in front: 5 % nearer, z_q = 0.95 z_p. For a perspective, units are 1 / z; for an
+ * orthographic view, z is far_units - units. */
 static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
@@ -223,7 +225,7 @@ SMEAR_INLINE uint32_t mean_of(const struct weighed_sum *s, bool linear)
     return pixel_make(0, (red * r12 + half) >> 23, (green * r12 + half) >> 23, (blue * r12 + half) >> 23);
 }
 
-/* How far in front the tap is, 0 .. 256. */
+/* Returns how far in front the tap is, 0 .. 256. */
 SMEAR_INLINE uint32_t front_share(struct gathering *g, uint32_t code)
 {
     uint32_t units = smear_depth_units((uint16_t)code);
@@ -244,7 +246,7 @@ SMEAR_INLINE uint32_t behind_share(struct gathering *g, uint32_t code)
     return (g->depth.units - units) * g->depth.behind_scale >> 22;
 }
 
-/* Weight of a tap from the inverse of its speed, its shape (q12) and its cover (q8). */
+/* Returns the weight of a tap from the inverse of its speed, its shape (q12) and its cover (q8). */
 static inline uint32_t weight_of(uint32_t inverse, uint32_t shape, int32_t cover)
 {
     return ((inverse >> 6) * shape >> 10) * (uint32_t)min_i32(cover, 256) >> 12;
@@ -256,7 +258,8 @@ static SMEAR_NOINLINE void front_speed_update(struct gathering *g, uint32_t at, 
     g->front_speed = speed_of(window_velocity(g->w, at));
 }
 
-/* Weight of a tap in front, at least in part: its own speed decides, and from now on the background's. */
+/* Returns the weight of a tap that is in front, at least in part: its own speed decides, and raises the
+ * background's. */
 static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
                                             int32_t distance)
 {
@@ -273,7 +276,7 @@ static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, 
     return cover > 0 ? weight_of(g->over, shape, cover) : 0;
 }
 
-/* What the taps of a pixel share. Columns count from the tile's first, rows from the table's. */
+/* What the taps of a pixel share. Columns count from the tile's first one, rows from the table's. */
 struct tap_frame {
     const uint32_t *row;        /* offsets of rows */
     uint32_t own_code;
@@ -281,7 +284,7 @@ struct tap_frame {
     int32_t left, right;        /* columns of the frame */
 };
 
-/* x, y and distance in q20 px. */
+/* Adds a tap; x, y and distance are in q20 px. */
 SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct tap_frame *f, int32_t x, int32_t y,
                       int32_t distance, uint32_t shape, bool edge)
 {
@@ -310,7 +313,7 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
     weighed_add(sum, g->color[at], weight, g->linear, 0);
 }
 
-/* The pixel in column x of the tile and row y of the table. */
+/* Filters the pixel in column x of the tile and row y of the table. */
 SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise,
                              bool edge)
 {
@@ -347,9 +350,7 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
 
 /* ------------------------------------------------------------------ the tile */
 
-/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up a quarter tile away
- * in a random direction, which hides the tiles' borders [Guertin14]. Of the row below, the window knows only
- * what the rows drawn so far tell (smear_neighbormax_row). */
+/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up as tile_looked_up() does. */
 struct choice {
     struct direction direction[9];
     const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */

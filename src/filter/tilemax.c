@@ -62,7 +62,7 @@ static bool moves(const struct smear_tile_motion *m)
     return (m->min_x | m->max_x | m->min_y | m->max_y) != 0;
 }
 
-/* How far two ranges of velocities lie apart. */
+/* Returns how far two ranges of velocities lie apart. */
 static int32_t gap(const struct smear_tile_motion *a, const struct smear_tile_motion *b)
 {
     int32_t x = max_i32(a->min_x - b->max_x, b->min_x - a->max_x);
@@ -97,12 +97,11 @@ static void collect(struct neighbors *n, const struct smear_window *w, int32_t r
     }
 }
 
-/* Measured on the scenes of the quality suite: beyond these the mean along the own velocity loses to weighted
- * taps. */
+/* Beyond these, measured on the scenes of the quality suite, the mean along the own velocity loses to weighted taps. */
 enum {
-    small_step = 16,            /* 1/8 px: a step of velocity from pixel to pixel that does not show, */
+    small_step = 16,            /* 1/8 px: the largest step of velocity from pixel to pixel that does not show, */
     small_share = 2,            /* or 1/2^small_share of the longest motion */
-    small_carry = 32            /* 1/8 px: motion along an axis that hardly carries anything out of a tile */
+    small_carry = 32            /* 1/8 px: less motion along an axis hardly carries anything out of a tile */
 };
 
 /* Whether all motion that can carry anything into or out of the tile is alike or changes without a step.
@@ -133,7 +132,8 @@ static bool is_uniform(const struct neighbors *n, const struct smear_tile_motion
     return true;
 }
 
-/* As in PPSv2: the centre's motion counts 1.01 times, and the winner is shortened by 1.01. */
+/* Finds the longest motion of a neighbourhood as PPSv2 does: the centre's counts 1.01 times, and the winner is
+ * shortened by 1.01. */
 static void neighborhood(const struct smear_window *w, int32_t row, int32_t column, int32_t known,
                          bool corner)
 {
@@ -141,14 +141,14 @@ static void neighborhood(const struct smear_window *w, int32_t row, int32_t colu
     const struct smear_tile_motion *best = NULL, *here = &window_motion(w, row)[column];
     struct neighbors n;
     uint32_t longest = 0;
-    bool still = true;
+    bool is_static = true;
     collect(&n, w, row, column, known);
     for (int i = 0; i < n.count; i++) {
         const struct smear_tile_motion *m = n.motion[i];
         bool centre = m == here;
         /* Squares stay below 2^18 (64 px), 1.01^2 = 10201 / 10000 of them below 2^32. */
         uint32_t square = (uint32_t)(m->x * m->x + m->y * m->y) * (centre ? 10201u : 10000u);
-        still = still && !moves(m);
+        is_static = is_static && !moves(m);
         if ((best == NULL || square > longest) && (!corner || points_here(m, n.dx[i], n.dy[i]))) {
             longest = square;
             best = m;
@@ -158,11 +158,10 @@ static void neighborhood(const struct smear_window *w, int32_t row, int32_t colu
     int32_t scale = best == here ? 65536 : 64887;
     out->x = (int16_t)((best->x * scale + 0x400) >> 11);
     out->y = (int16_t)((best->y * scale + 0x400) >> 11);
-    out->kind = still ? TILE_STATIC : is_uniform(&n, here) ? TILE_UNIFORM : TILE_COMPLEX;
+    out->kind = is_static ? TILE_STATIC : is_uniform(&n, here) ? TILE_UNIFORM : TILE_COMPLEX;
 }
 
-/* Whether a tile's motion comes to a tile dx, dy tiles from it: somewhere, by the box its pixels' ways fill;
- * and its longest, by a line as wide as two tiles, a tile longer than the motion. */
+/* Whether any motion of a tile may come to the tile that lies dx, dy tiles from it: by the box of its displacements. */
 static bool comes_near(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx,
                        int32_t dy)
 {
@@ -171,6 +170,8 @@ static bool comes_near(const struct smear_window *w, const struct smear_tile_mot
         && max_i32(abs_i32(dy) - 1, 0) * w->tile * 8 <= y + 8 && (x | y) != 0;
 }
 
+/* Whether the longest motion of a tile comes there: by a line as wide as two tiles and a tile longer than the
+ * motion. */
 static bool comes_along(const struct smear_window *w, const struct smear_tile_motion *m, int32_t dx,
                         int32_t dy)
 {
@@ -180,15 +181,15 @@ static bool comes_along(const struct smear_window *w, const struct smear_tile_mo
     return along <= square + tile * length && across <= tile * length;
 }
 
-/* The longest motion of all whose way leads over the tile, itself first: each tile's longest is
- * told to the tiles along its own direction, as far as the reach goes; here by looking for
- * them, so that tiles may be done in any order. */
+/* Finds the longest motion of all that lead over the tile, its own first. Filters scatter each tile's longest motion to
+ * the tiles along its direction, as far as the reach goes; here each tile looks for those that come to it, so that
+ * tiles may be done in any order. */
 static void scattered(const struct smear_window *w, int32_t row, int32_t column, int32_t known)
 {
     struct smear_tile_neighborhood *out = &window_around(w, row)[column];
     const struct smear_tile_motion *here = &window_motion(w, row)[column], *best = here;
     uint32_t longest = (uint32_t)(here->x * here->x + here->y * here->y);
-    bool still = !moves(here);
+    bool is_static = !moves(here);
     for (int32_t dy = -w->lag; dy <= w->lag; dy++) {
         if (row + dy < 0 || row + dy > known)
             continue;
@@ -198,7 +199,7 @@ static void scattered(const struct smear_window *w, int32_t row, int32_t column,
             const struct smear_tile_motion *m = &window_motion(w, row + dy)[column + dx];
             if (!comes_near(w, m, dx, dy))
                 continue;
-            still = false;
+            is_static = false;
             uint32_t square = (uint32_t)(m->x * m->x + m->y * m->y);
             if (square > longest && comes_along(w, m, dx, dy)) {
                 longest = square;
@@ -208,7 +209,7 @@ static void scattered(const struct smear_window *w, int32_t row, int32_t column,
     }
     out->x = (int16_t)(best->x * 32);
     out->y = (int16_t)(best->y * 32);
-    out->kind = still ? TILE_STATIC : TILE_COMPLEX;
+    out->kind = is_static ? TILE_STATIC : TILE_COMPLEX;
 }
 
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)

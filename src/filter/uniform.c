@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* uniform.c - tiles in whose reach all motion is alike or changes without a step: an unweighted mean
- * along each pixel's own velocity, no depth, no weights; and tiles that nothing moves in: a copy. */
+/* uniform.c - tiles in whose reach all motion is alike or changes without a step get an unweighted mean along each
+ * pixel's own velocity, without a look at depths; tiles that nothing moves in are copied. */
 #include "filter/filter.h"
 
 #include "filter/gather.h"
@@ -42,8 +42,8 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
     return plain_mean(&sum, over, linear);
 }
 
-/* The same where things that move with the camera may be in front: a tap that meets one,
- * still and nearer, counts as the pixel itself. */
+/* Takes the mean where things that move with the camera may be in front: a tap that meets one, static and nearer,
+ * counts as the pixel itself. */
 static SMEAR_NOINLINE uint32_t mean_behind(const struct smear_window *w, const uint32_t *row_offset,
                                            uint32_t at, int32_t x, int32_t y, const struct uniform_taps *taps,
                                            int32_t n, uint32_t over, bool linear)
@@ -106,13 +106,12 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_blur_settings *settings)
 {
     const struct smear_tile_motion *m = &window_motion(w, row)[column];
-    /* Below 1 px the only pair, half way, would not leave the pixel. */
+    /* Below 1 px the only pair, halfway along, would not leave the pixel. */
     if (max_i32(m->max_x, -m->min_x) < 8 && max_i32(m->max_y, -m->min_y) < 8) {
         smear_blur_copy(out, w, rows, column);
         return 0;
     }
-    /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. In
-     * pairs. */
+    /* A tap per two pixels of the longest travel says all there is to say; `samples` is the most. They are pairs. */
     int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y)) >> (settings->dense ? 1 : 2);   /* px */
     int32_t n = min_i32(travel + 3, clamp_i32(settings->samples, 2, 128) * 2) >> 2 << 1;
     n = max_i32(n, 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* camera_velocity.c - see camera_velocity.h. One pass over the depth codes of a row, whatever is drawn there. */
+/* camera_velocity.c - one pass over the depth codes of a row, whatever is drawn there. */
 #include "ports/camera_velocity.h"
 
 #include "raster/velocity.h"
@@ -10,7 +10,7 @@ static inline bool is_unknown(const struct smear_window *w, int32_t at)
                                 : w->velocity16[2 * at] == SMEAR_VELOCITY_UNKNOWN16;
 }
 
-/* A velocity as it is kept: 1/8 px, and 1/256 px per frame for who looks at it. */
+/* A velocity as it is stored: in 1/8 px, and in 1/256 px per frame for who inspects it. */
 struct kept {
     int32_t x, y, wide_x, wide_y;
 };
@@ -39,7 +39,7 @@ static inline void keep(const struct smear_window *w, const struct smear_camera_
     }
 }
 
-/* Every pixel for itself. Neighbours of one depth on one row differ by little, but they differ. */
+/* Fills in each pixel by itself: neighbours of one depth in one row differ by little, but they differ. */
 static void fill_row(const struct smear_window *w, const struct smear_reprojection *r,
                      const struct smear_camera_store *store, int32_t x0, int32_t x1, int32_t y)
 {
@@ -54,7 +54,7 @@ static void fill_row(const struct smear_window *w, const struct smear_reprojecti
     }
 }
 
-/* Pixels of a block, which has `at` for the first of its rows. */
+/* Fills in the pixels of a block; at[j] is where row j of it begins in the window. */
 static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
                        const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
                        int32_t columns, int32_t rows)

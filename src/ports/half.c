@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* half.c - see half.h. */
+/* half.c - reduces 2 x 2 pixels to one, and blends them with what a filter makes of that one. */
 #include "ports/half.h"
 
 #include "base/pixel.h"
 
-/* The mean of four pixels; equal ones keep theirs. */
+/* Returns the mean of four pixels; that of equal ones is exact. */
 static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool linear)
 {
     if (((a ^ b) | (a ^ c) | (a ^ d)) == 0)
@@ -23,7 +23,7 @@ static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool lin
     return out;
 }
 
-/* Half of a velocity's component, to nearest, symmetric about zero. */
+/* Returns half of a velocity's component to nearest, symmetric about zero. */
 static inline int32_t half_of(int32_t v)
 {
     return v < 0 ? -((1 - v) >> 1) : (v + 1) >> 1;
@@ -57,8 +57,8 @@ void smear_half_reduce(const struct smear_window *half, const struct smear_windo
     }
 }
 
-/* What motion of v along an axis (half the exposure's, 1/8 px) leaves of the detail along it,
- * 0 .. 256: all up to 1/2 px, none from 2 px on. */
+/* Returns what motion of v along an axis (half the exposure's, 1/8 px) leaves of the detail along it, 0 .. 256: all up
+ * to 1/2 px, none from 2 px on. */
 static inline int32_t kept_share(int32_t v)
 {
     return 256 - clamp_i32((abs_i32(v) - 4) * 21, 0, 256);
@@ -77,8 +77,8 @@ static struct shares shares_of(const struct smear_window *full, int32_t at)
     return s;
 }
 
-/* One channel of the four pixels of a block (row by row): four times the blur, and of each
- * difference within the block what motion leaves. */
+/* Blends one channel of the four pixels of a block (row by row): four times the blur, and of each difference within the
+ * block what motion leaves. */
 static void blend_channel(uint32_t out[4], const uint32_t own[4], uint32_t blur, uint32_t sharp,
                           const struct shares share[4], int shift)
 {
@@ -112,14 +112,14 @@ void smear_half_blend(uint32_t *out, const uint32_t *blurred, const struct smear
             const int32_t at[4] = { upper + x, upper + right, lower + x, lower + right };
             uint32_t sharp = before[x >> 1], blur = blurred[(x - x0) >> 1], own[4], mixed[4] = { 0, 0, 0, 0 };
             struct shares share[4];
-            bool still = sharp == blur;
+            bool is_static = sharp == blur;
             for (int i = 0; i < 4; i++) {
                 own[i] = full->color[at[i]];
                 share[i] = shares_of(full, at[i]);
-                still = still && share[i].both == 256;
+                is_static = is_static && share[i].both == 256;
             }
             const uint32_t *shown = own;
-            if (!still) {
+            if (!is_static) {
                 for (int shift = 0; shift < 24; shift += 8)
                     blend_channel(mixed, own, blur, sharp, share, shift);
                 shown = mixed;

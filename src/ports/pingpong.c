@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pingpong.c - see pingpong.h. */
+/* pingpong.c - plans the passes, and gathers a tile's pixels in one of them. */
 #include "ports/pingpong.h"
 
 #include "filter/gather.h"
@@ -88,7 +88,7 @@ struct passing {
     uint32_t limit;             /* the nearest that is not too near: a code */
 };
 
-/* The taps of a pixel in this pass. */
+/* Chooses the taps of a pixel in this pass. */
 static SMEAR_NOINLINE void taps_choose(struct passing *p, struct smear_pixel_velocity v)
 {
     const struct smear_pass *pass = p->pass;
@@ -113,7 +113,7 @@ static SMEAR_NOINLINE void taps_choose(struct passing *p, struct smear_pixel_vel
     t->red_blue = half * 0x010001u;
 }
 
-/* The code of the nearest depth that a tap may have. */
+/* Returns the code of the nearest depth that a tap may have. */
 static uint16_t nearest_allowed(const struct passing *p, uint16_t code)
 {
     if (p->pass->bias == 255)
@@ -131,7 +131,7 @@ static SMEAR_NOINLINE void limit_choose(struct passing *p, uint32_t code)
     p->limit = nearest_allowed(p, (uint16_t)code);
 }
 
-/* Not all taps, or not 2^n of them. */
+/* Returns the mean where not all taps count, or not 2^n of them. */
 static SMEAR_NOINLINE uint32_t mean_of_some(struct plain_sum *s, uint32_t count, const struct taps *t, uint32_t own,
                                             bool linear)
 {
@@ -140,8 +140,8 @@ static SMEAR_NOINLINE uint32_t mean_of_some(struct plain_sum *s, uint32_t count,
     return count != 0 ? plain_mean(s, share[count], linear) : own;
 }
 
-/* The mean of a pixel's taps, those in front of it left out.
- * place: the first, in the frame and in the table. */
+/* Returns the mean of a pixel's taps without those in front of it. `place` is the first one: its column in the frame
+ * and its row in the table. */
 SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint32_t at, uint64_t place,
                              uint32_t limit, bool linear, bool edge)
 {
@@ -169,9 +169,9 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
     return mean_of_some(&some, count, t, in[at], linear);
 }
 
-/* What may come over a pixel: taps lie along the neighbourhood's motion. At each, either something
- * as near as the pixel moves far enough to be here at that time; or the pixel's own motion brings
- * what lies there; or the pixel shows itself. */
+/* Gathers what may come over a pixel, by taps along the neighbourhood's motion. At each, either something as near as
+ * the pixel moves far enough to be here at that time, or the pixel's own motion brings what lies there, or the pixel
+ * shows itself. */
 static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t at, int32_t x, int32_t y,
                                              struct smear_pixel_velocity own, struct smear_pixel_velocity top)
 {
@@ -200,7 +200,7 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
 
 /* ------------------------------------------------------------------ a tile */
 
-/* From the first tap to where jitter moves it, q16 px; `jitter` is q8 of half a spacing. */
+/* Returns how far jitter moves the first tap, q16 px; `jitter` is q8 of half a spacing. */
 static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32_t x, int32_t y)
 {
     int32_t step_x = (int32_t)(uint32_t)t->step;
@@ -210,7 +210,7 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
     return both_of((step_x >> 6) * (noise >> 6) >> 4, (step_y >> 6) * (noise >> 6) >> 4);
 }
 
-/* Rows of their own where taps need no check: 0.8 kB of code. */
+/* Speed wants loops of their own for rows whose taps need no check: 0.8 kB of code. */
 #ifdef __OPTIMIZE_SIZE__
 #define PLAIN_ROWS 0
 #else
@@ -220,8 +220,8 @@ static SMEAR_NOINLINE uint64_t shake(const struct taps *t, int32_t jitter, int32
 typedef uint32_t pass_row_fn(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
                              int32_t table_y);
 
-/* Pixels [x, x1) of a row. to, at: where the first goes and where it is; table_y:
- * its row in the table. Returns the taps taken. */
+/* Filters pixels [x, x1) of a row: the first is at `at` and goes to *to, table_y is its row in the table. Returns the
+ * taps taken. */
 SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
                                int32_t table_y, bool linear, bool wide)
 {
@@ -262,7 +262,7 @@ SMEAR_INLINE uint32_t pass_row(struct passing *p, uint32_t *to, uint32_t at, int
     return taken;
 }
 
-/* One for each way to add colours and each size of velocities. */
+/* There is a function for linear light and for codes, with velocities of either size. */
 #define PASS_ROW(NAME, LINEAR, WIDE) \
     static SMEAR_NOINLINE uint32_t NAME(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1, \
                                         int32_t table_y) \
@@ -282,8 +282,8 @@ static pass_row_fn *row_of(const struct passing *p)
     return p->settings->linear ? row_light : row_codes;
 }
 
-/* The same at the frame's sides, or with jitter, or where moving things spread: top is
- * the longest motion around, in frame row y. */
+/* Filters pixels of a row at the frame's sides, with jitter, or where moving things spread. `top` is the longest motion
+ * around, y the row in the frame. */
 static uint32_t pass_row_any(struct passing *p, uint32_t *to, uint32_t at, int32_t x, int32_t x1,
                              int32_t table_y, int32_t y, struct smear_pixel_velocity top)
 {

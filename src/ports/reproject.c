@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* reproject.c - see reproject.h.
+/* reproject.c - maps between cameras.
  *
  * Camera space is taken with x right, y down and z into the screen, so that a perspective place is f x / z. A
  * point P that the camera of now sees is at A P + a for that of a pose: a rotation (times the zoom) and a
- * way. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
+ * translation. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
  * shows at s w, s = (x / f, y / f, 1), is P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B'
  * b) / w): linear in x, y and 1 / w, which is what depth codes tell. */
 #include "ports/reproject.h"
@@ -12,7 +12,7 @@
 
 /* ------------------------------------------------------------------ numbers of any size, once per frame */
 
-/* m 2^e, |m| < 2^31. */
+/* The number m 2^e, |m| < 2^31. */
 struct number {
     int32_t m;
     int e;
@@ -33,7 +33,7 @@ static SMEAR_NOINLINE struct number times(struct number a, struct number b)
     return number_of((int64_t)a.m * b.m, a.e + b.e);
 }
 
-/* a / b for b > 0. */
+/* Returns a / b for b > 0. */
 static SMEAR_NOINLINE struct number over(struct number a, struct number b)
 {
     int zeros = count_leading_zeros((uint32_t)b.m);
@@ -41,7 +41,7 @@ static SMEAR_NOINLINE struct number over(struct number a, struct number b)
     return times(a, r);
 }
 
-/* a 2^q, to nearest, at most 2^bits in magnitude. */
+/* Returns a 2^q to nearest, less than 2^bits in magnitude. */
 static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
 {
     const int64_t limit = ((int64_t)1 << bits) - 1;
@@ -56,7 +56,7 @@ static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
     return (int32_t)(value > limit ? limit : value < -limit ? -limit : value);
 }
 
-/* The same with as many bits less as make it fit: the values share *shift, which only grows. */
+/* Lets *shift grow by as many bits as a 2^q must lose to fit: several values share it. */
 static SMEAR_NOINLINE void keep_room(int *shift, struct number a, int q)
 {
     int bits = a.m == 0 ? 0 : 32 - count_leading_zeros((uint32_t)(a.m < 0 ? -a.m : a.m)) + a.e + q;
@@ -65,10 +65,10 @@ static SMEAR_NOINLINE void keep_room(int *shift, struct number a, int q)
 
 /* ------------------------------------------------------------------ maps, once per frame */
 
-/* p to A p + a. */
+/* The map of p to A p + a. */
 struct map {
-    int64_t turn[3][3];         /* q27 */
-    int64_t way[3];             /* q40 world units */
+    int64_t turn[3][3];         /* A, q27 */
+    int64_t offset[3];          /* a, q40 world units */
 };
 
 static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
@@ -87,22 +87,22 @@ static int64_t clamp_i64(int64_t a, int64_t limit)
     return a > limit ? limit : a < -limit ? -limit : a;
 }
 
-/* What the camera of now sees at p, `camera` sees at this map of p. */
+/* Makes the map by which `camera` sees at A p + a what the camera of now sees at p. */
 static void map_make(struct map *m, const smear_camera *now, const smear_camera *camera)
 {
     const int32_t *to = camera->pose.basis, *from = now->pose.basis;
     *m = same_place;
     if (!is_same_pose(&camera->pose, &now->pose)) {
         for (int i = 0; i < 3; i++) {
-            int64_t way = 0;
+            int64_t offset = 0;
             for (int j = 0; j < 3; j++) {
                 int64_t sum = 0;
                 for (int k = 0; k < 3; k++)
                     sum += (int64_t)to[3 * k + i] * from[3 * k + j];
-                way += (int64_t)to[3 * j + i] * ((int64_t)now->pose.origin[j] - camera->pose.origin[j]);
+                offset += (int64_t)to[3 * j + i] * ((int64_t)now->pose.origin[j] - camera->pose.origin[j]);
                 m->turn[i][j] = ((i == 0) != (j == 0) ? -sum : sum) >> 21;
             }
-            m->way[i] = i == 0 ? way : -way;
+            m->offset[i] = i == 0 ? offset : -offset;
         }
     }
     bool flat = now->half_height > 0;
@@ -113,10 +113,10 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 3; j++)
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
-        struct number way = times(number_of(m->way[i], 0), zoom);
-        m->way[i] = way.e > 30 ? 0
-                  : way.e < 0  ? (way.e < -31 ? 0 : way.m >> -way.e)
-                               : (int64_t)way.m * ((int64_t)1 << way.e);
+        struct number offset = times(number_of(m->offset[i], 0), zoom);
+        m->offset[i] = offset.e > 30 ? 0
+                  : offset.e < 0  ? (offset.e < -31 ? 0 : offset.m >> -offset.e)
+                               : (int64_t)offset.m * ((int64_t)1 << offset.e);
     }
 }
 
@@ -125,11 +125,11 @@ static void map_add(struct map *sum, const struct map *m, int32_t weight)
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             sum->turn[i][j] += m->turn[i][j] * weight >> 24;
-        sum->way[i] += (m->way[i] >> 24) * weight;            /* 34 and 27 bits */
+        sum->offset[i] += (m->offset[i] >> 24) * weight;            /* 34 and 27 bits */
     }
 }
 
-/* The inverse of a turn, q27; false where there is none to speak of. */
+/* Inverts a turn, q27; returns false where it has no inverse to speak of. */
 static bool invert(int64_t out[3][3], const int64_t in[3][3])
 {
     int64_t m[3][3], minor[3][3];
@@ -153,8 +153,8 @@ static bool invert(int64_t out[3][3], const int64_t in[3][3])
     return true;
 }
 
-/* m after the inverse of the drawn instant's turn, less the way to there. */
-static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int64_t way[3])
+/* Makes m start from the drawn instant: A B' and a - A B' b. */
+static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int64_t offset[3])
 {
     struct map old = *m;
     for (int i = 0; i < 3; i++) {
@@ -165,8 +165,8 @@ static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int
             m->turn[i][j] = sum;
         }
         for (int j = 0; j < 3; j++)
-            m->way[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 10)
-                       * (clamp_i64(way[j], (int64_t)1 << 55) >> 14) >> 3;
+            m->offset[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 10)
+                       * (clamp_i64(offset[j], (int64_t)1 << 55) >> 14) >> 3;
     }
 }
 
@@ -179,7 +179,7 @@ static void pose_perspective(struct smear_reprojection_pose *p, const struct map
     struct number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
     int u_shift = 0, w_shift = 0;
     for (int i = 0; i < 3; i++) {
-        u[i] = over(number_of(m->way[i], -40), near_units);
+        u[i] = over(number_of(m->offset[i], -40), near_units);
         if (i < 2)
             u[i] = times(u[i], focal);
         keep_room(i < 2 ? &u_shift : &w_shift, u[i], i < 2 ? 37 : 48);
@@ -208,7 +208,7 @@ static void pose_orthographic(struct smear_reprojection_pose *p, const struct ma
     int u_shift = 0;
     for (int i = 0; i < 2; i++) {
         struct number across = times(number_of(-m->turn[i][2], -27), unit_px);
-        int64_t one = fixed_of(times(number_of(m->way[i], -40), unit_px), 16, 30);
+        int64_t one = fixed_of(times(number_of(m->offset[i], -40), unit_px), 16, 30);
         p->one[i] = (int32_t)(one - fixed_of(times(across, far_plane), 16, 30));
         u[i] = times(across, step);
         keep_room(&u_shift, u[i], 37);
@@ -233,7 +233,7 @@ void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now,
     }
     if (!drawn_is_now && invert(inverse, (const int64_t(*)[3])drawn.turn))
         for (int i = 0; i < 3; i++)
-            map_from_drawn(&map[i], (const int64_t(*)[3])inverse, drawn.way);
+            map_from_drawn(&map[i], (const int64_t(*)[3])inverse, drawn.offset);
     *r = (struct smear_reprojection){ .width = width, .height = height };
     r->poses = to_close || !drawn_is_now ? 2 : 1;
     for (int i = 0; i < r->poses; i++) {
@@ -257,15 +257,14 @@ static inline int32_t within(int32_t a, int32_t limit)
     return clamp_i32(a, -limit, limit);
 }
 
-/* Places are q21 px: x, y as mulh factors. */
+/* Finds a pose's displacement at a place, in q21 px for products by mulh_i32. */
 static void pose_displacement(const struct smear_reprojection_pose *p, int32_t x, int32_t y, int32_t u,
                               int32_t out[2])
 {
     const int32_t quarter = 1 << 29, wide = 1 << 21;
     int32_t turn = within(mulh_i32(x, p->w_x), wide) * 256 + within(mulh_i32(y, p->w_y), wide) * 256;
     int32_t toward = within(scale_sat(mulh_i32(u, p->w_u), p->w_shift), quarter);
-    /* A point that was at or behind the eye has no place: the least w
-     * sends it far out, to the side it comes from. */
+    /* A point that was at or behind the eye has no place: the least w sends it far out, to the side it comes from. */
     int32_t w = max_i32(narrow_sat((int64_t)p->w_1 + turn + toward), 1 << 12);
     w = min_i32(w, (1 << 30) - 1);
     int zeros = count_leading_zeros((uint32_t)w);
@@ -309,19 +308,19 @@ bool smear_is_attached(const smear_transform *object, const smear_camera *camera
     if (camera->focal != other_camera->focal || camera->half_height != other_camera->half_height)
         return false;
     for (int i = 0; i < 3; i++) {
-        int64_t way[2] = { 0, 0 };
+        int64_t offset[2] = { 0, 0 };
         for (int j = 0; j < 3; j++) {
             int64_t turn[2] = { 0, 0 };
             for (int side = 0; side < 2; side++) {
                 const int32_t *b = c[side]->pose.basis;
                 for (int k = 0; k < 3; k++)
                     turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
-                way[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
+                offset[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
             }
             if (magnitude(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
                 return false;
         }
-        if (magnitude(way[0] - way[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
+        if (magnitude(offset[0] - offset[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
             return false;
     }
     return true;

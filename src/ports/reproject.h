@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* reproject.h - how the camera's motion alone moves what is seen at a pixel, told from its depth.
  *
- * [GPUGems3] "Motion Blur as a Post-Processing Effect", GPU Gems 3, chapter 27: a pixel and
- * its depth give a point, the point gives a pixel of another camera. Nothing is done per
- * vertex, so the cost does not depend on the scene. */
+ * [GPUGems3] "Motion Blur as a Post-Processing Effect", GPU Gems 3, chapter 27: a pixel and its depth give a point, the
+ * point gives a pixel of another camera. Nothing is done per vertex, so the cost does not depend on the scene. */
 #ifndef SMEAR_REPROJECT_H
 #define SMEAR_REPROJECT_H
 
@@ -18,7 +17,7 @@ struct smear_reprojection_pose {
     int32_t w_x, w_y;           /* q30 per pixel */
     int32_t w_1;                /* q27 */
     int32_t w_u;                /* q48 - w_shift */
-    int32_t x[2], y[2];         /* of displacement along x, y: per pixel along x and along y, q27 */
+    int32_t x[2], y[2];         /* the displacement along x, along y per pixel along x and along y, q27 */
     int32_t one[2];             /* q16 px */
     int32_t u[2];               /* q37 - u_shift, px */
     uint8_t w_shift, u_shift;
@@ -30,18 +29,18 @@ struct smear_reprojection {
     struct smear_reprojection_pose pose[2];
 };
 
-/* The drawn instant is the sum of the cameras now, open and close by `weight` (q24, together one); velocity
- * is measured from `open` to `later`, which is `close` or `now`. All are of one kind. */
+/* Makes the reprojection of a frame. The drawn instant is the sum of the cameras now, open and close by `weight` (q24,
+ * together one); velocity is measured from `open` to `close` or, without to_close, to `now`. All are of one kind. */
 void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now, const smear_camera *open,
                           const smear_camera *close, const int32_t weight[3], bool to_close, int32_t width,
                           int32_t height);
 
-/* Displacement between the poses at a place, in half pixels from the top left corner (a pixel's middle is
- * odd), of what has depth `units` (0: at infinity); q8 px. */
+/* Finds the displacement between the poses, q8 px, of what has depth `units` (0: at infinity) at a place. The place is
+ * in half pixels from the top left corner: a pixel's middle is odd. */
 void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units,
                      int32_t out[2]);
 
-/* Whether an object that has these poses stays where it is in the camera's view: attached to it. */
+/* Whether an object with these two poses stays where it is in the view of the camera's two: attached to it. */
 bool smear_is_attached(const smear_transform *object, const smear_camera *camera,
                        const smear_transform *other_object, const smear_camera *other_camera);
 

@@ -12,8 +12,7 @@
 
 /* ------------------------------------------------------------------ sums */
 
-/* As struct weighed_sum, for weights that are larger (q8, and up to 4 of each tap): colours have 16 bits (linear light)
- * or 8. */
+/* A struct weighed_sum for larger weights: q8, and up to 4 of each tap. Colours have 16 bits (linear light) or 8. */
 struct wide_sum {
     uint64_t r, g, b;
     uint32_t weight;
@@ -28,7 +27,7 @@ static void wide_add(struct wide_sum *s, uint32_t pixel, uint32_t weight, bool l
     s->weight += weight;
 }
 
-/* a / weight, to nearest; a is at most 65535 weights. */
+/* Returns a / weight to nearest; a is at most 65535 weights. */
 static uint32_t quotient(uint64_t a, uint32_t weight)
 {
     int zeros = count_leading_zeros(weight);
@@ -53,13 +52,13 @@ static int32_t length_of(struct vector v)
     return (int32_t)sqrt_floor_64((uint64_t)((int64_t)v.x * v.x + (int64_t)v.y * v.y));
 }
 
-/* 256 times a / b, b > 0. */
+/* Returns 256 a / b for b > 0. */
 static int32_t share_of(int32_t a, int32_t b)
 {
     return a / b * 256 + (a % b * 256) / b;
 }
 
-/* |cos| of the angle between two directions of known lengths, q8. */
+/* Returns |cos| of the angle between two directions of known lengths, q8. */
 static int32_t alike(struct vector a, int32_t a_length, struct vector b, int32_t b_length)
 {
     int32_t dot = (a.x * b.x >> 8) + (a.y * b.y >> 8), lengths = a_length * b_length >> 8;
@@ -76,7 +75,7 @@ struct gathering {
     int32_t taps;
 };
 
-/* What lies at a place; and what is gathered for. */
+/* What lies at a place: at a tap, or at the pixel itself. */
 struct sample {
     uint32_t at;
     uint32_t units;
@@ -92,14 +91,14 @@ static struct sample sample_at(const struct gathering *g, uint32_t at)
     return s;
 }
 
-/* t in q12 of `d`, from the middle of the pixel at column x and row y of the table. */
+/* Returns what lies t (q12) times `d` from the middle of the pixel at column x and row y of the table. */
 static struct sample sample_along(const struct gathering *g, int32_t x, int32_t y, struct vector d, int32_t t)
 {
     int32_t tx = (x << 8) + 128 + (d.x * t >> 12), ty = (y << 8) + 128 + (d.y * t >> 12);
     return sample_at(g, g->row[ty >> 8] + (uint32_t)clamp_i32(tx >> 8, 0, g->w->width - 1));
 }
 
-/* How much farther a is than b, over the distance of the nearer: q8 times `sharpness`, at most 256 of it. */
+/* Returns how much farther a is than b, over the distance of the nearer: q8 times `sharpness`, at most 256. */
 static int32_t farther(const struct gathering *g, const struct sample *a, const struct sample *b,
                        int32_t sharpness)
 {
@@ -114,7 +113,8 @@ static int32_t farther(const struct gathering *g, const struct sample *a, const 
     return min_i32(share_of((int32_t)difference, (int32_t)nearer) * sharpness, 256);
 }
 
-/* Shapes of a smear of radius r at distance d, q8: a cone, and a cylinder with a soft rim. */
+/* Returns how much a streak of radius r covers at distance d, q8, if it is a cone; cylinder() if it is a cylinder with
+ * a soft rim. */
 static int32_t cone(int32_t d, int32_t r)
 {
     return d >= r ? 0 : 256 - share_of(d, r);
@@ -156,7 +156,7 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
     return wide_mean(&sum, g->settings->linear);
 }
 
-/* The second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity
+/* Returns the second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity
  * to that velocity, as the pixel gets faster than 1/2 px. */
 static struct vector second_direction(const struct sample *here, struct vector top, int32_t length)
 {
@@ -197,7 +197,7 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
     return wide_mean(&sum, g->settings->linear);
 }
 
-/* How much a tap counts by its depth and its smear or the pixel's, q8. */
+/* Returns how much a tap counts by its depth and its streak or the pixel's, q8. */
 static int32_t jimenez_weight(const struct gathering *g, const struct sample *here, const struct sample *tap,
                               int32_t d)
 {
