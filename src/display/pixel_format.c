@@ -39,7 +39,7 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format)
     return smear_format_stride(width, format) * lines;
 }
 
-/* 0 .. 255 in steps of 1/256 of a level. */
+/* Returns the threshold at a pixel, 0 .. 255, in 1/256 of a level. */
 static inline uint32_t threshold_at(int32_t x, int32_t y, smear_dither dither)
 {
     return !SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel_format.h - working pixels to what the display takes. */
+/* pixel_format.h - turns working pixels into the display's formats. */
 #ifndef SMEAR_PIXEL_FORMAT_H
 #define SMEAR_PIXEL_FORMAT_H
 
@@ -7,22 +7,21 @@
 
 #include "base/base.h"
 
-/* The format was compiled in, with that dither. */
+/* Whether the format was compiled in, with that dither. */
 bool smear_format_has(int format, int dither);
 
-/* Bytes of one row of pixels; of one page of eight rows for SMEAR_L1_PAGES. */
+/* Returns the bytes of a row of pixels, or of a page of eight rows for SMEAR_L1_PAGES. */
 uint32_t smear_format_stride(int32_t width, smear_format format);
 
-/* Bytes of `rows` pixel rows. */
+/* Returns the bytes of `rows` pixel rows. */
 uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format);
 
-/* Writes n pixels that start at (x, y) of the frame into `band`, whose first row is y0.
- * Formats of less than a byte per pixel need x (SMEAR_L1_PAGES: y0) on a multiple of 8. Rows
- * of a page are added: the band starts at zero. */
+/* Writes n pixels that start at (x, y) of the frame into `band`, whose first row is y0. Formats of less than a byte per
+ * pixel need x (SMEAR_L1_PAGES: y0) on a multiple of 8. Rows of a page are added to it, so its band starts at zero. */
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
-                       int32_t y0, smear_format format, smear_dither dither);
+                      int32_t y0, smear_format format, smear_dither dither);
 
-/* RGB565 whose bytes are not this machine's order; and from one to the other. */
+/* Whether the bytes of a pixel are not in this machine's order; smear_format_swap exchanges them. */
 static inline bool smear_format_is_swapped(smear_format format)
 {
     const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* anim.c - actors: a model's clips at an instant, as transforms
- * and positions that smear_submit takes. Optional.
+/* anim.c - actors: a model's clips at an instant, as transforms and positions that a frame's draws take. It is optional.
  *
  *     clip     keys -> translation, rotation, scale of each node that moves; weights of morph targets
  *     nodes    each by its parent: basis Q8.24, origin Q16.16 model units
@@ -25,7 +24,7 @@ struct actor_pose {
 
 struct smear_actor {
     const smear_model *model;
-    smear_transform *world;             /* of each node, in model units */
+    smear_transform *world;             /* where each node is, in model units */
     struct smear_joint_matrix *joint;   /* of the skin being posed */
     int16_t *weight;
     smear_mesh *mesh;                   /* of deformed draws */
@@ -46,7 +45,7 @@ static int32_t within_factor(int32_t a)
     return clamp_i32(a, -FACTOR_LIMIT, FACTOR_LIMIT);
 }
 
-/* a b for Q8.24 within +-8: Q8.24, or Q16.16 when b is. */
+/* Returns a b for a in Q8.24 within +-8, in the format of b: Q8.24 within +-8, or Q16.16. */
 static int32_t times_factor(int32_t a, int32_t b)
 {
     return mulh_i32(shl_wrap(a, 4), shl_wrap(b, 4));
@@ -57,7 +56,7 @@ static int32_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
     return add_wrap(add_wrap(times_factor(row[0], x), times_factor(row[1], y)), times_factor(row[2], z));
 }
 
-/* parent x local; out is neither. */
+/* Computes parent x local; `out` is neither. */
 static void compose(smear_transform *out, const smear_transform *parent, const smear_transform *local)
 {
     for (int i = 0; i < 3; i++) {
@@ -70,8 +69,8 @@ static void compose(smear_transform *out, const smear_transform *parent, const s
     }
 }
 
-/* Rotation matrix Q2.29 of a quaternion Q2.30 of length 1/2 to 1.
- * 1 - 2 (y^2 + z^2) / |q|^2 and so on: no root. */
+/* Makes the rotation matrix, Q2.29, of a quaternion in Q2.30 of length 1/2 to 1. It needs no root: its entries are
+ * 1 - 2 (y^2 + z^2) / |q|^2 and so on. */
 static void rotation_from(int32_t out[9], const int32_t q[4])
 {
     int32_t xx = mulh_i32(q[0], q[0]), yy = mulh_i32(q[1], q[1]), zz = mulh_i32(q[2], q[2]);     /* q28 */
@@ -90,7 +89,7 @@ static void rotation_from(int32_t out[9], const int32_t q[4])
         out[i] = shl_wrap(mulh_i32(sum[i], r), zeros + 1) + (i % 4 == 0 ? 1 << 29 : 0);
 }
 
-/* Translation, rotation and scale of a node, as smear_model_node.rest has them. */
+/* Makes a node's transform from translation, rotation and scale as smear_model_node.rest has them. */
 static void transform_from(smear_transform *out, const int32_t trs[10])
 {
     int32_t rotation[9];
@@ -104,7 +103,7 @@ static void transform_from(smear_transform *out, const int32_t trs[10])
 
 /* ------------------------------------------------------------------ clips */
 
-/* A time within a channel: between keys `key` and `key + 1`, `part` / 2^14 of the way. */
+/* A time within a channel: `part` / 2^14 of the time from key `key` to key `key + 1`. */
 struct between {
     uint32_t key;
     int32_t part;
@@ -131,14 +130,14 @@ static struct between find_keys(const uint16_t *time, uint32_t count, uint32_t n
     return (struct between){ low, (int32_t)min_u32((part + (1u << 14)) >> 15, 1u << 14) };
 }
 
-/* Value k of the channel between two keys, in 2^-14 steps of a key: at most 2^29. */
+/* Returns value k of the channel between two keys, in 2^-14 steps of a key: at most 2^29. */
 static int32_t mix_keys(const int16_t *from, uint32_t width, uint32_t k, int32_t part)
 {
     int32_t value = from[k] * (1 << 14);
     return part == 0 ? value : value + (from[width + k] - from[k]) * part;
 }
 
-/* Value k of a channel: rotations Q2.30, else in the unit of the path. */
+/* Returns value k of a channel: rotations in Q2.30, others in the unit of the channel's path. */
 static int32_t channel_value(const smear_model *m, const smear_model_channel *c, struct between b, uint32_t k)
 {
     const int16_t *from = m->key_value + c->value_first + b.key * c->width;
@@ -149,7 +148,7 @@ static int32_t channel_value(const smear_model *m, const smear_model_channel *c,
                          + c->offset[c->path == SMEAR_PATH_WEIGHTS ? 0 : k]);
 }
 
-/* Q16.16 seconds within the clip. */
+/* Returns the time within the clip, Q16.16 seconds. */
 static uint32_t time_in_clip(const smear_model_clip *clip, const smear_play *play)
 {
     int32_t duration = (int32_t)clip->duration, rest = play->time;
@@ -162,7 +161,7 @@ static uint32_t time_in_clip(const smear_model_clip *clip, const smear_play *pla
 
 /* ------------------------------------------------------------------ nodes */
 
-/* What moves the nodes: a clip's channels that are still to come, sorted by node. */
+/* The clip's channels that have not been used yet, sorted by node. */
 struct cursor {
     const smear_model_channel *channel, *end;
     uint32_t now, tick_shift;
@@ -210,7 +209,7 @@ static void local_of(smear_transform *out, const smear_model *m, uint32_t index,
     transform_from(out, trs);
 }
 
-/* Worlds of all nodes, and the weights. */
+/* Finds where all nodes are, and the weights of morph targets. */
 static void pose_nodes(struct smear_actor *a, const smear_play *play)
 {
     const smear_model *m = a->model;
@@ -248,7 +247,7 @@ static void pose_nodes(struct smear_actor *a, const smear_play *play)
 
 /* ------------------------------------------------------------------ draws */
 
-/* Where the draws of a node stand: place x world, in world units. */
+/* Makes the transform of a node's draws: place x world, in world units. */
 static void place_node(smear_transform *out, const smear_transform *place, const smear_transform *world,
                        int unit_shift)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* blob.h - how a .smr file is laid out. Written by tools/convert, read in place by model.c.
+/* blob.h - how a .smr file is laid out, which tools/convert writes and model.c reads in place.
  *
  *     head, tables, data         little-endian; every table and array on a multiple of 4;
  *                                no padding is left undefined
@@ -71,7 +71,7 @@ SMEAR_STATIC_ASSERT(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) =
                && sizeof(smear_model_clip) == 16 && sizeof(smear_model_channel) == 36, "no padding");
 
 #if SMEAR_WITH_MODEL
-/* Bytes of an element of each table. */
+/* How many bytes an element of each table has. */
 static const uint8_t smear_blob_element[BLOB_TABLES] = {
     sizeof(struct smear_blob_texture), sizeof(struct smear_blob_material), sizeof(struct smear_blob_mesh),
     sizeof(smear_model_draw), sizeof(smear_model_node), sizeof(smear_model_joint), sizeof(smear_model_skin),

@@ -29,7 +29,7 @@ static uint32_t blob_count(const struct blob *b, int table)
     return b->head->table[table].count;
 }
 
-/* `count` elements of `size` bytes from `at` on lie within the blob, behind its head. */
+/* Whether `count` elements of `size` bytes from `at` on lie within the blob, behind its head. */
 static bool blob_has(const struct blob *b, uint32_t at, uint32_t count, uint32_t size)
 {
     uint32_t end = b->head->size;
@@ -41,13 +41,13 @@ static bool blob_may_have(const struct blob *b, uint32_t at, uint32_t count, uin
     return at == 0 || blob_has(b, at, count, size);
 }
 
-/* first + count <= limit */
+/* Whether first + count <= limit, also where the sum would wrap. */
 static bool is_range(uint32_t first, uint32_t count, uint32_t limit)
 {
     return first <= limit && count <= limit - first;
 }
 
-/* What the animation takes as a factor or a place: Q8.24 within +-8, Q16.16 within +-2048. */
+/* Whether the animation takes all of these as factors or places: Q8.24 within +-8, Q16.16 within +-2048. */
 static bool is_modest(const int32_t *value, int count)
 {
     for (int i = 0; i < count; i++)

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* skin.c - see skin.h. All products fit 32 bits, for cores without a wide multiply. */
+/* skin.c - all products fit 32 bits, for cores without a wide multiply. */
 #include "model/skin.h"
 
 #include "base/fixmath.h"
 
 #if SMEAR_WITH_MODEL
 
-/* To int16; two instructions where nothing is to be done. */
+/* Clamps to int16; it takes two instructions where nothing is to be done. */
 static inline int16_t clamp_step(int32_t x)
 {
     return (int16_t)((int16_t)x == x ? x : x < 0 ? -32768 : 32767);
 }
 
-/* What the first weight is: the others' lack to 256. */
+/* Returns the first weight: what the others lack to 256. */
 static inline int32_t first_weight(const uint8_t *weight, uint32_t per_vertex)
 {
     int32_t first = 256;
@@ -21,7 +21,7 @@ static inline int32_t first_weight(const uint8_t *weight, uint32_t per_vertex)
     return first;
 }
 
-/* A vertex by a row of a joint: q4, below 2^23. The sum of products stays below 3 x 21845 x 32768 < 2^31. */
+/* Multiplies a vertex by a row of a joint: q4, below 2^23. The sum of products stays below 3 x 21845 x 32768 < 2^31. */
 static inline int32_t by_row(const int32_t row[4], int32_t x, int32_t y, int32_t z)
 {
     return ((row[0] * x + row[1] * y + row[2] * z) >> 10) + row[3];
@@ -60,8 +60,7 @@ void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_in
     }
 }
 
-/* Scales to length 127. sqrt_q3 wants less than 2^20, so
- * components get 9 bits; the result is right within 1. */
+/* Scales to length 127. sqrt_q3 wants less than 2^20, so components get 9 bits; the result is right within 1. */
 static void unit_normal(int8_t out[3], int32_t x, int32_t y, int32_t z)
 {
     uint32_t size = (uint32_t)max_i32(abs_i32(x), max_i32(abs_i32(y), abs_i32(z)));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* skin.h - posed vertices: morph targets and skins, in steps of
- * the mesh. Of the optional animation (anim.c). */
+/* skin.h - posed vertices: morph targets and skins, in steps of the mesh. It belongs to the optional animation
+ * (anim.c). */
 #ifndef SMEAR_SKIN_H
 #define SMEAR_SKIN_H
 
@@ -8,9 +8,8 @@
 
 #include "base/fixed.h"
 
-/* From steps of the mesh at rest to steps of the posed mesh. Each row: its
- * basis, Q14, |entry| <= SMEAR_JOINT_LIMIT, so that it times a vertex stays
- * below 2^31; then its origin in 1/16 step, +-2^22. */
+/* The matrix from steps of the mesh at rest to steps of the posed mesh. Each row has its basis, Q14 with
+ * |entry| <= SMEAR_JOINT_LIMIT so that it times a vertex stays below 2^31, then its origin in 1/16 step, +-2^22. */
 struct smear_joint_matrix {
     int32_t row[3][4];
 };
@@ -25,16 +24,16 @@ struct smear_influences {
     uint32_t count;
 };
 
-/* out may be in. Positions are clamped to int16. 12 products per vertex and joint, none of them wide. */
+/* Poses positions, which are clamped to int16; `out` may be `in`. It takes 12 products per vertex and joint, none of
+ * them wide. */
 void smear_skin_positions(int16_t *out, const int16_t *in, const struct smear_influences *influences,
                           const struct smear_joint_matrix *joint);
 
-/* The same for normals, which come out with length 127 (0 stays 0); exact
- * for joints that turn, move and scale evenly. */
+/* Poses normals, which come out with length 127 (0 stays 0); exact for joints that turn, move and scale evenly. */
 void smear_skin_normals(int8_t *out, const int8_t *in, const struct smear_influences *influences,
                         const struct smear_joint_matrix *joint);
 
-/* Adds weight (q14) x the target's deltas. */
+/* Add weight (q14) x the target's deltas. */
 void smear_morph_positions(int16_t *position, const smear_model_target *target,
                            const smear_model_delta *delta, int16_t weight);
 void smear_morph_normals(int8_t *normal, const smear_model_target *target, const smear_model_delta *delta,
