@@ -523,9 +523,9 @@ typedef struct smear_stats {
                                          * in parts, once per part */
     uint32_t pixels;                    /* of the frame */
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
-    uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves, SMEAR_AUTO where
-                                         * a mean closes the gaps between instants, else SMEAR_SUBFRAMES ...; layers
-                                         * count where they reach into a tile */
+    uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves; SMEAR_AUTO's
+                                         * tiles count as SMEAR_SUBFRAMES; layers count where they reach into a
+                                         * tile */
     uint32_t tiles_static, tiles_uniform, tiles_complex;        /* by the kind of motion in them */
     uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.reuse.buffer_age) */
     uint8_t static_cached;              /* 1: what is static was not drawn, and is not among triangles_drawn */

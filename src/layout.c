@@ -111,7 +111,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     t->moving.moving = arena_take(a, d->max_triangles, sizeof *t->moving.moving);
     t->moving.travel = arena_take(a, (size_t)c->rows.window.columns, sizeof *t->moving.travel);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
-    if (SMEAR_WITH_TIMEMASK)
+    if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = arena_take(a, d->workers, t->work_bytes);

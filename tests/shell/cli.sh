@@ -412,7 +412,7 @@ claim "statistics" render $moving --stats s.json -o out2.ppm
 claim "leave the picture alone" same out2.ppm out.ppm
 for key in frames frame time_s us submit raster reduce class blur merge convert total triangles in \
     drawn dropped split pixels samples tiles still uniform complex methods none accumulate \
-    reconstruct smooth subframes timemask arena_bytes crc32; do
+    reconstruct subframes timemask arena_bytes crc32; do
     claim "statistics have $key" grep -c "\"$key\":" s.json
 done
 claim "pixels" equals "$(stat_of s.json pixels)" 1536

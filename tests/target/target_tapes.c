@@ -516,8 +516,8 @@ static bool draw(struct visitor *v, const struct spec *spec, int index,
         return fail(f, "the library's CRC is not that of frame %d", index);
     printf("%s %d %08" PRIx32, spec->name, index, v->crc);
     if ((spec->desc.methods & SMEAR_SET_TEMPORAL) != 0)
-        printf("    %" PRIu32 " still, %" PRIu32 " smooth, %" PRIu32 " subframes, %" PRIu32 " timemask, %" PRIu32
-               " split", stats.tiles[SMEAR_NONE], stats.tiles[SMEAR_AUTO], stats.tiles[SMEAR_SUBFRAMES], stats.tiles[SMEAR_TIMEMASK],
+        printf("    %" PRIu32 " still, %" PRIu32 " subframes, %" PRIu32 " timemask, %" PRIu32
+               " split", stats.tiles[SMEAR_NONE], stats.tiles[SMEAR_SUBFRAMES], stats.tiles[SMEAR_TIMEMASK],
                stats.parts_added);
     printf("\n");
     if ((spec->desc.methods & SMEAR_SET_TEMPORAL) != 0 && stats.triangles_dropped != 0)

@@ -76,8 +76,9 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             ",\"complex\":%" PRIu32 ",\"kept\":%" PRIu32 "},\n",
             c->tiles_static, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
     for (int i = 0; i < method_count; i++)
-        fprintf(s->stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].tiles,
-                c->tiles[method_list[i].method]);
+        if (method_list[i].method != SMEAR_AUTO)        /* its tiles get other methods */
+            fprintf(s->stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].name,
+                    c->tiles[method_list[i].method]);
     fputs("},\n", s->stream);
     fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
             c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);

@@ -10,8 +10,7 @@ struct method {
     const char *name;           /* on the command line */
     smear_method method;
     const char *help;           /* of the command line, lines with \n between them */
-    const char *tiles;          /* what a tile that got it is called among counts */
-    uint32_t tile_color;        /* and in the viewer, 0xRRGGBB */
+    uint32_t tile_color;        /* of a tile that got it, in the viewer, 0xRRGGBB; auto's tiles get other methods */
     const char *label, *hint;   /* on the page */
     uint8_t samples[3];         /* there: of qualities draft, balanced, fine; 0: there are none to choose */
     const char *curve, *color;  /* in the page's chart */

@@ -39,7 +39,7 @@ void cost_count(const smear_stats *s, double work[COST_WORKS])
         { COST_CAMERA, s->tiles[SMEAR_CAMERA] },         { COST_PINGPONG, s->tiles[SMEAR_PINGPONG] },
         { COST_HALF, s->tiles[SMEAR_HALF] },             { COST_OBJECT, s->tiles[SMEAR_OBJECT] },
         { COST_LAYERED, s->tiles[SMEAR_LAYERED] },       { COST_SUBFRAMES, s->tiles[SMEAR_SUBFRAMES] },
-        { COST_TIMEMASK, s->tiles[SMEAR_TIMEMASK] + s->tiles[SMEAR_AUTO] },
+        { COST_TIMEMASK, s->tiles[SMEAR_TIMEMASK] },
     };
     enum { METHODS = sizeof method / sizeof *method };
     bool is_timed = false, is_filtered = false;

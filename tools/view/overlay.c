@@ -83,7 +83,7 @@ static void add_methods(struct page *p, const smear_stats *s)
     char line[TEXT_COLUMNS + 1] = " ";
     for (int i = 0; i < method_count; i++)
         if (s->tiles[method_list[i].method] > 0)
-            snprintf(line + strlen(line), sizeof line - strlen(line), " %s %lu", method_list[i].tiles,
+            snprintf(line + strlen(line), sizeof line - strlen(line), " %s %lu", method_list[i].name,
                      (unsigned long)s->tiles[method_list[i].method]);
     add(p, "%s", line);
 }

@@ -83,7 +83,7 @@ function showNumbers(f) {
 }
 
 function tilesText(s) {
-    const parts = [["still", s.still], ["smooth", s.smooth], ["subframes", s.subframes], ["timemask", s.timemask], ["filtered", s.filtered],
+    const parts = [["still", s.still], ["subframes", s.subframes], ["timemask", s.timemask], ["filtered", s.filtered],
         ["object", s.object], ["layered", s.layered]];
     return parts.filter(p => p[1] > 0).map(p => count(p[1]) + " " + p[0]).join(", ") || "whole frames";
 }

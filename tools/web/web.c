@@ -352,13 +352,13 @@ EXPORT(web_stats) void web_stats(void)
     snprintf(text, sizeof text,
              "{\"crc\":\"%08lx\",\"us\":%.1f,\"sharp_us\":%.1f,\"board_us\":%.0f,"
              "\"board_sharp_us\":%.0f,\"wire_us\":%.0f,\"in\":%lu,\"drawn\":%lu,\"dropped\":%lu,"
-             "\"arena\":%lu,\"limit\":%zu,\"samples\":%lu,\"still\":%lu,\"smooth\":%lu,"
+             "\"arena\":%lu,\"limit\":%zu,\"samples\":%lu,\"still\":%lu,"
              "\"subframes\":%lu,\"timemask\":%lu,\"filtered\":%lu,\"object\":%lu,\"layered\":%lu}",
              (unsigned long)s->crc32, shown.main.wall_us, shown.left.wall_us, board_us, sharp_us,
              bus_wire_us(&shown.bus, shown.main.device.size), (unsigned long)s->triangles_in,
              (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped,
              (unsigned long)s->arena_bytes, shown.main.options.arena, (unsigned long)s->samples,
-             (unsigned long)s->tiles[SMEAR_NONE], (unsigned long)s->tiles[SMEAR_AUTO],
+             (unsigned long)s->tiles[SMEAR_NONE],
              (unsigned long)s->tiles[SMEAR_SUBFRAMES], (unsigned long)s->tiles[SMEAR_TIMEMASK],
              filtered,
              (unsigned long)s->tiles[SMEAR_OBJECT], (unsigned long)s->tiles[SMEAR_LAYERED]);
