@@ -166,6 +166,17 @@ readme-pictures: $(BIN)/smear-demo
 layers:
 	sh tests/shell/layers.sh $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(TEST_ROOMS)
 
+# All C sources but what tools write.
+FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
+
+.PHONY: format format-check
+## sources are indented as .clang-format says (needs clang-format-14); make format indents them
+format-check:
+	sh tests/shell/format.sh $(FORMATTED)
+
+format:
+	sh tests/shell/format.sh --fix $(FORMATTED)
+
 ## how src/ is built, measured: longest functions, switches of the top floor
 house:
 	sh tests/shell/house.sh
