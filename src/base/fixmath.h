@@ -51,7 +51,7 @@ SMEAR_SHARED int count_leading_zeros(uint32_t x)
 #endif
 }
 
-/* Likewise, of 64 bits. */
+/* Counts the leading zeros of x > 0, of 64 bits. */
 SMEAR_SHARED int count_leading_zeros_64(uint64_t x)
 {
     uint32_t high = (uint32_t)(x >> 32);

@@ -9,7 +9,7 @@
 #define NOISE_X 288237660u
 #define NOISE_Y 25070368u
 
-/* The outer factor is 53 - 0.0170811, 35822 in q21. Result q16. */
+/* Returns the noise, q16. The outer factor is 53 - 0.0170811, 35822 in q21. */
 static inline uint32_t noise_of(uint32_t inner)
 {
     return (inner * 53u - ((inner >> 16) * 35822u >> 5)) >> 16;

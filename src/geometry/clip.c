@@ -59,7 +59,7 @@ static void mix_homogeneous(struct smear_homogeneous *out, const struct smear_ho
     out->distance = mix(a->distance, b->distance, t);
 }
 
-/* Rounding may leave a new vertex a step outside, and W must be positive to divide by it. */
+/* Brings a new vertex onto its plane: rounding may leave it a step outside, and W must be positive to divide by it. */
 static void settle(struct smear_homogeneous *h, const struct smear_projection *p, enum plane plane)
 {
     if (plane <= PLANE_FAR) {

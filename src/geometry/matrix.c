@@ -194,7 +194,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     set_distances(p, camera);
 }
 
-/* The last row of a perspective stays zero. */
+/* Returns how many rows count: the last row of a perspective stays zero. */
 static int rows_of(const struct smear_projection *p)
 {
     return is_orthographic(p) ? 4 : 3;

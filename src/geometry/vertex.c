@@ -83,7 +83,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
 }
 
 #if SMEAR_FIND_FLAT
-/* Normals are compared for all triangles of all draws of each frame: without a loop or branch. */
+/* Compares normals without a loop or branch: it is called for all triangles of all draws of each frame. */
 static inline bool same_normal(const uint8_t *a, const uint8_t *b)
 {
     return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;

@@ -297,7 +297,7 @@ static inline bool is_blend(const struct smear_assembly *d)
     return SMEAR_WITH_ALPHA && d->material->alpha == SMEAR_BLEND;
 }
 
-/* Vertices cannot be shared when a face's own light or colour goes into them. */
+/* Whether faces share their vertices' records: not when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
     return !segment_by_vertices(s)

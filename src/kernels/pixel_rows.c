@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel_rows.c - see pixel_rows.h. */
+/* pixel_rows.c - the forms that are longer than their references. */
 #include "kernels/pixel_rows.h"
 
 /* ------------------------------------------------------------------ 16 bits, nearest levels */
@@ -73,9 +73,10 @@ struct ordered {
     uint32_t last, red_blue, green;
 };
 
-/* Level of 31 of two codes, and of green where it has 31 levels, too, at ORDERED_HIGH and ORDERED_LOW. */
+/* ordered_two returns the levels of 31 of two codes, at ORDERED_HIGH and ORDERED_LOW; ordered_one that of one code, at
+ * ORDERED_HIGH. */
 #if defined(__ARM_ARCH_6M__)
-/* A table: constants of products would take registers that these cores do not have. */
+/* They look levels up: constants of products would take registers that these cores do not have. */
 static inline uint32_t ordered_two(uint32_t high, uint32_t low)
 {
     return ((uint32_t)smear_levels_31[high] << (ORDERED_HIGH - ORDERED_LOW) | smear_levels_31[low]) << ORDERED_LOW;
@@ -86,7 +87,7 @@ static inline uint32_t ordered_one(uint32_t code)
     return (uint32_t)smear_levels_31[code] << ORDERED_HIGH;
 }
 #else
-/* c levels / 255 in q8 is c levels + ((c + (c >> 7)) levels >> 8), as level_q16() has it. */
+/* They compute c levels / 255 in q8 as c levels + ((c + (c >> 7)) levels >> 8), like level_q16(). */
 static inline uint32_t ordered_two(uint32_t high, uint32_t low)
 {
     uint32_t both = high << 16 | low;

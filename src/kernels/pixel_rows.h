@@ -17,7 +17,7 @@ static inline uint32_t level_q16(uint32_t code, uint32_t levels)
     return code * (257u * levels) + (code >> 7) * levels;
 }
 
-/* `threshold` in 1/256 of a level. */
+/* Returns the dithered level of a code; `threshold` is in 1/256 of a level. */
 static inline uint32_t level_dithered(uint32_t code, uint32_t levels, uint32_t threshold)
 {
     return (level_q16(code, levels) + (threshold << 8)) >> 16;
@@ -44,7 +44,7 @@ static inline void row_xrgb8888_reference(uint32_t *out, const uint32_t *in, int
 }
 
 #if SMEAR_VECTORS
-/* Four pixels a round. */
+/* Takes four pixels a round. */
 static inline void row_xrgb8888_vector(uint32_t *out, const uint32_t *in, int32_t n)
 {
     int32_t i = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* groups.c - see groups.h. */
+/* groups.c - sorts draws into groups by their velocity, and groups by their depth. */
 #include "layers/groups.h"
 
 /* Returns a draw's layer: the first that shares a bit with it. */
@@ -24,7 +24,7 @@ void smear_groups_find_layer(struct smear_layers *l, uint32_t index, const smear
     l->layer_of[index] = find_layer(l, draw);
 }
 
-/* Vertices that stand for a draw. */
+/* How many vertices stand for a draw. */
 enum { SAMPLES = 24 };
 
 /* What vertices of a draw say of its motion. */
@@ -34,7 +34,7 @@ struct motion {
     bool cut;                   /* some lie before the near plane */
 };
 
-/* Vertices that are nearer than the mean count: the others are more likely hidden. */
+/* Measures the motion of a draw. Vertices that are nearer than the mean count: the others are more likely hidden. */
 static void measure(struct motion *m, const struct smear_viewport *viewport, const smear_mesh *mesh,
                     const struct smear_placement key[2], const struct smear_placement *middle)
 {
@@ -160,7 +160,7 @@ void smear_groups_end(struct smear_layers *l, uint32_t draw_count)
             l->sequence[l->group[l->group_of[i]].end++] = (uint16_t)i;
 }
 
-/* The store takes triangles of layers at the places that layer.h tells, into lists of their own. */
+/* Triangles of layers lie in the store at the places that layer.h tells. */
 bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a,
                            bool drop)
 {

@@ -6,7 +6,7 @@
 #include "geometry/assemble.h"
 #include "layers/layer.h"
 
-/* Before the draws of a frame are looked at. */
+/* Call before the draws of a frame are looked at. */
 void smear_groups_begin(struct smear_layers *l);
 
 /* Finds the layer of draw number `index`. */
@@ -17,18 +17,18 @@ void smear_groups_find_layer(struct smear_layers *l, uint32_t index, const smear
 void smear_groups_add(struct smear_layers *l, uint32_t index, const smear_draw *draw, const struct smear_placement key[2],
                       const struct smear_placement *middle, const struct smear_viewport *viewport, bool moves);
 
-/* After the last of `draw_count` draws: orders groups, and draws by groups. */
+/* Call after the last of `draw_count` draws: it orders groups, and draws by groups. */
 void smear_groups_end(struct smear_layers *l, uint32_t draw_count);
 
-/* Assembles a draw of a group into lists of its own. */
+/* Assembles a draw of a group into lists of its own. Returns false where there is no room. */
 bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a,
                            bool drop);
 
 /* Finds each group's part of the moving triangles' list, from `head` on. */
 void smear_groups_list(struct smear_layers *l, const struct smear_bins *bins, uint32_t head);
 
-/* Finds where groups lie in part behind others that are merged before them; false where none does. `reach` of
- * filters. */
+/* Finds where groups lie in part behind others that are merged before them; returns false where none does. `reach` is
+ * that of filters. */
 bool smear_groups_find_mixed(struct smear_layers *l, int32_t reach);
 
 #endif

@@ -55,7 +55,7 @@ void smear_gather_cells(const struct smear_gather_area *a)
 
 enum { WHOLE = 4096 };          /* weight of the whole exposure */
 
-/* Light is summed in 12 bits. */
+/* Adds a pixel as codes, or as linear light of 12 bits. */
 static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, bool linear)
 {
     weighed_add(s, p, weight, linear, 4);
@@ -100,7 +100,7 @@ static SMEAR_NOINLINE void taps_start(struct taps *t, struct smear_pixel_velocit
     const int32_t n = t->count;
     t->d = d;
     t->length = (int32_t)sqrt_q3((uint32_t)square_of(d));
-    /* From one end to the other, q16 px. */
+    /* Taps lie from one end of the direction to the other, in q16 px. */
     int32_t step_x = d.x * t->over, step_y = d.y * t->over, step = t->length * t->over >> 13;
     int32_t x = 0x8000 - d.x * 8192 + (step_x >> 1), y = 0x8000 - d.y * 8192 + (step_y >> 1);
     int32_t distance = t->length - (step >> 1);

@@ -14,7 +14,7 @@ struct smear_layer_cell {
 
 enum { SMEAR_GATHER_TAPS = 64 };
 
-/* Where a layer is merged. */
+/* What is merged of a layer, and where. */
 struct smear_gather_area {
     const struct smear_layer_rows *layer;
     int32_t x0, x1, rows;       /* columns that are drawn, and rows */

@@ -21,7 +21,7 @@ struct smear_streak {
     int32_t reach_x, reach_y;   /* px from a pixel to the farthest that its mean takes */
 };
 
-/* Longest streak: half of it, px. */
+/* Returns half the length of the longest streak, px. */
 static inline int32_t streak_half_max(int32_t width)
 {
     return clamp_i32(width >> 2, 16, 120);
@@ -31,7 +31,7 @@ static inline int32_t streak_half_max(int32_t width)
  * `reach` rows up and down, is shortened. */
 void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t half_max, int32_t reach);
 
-/* Where a streak is merged. */
+/* What a streak is made of, and where it is merged. */
 struct smear_streak_area {
     const uint32_t *color;      /* rows of the group (layer.h): columns [x0, x1) are drawn */
     const uint16_t *depth;

@@ -23,7 +23,7 @@ static inline uint32_t codes_over(lanes m, uint32_t background)
     return lanes_pixel(m + ((lanes_times(lanes_of(background), rest) + lanes_halves) >> 8 & lanes_codes));
 }
 
-/* Likewise; channels and coverage are q16. */
+/* Puts a mean of light over a pixel; its channels and coverage are q16. */
 static inline uint32_t light_over(const struct light *m, uint32_t background)
 {
     uint32_t rest = (65536u - m->a) >> 1;

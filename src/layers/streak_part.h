@@ -34,8 +34,8 @@ static inline lanes lanes_times(lanes l, uint32_t factor)
 #endif
 }
 
-/* The weighed sum over all weights (`over` is 2^22 / their sum), to nearest when half of them was added; equal codes
- * keep theirs. Products of two lanes at a time have 31 bits. */
+/* Divides a weighed sum by all weights (`over` is 2^22 / their sum), to nearest when half of them was added; the mean
+ * of equal codes is exact. Products of two lanes at a time have 31 bits. */
 static inline lanes lanes_mean(lanes weighed, uint32_t over)
 {
     const lanes every_other = 0x0000ffff0000ffff, code = 0x000000ff000000ff;
@@ -85,8 +85,8 @@ struct smear_streak_part {
         lanes *codes;           /* sums of all pixels before step line.base + i */
         struct light *light;
     } sums;
-    /* Where rows lie along the lines: the steps of each row that a mean reaches. Mixed between nodes, means
-     * would go on beyond them. */
+    /* The steps of each row that a mean reaches, where rows lie along the lines: mixed between nodes, means would go on
+     * beyond them. */
     int16_t first_of[64], end_of[64];
     int16_t near_x[STREAK_NEAR], near_y[STREAK_NEAR];           /* from a pixel */
 };

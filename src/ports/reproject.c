@@ -9,6 +9,7 @@
 #include "ports/reproject.h"
 
 #include "base/fixmath.h"
+#include "geometry/pose.h"
 
 /* ------------------------------------------------------------------ numbers of any size, once per frame */
 
@@ -74,14 +75,6 @@ struct map {
 static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
                                        { 0, 0, 0 } };
 
-static bool is_same_pose(const smear_transform *a, const smear_transform *b)
-{
-    for (int i = 0; i < 9; i++)
-        if (a->basis[i] != b->basis[i])
-            return false;
-    return a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] && a->origin[2] == b->origin[2];
-}
-
 static int64_t clamp_i64(int64_t a, int64_t limit)
 {
     return a > limit ? limit : a < -limit ? -limit : a;
@@ -92,7 +85,7 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
 {
     const int32_t *to = camera->pose.basis, *from = now->pose.basis;
     *m = same_place;
-    if (!is_same_pose(&camera->pose, &now->pose)) {
+    if (!smear_transform_is_same(&camera->pose, &now->pose)) {
         for (int i = 0; i < 3; i++) {
             int64_t offset = 0;
             for (int j = 0; j < 3; j++) {
