@@ -418,7 +418,7 @@ static void setup_divided(struct setup *s, const struct corners *k)
     choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen.width, change);
 }
 
-static void setup_texture(struct setup *s)
+static SMEAR_NOINLINE void setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;
     struct corners k = { .low_q = INT32_MAX, .high_q = 0 };
