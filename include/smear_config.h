@@ -15,7 +15,7 @@
 #endif
 
 /* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses
- * what was left out (SMEAR_ERR_ARG); SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything
+ * what was left out; SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything
  * that is not named. Link with --gc-sections, or the library as an archive. */
 #ifndef SMEAR_WITH_ALL
 #define SMEAR_WITH_ALL 1
@@ -32,9 +32,6 @@
                                          * weights, camera_step, scatter */
 #define SMEAR_WITH_FILTERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
-#ifndef SMEAR_WITH_FILTER_ALONE         /* smear_filter_begin, smear_filter_row */
-#define SMEAR_WITH_FILTER_ALONE (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
-#endif
 #ifndef SMEAR_WITH_LAYERS               /* SMEAR_OBJECT, SMEAR_LAYERED */
 #define SMEAR_WITH_LAYERS (SMEAR_WITH_ALL && SMEAR_WITH_RECONSTRUCT)
 #endif
@@ -45,7 +42,7 @@
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
 #define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
-#ifndef SMEAR_WITH_DAMAGE                /* desc.cache_static, desc.buffer_age */
+#ifndef SMEAR_WITH_DAMAGE               /* desc.reuse */
 #define SMEAR_WITH_DAMAGE (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
 
@@ -53,10 +50,6 @@
 #ifndef SMEAR_WITH_TEXTURE
 #define SMEAR_WITH_TEXTURE SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_BILINEAR
-#define SMEAR_WITH_BILINEAR (SMEAR_WITH_ALL && SMEAR_WITH_TEXTURE)
-#endif
-
 #ifndef SMEAR_WITH_GOURAUD              /* colours and normals of vertices; else those of faces only */
 #define SMEAR_WITH_GOURAUD SMEAR_WITH_ALL
 #endif
@@ -76,14 +69,13 @@
 #define SMEAR_WITH_ORTHOGRAPHIC SMEAR_WITH_ALL
 #endif
 
-#ifndef SMEAR_WITH_SCALES               /* smear_frame.scale */
+/* What a frame and a context may have. */
+#ifndef SMEAR_WITH_SCALES               /* frame.scale; frame.shutter.us, .mode: shutters
+                                         * at another rate than the frames' */
 #define SMEAR_WITH_SCALES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds */
 #define SMEAR_WITH_BOUNDS SMEAR_WITH_ALL
-#endif
-#ifndef SMEAR_WITH_SHUTTER_MODES        /* frame.shutter.us, and shutters at another rate than the frames' */
-#define SMEAR_WITH_SHUTTER_MODES SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */
 #define SMEAR_WITH_IDS SMEAR_WITH_ALL
@@ -100,26 +92,14 @@
 
 /* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
  * SMEAR_DITHER_NONE only. */
-#ifndef SMEAR_WITH_XRGB8888
-#define SMEAR_WITH_XRGB8888 SMEAR_WITH_ALL
-#endif
 #ifndef SMEAR_WITH_RGB565               /* in both byte orders */
 #define SMEAR_WITH_RGB565 SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_RGB555
-#define SMEAR_WITH_RGB555 SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_RGB                  /* other colours: SMEAR_XRGB8888, SMEAR_RGB555, SMEAR_RGB332 */
+#define SMEAR_WITH_RGB SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_RGB332
-#define SMEAR_WITH_RGB332 SMEAR_WITH_ALL
-#endif
-#ifndef SMEAR_WITH_L8
-#define SMEAR_WITH_L8 SMEAR_WITH_ALL
-#endif
-#ifndef SMEAR_WITH_L4
-#define SMEAR_WITH_L4 SMEAR_WITH_ALL
-#endif
-#ifndef SMEAR_WITH_L1                   /* in both packings */
-#define SMEAR_WITH_L1 SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_GREY                 /* SMEAR_L8, SMEAR_L4, and SMEAR_L1 in both packings */
+#define SMEAR_WITH_GREY SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_DITHER               /* ordered */
 #define SMEAR_WITH_DITHER SMEAR_WITH_ALL
@@ -139,11 +119,11 @@
 #if SMEAR_WITH_DAMAGE && !SMEAR_WITH_SUBFRAMES
 #error "SMEAR_WITH_DAMAGE needs SMEAR_WITH_SUBFRAMES"
 #endif
-#if (SMEAR_WITH_FILTERS || SMEAR_WITH_FILTER_ALONE || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
-#error "SMEAR_WITH_FILTERS, _FILTER_ALONE and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
+#if (SMEAR_WITH_FILTERS || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
+#error "SMEAR_WITH_FILTERS and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
 #endif
-#if (SMEAR_WITH_BILINEAR && !SMEAR_WITH_TEXTURE) || (SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER)
-#error "SMEAR_WITH_BILINEAR needs SMEAR_WITH_TEXTURE, and SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
+#if SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER
+#error "SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
 
 /* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before

@@ -8,6 +8,7 @@
 
 #include "display/damage.h"
 #include "geometry/assemble.h"
+#include "geometry/history.h"
 #include "geometry/pose.h"
 #include "layers/layer.h"
 #include "methods/accumulate.h"
@@ -18,13 +19,6 @@
 struct smear_submitted {
     smear_draw draw;                /* now, open and close point to `pose` where they are known */
     smear_transform pose[3];        /* now, open (or a frame ago), close */
-};
-
-/* The pose an id had when it was last submitted. */
-struct smear_kept_pose {
-    uint32_t id;                    /* 0: free */
-    uint32_t frame;
-    smear_transform pose;
 };
 
 enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
@@ -38,11 +32,10 @@ struct smear_context {
     smear_frame frame;              /* defaults filled in */
     struct smear_shot shot;
     struct smear_sun sun;
-    uint32_t frame_number;
+    struct smear_history history;
     smear_camera kept_camera;
     bool has_kept_camera;
     struct smear_submitted *submitted;
-    struct smear_kept_pose *kept;
     struct smear_raster_draw *raster_draw;
     uint32_t draw_count;
 

@@ -4,19 +4,7 @@
 #define SMEAR_NEEDS_H
 
 #include "base/base.h"
-#include "smear.h"
-
-#define SMEAR_SET_SUMS (SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_ACCUMULATE_BANDS)
-
-/* All methods that were compiled in. */
-enum {
-    SMEAR_SET_COMPILED
-        = (int)(SMEAR_SET(SMEAR_NONE) | (SMEAR_WITH_ACCUMULATE ? SMEAR_SET_SUMS : 0u)
-                | (SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u)
-                | (SMEAR_WITH_FILTERS ? SMEAR_SET_FILTERS : 0u) | (SMEAR_WITH_LAYERS ? SMEAR_SET_LAYERS : 0u)
-                | (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_AUTO) : 0u)
-                | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
-};
+#include "base/compiled.h"
 
 /* The desc has a method of the set; false without a look where none was compiled in. */
 static inline bool wants(const smear_desc *d, unsigned set)
@@ -29,8 +17,8 @@ static inline bool is_temporal(const smear_desc *d) { return wants(d, SMEAR_SET_
 static inline bool has_layers(const smear_desc *d) { return wants(d, SMEAR_SET_LAYERS); }
 static inline bool has_half(const smear_desc *d) { return wants(d, SMEAR_SET(SMEAR_HALF)); }
 static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS); }
-static inline bool caches_static(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->reuse.cache_static; }
-static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_WITH_DAMAGE && d->reuse.buffer_age; }
+static inline bool caches_static(const smear_desc *d) { return SMEAR_CACHE_STATIC_MOST && d->reuse.cache_static; }
+static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE_MOST && d->reuse.buffer_age; }
 
 /* Rows are drawn a tile at a time; else a band at a time. */
 static inline bool has_tiles(const smear_desc *d)

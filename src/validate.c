@@ -78,10 +78,10 @@ static const struct field desc_fields[] = {
     DESC(max_triangles, TRIANGLES, 1024, 1, 16u << 20), DESC(max_draws, DRAWS, 16, 1, 65535),
     DESC(bands, BANDS, 1, 1, 2), DESC(format, FORMAT, 0, 0, SMEAR_L1_PAGES),
     DESC(workers, WORKERS, 1, 1, SMEAR_WORKERS_MAX), DESC(vertex_cache, VERTEX_CACHE, 64, 16, 4096),
-    DESC(reuse.cache_static, CACHE_STATIC, 0, 0, SMEAR_WITH_DAMAGE ? 1 : 0),
-    DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_WITH_DAMAGE ? 7 : 0),
-    DESC(filter.passes, PASSES, 0, 0, SMEAR_WITH_FILTERS ? PINGPONG_PASSES_MAX : 1),
-    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_WITH_FILTERS ? 1 : 0), DESC(dither, DITHER, 0, 0, SMEAR_DITHER_BLUE)
+    DESC(reuse.cache_static, CACHE_STATIC, 0, 0, SMEAR_CACHE_STATIC_MOST),
+    DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_BUFFER_AGE_MOST),
+    DESC(filter.passes, PASSES, 0, 0, SMEAR_PASSES_MOST),
+    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST), DESC(dither, DITHER, 0, 0, SMEAR_DITHER_BLUE)
 };
 #undef DESC
 
@@ -91,7 +91,7 @@ static int resolve_methods(smear_desc *d)
         d->methods = SMEAR_SET(SMEAR_AUTO);
     if ((d->methods & ~(unsigned)SMEAR_SET_COMPILED) != 0)
         return FAULT(DESC_METHODS);
-    if (d->debug.inspect != NULL && !SMEAR_WITH_INSPECT)
+    if (d->debug.inspect != NULL && !SMEAR_INSPECT_MOST)
         return FAULT(DESC_INSPECT);
     if (!is_temporal(d) && (d->reuse.cache_static || d->reuse.buffer_age))
         return d->reuse.cache_static ? FAULT(DESC_CACHE_STATIC) : FAULT(DESC_BUFFER_AGE);
@@ -167,29 +167,26 @@ int smear_resolve_desc(smear_desc *d)
 
 /* ------------------------------------------------------------------ frame */
 
-/* Scales as they are used, once SMEAR_SCALE_NONE has become 0. */
-enum { SCALE_MOST = SMEAR_WITH_SCALES ? 16128 : 256 };
-
 #define FRAME(member, fault, otherwise, least, most) FIELD(smear_frame, member, FRAME_##fault, otherwise, least, most)
 static const struct field frame_fields[] = {
     FRAME(method, METHOD, 0, 0, SMEAR_METHOD_COUNT - 1),
-    FRAME(light_space, LIGHT_SPACE, 0, SMEAR_WITH_LINEAR ? 0 : SMEAR_LIGHT_ENCODED, SMEAR_LIGHT_ENCODED),
+    FRAME(light_space, LIGHT_SPACE, 0, SMEAR_LIGHT_SPACE_LEAST, SMEAR_LIGHT_ENCODED),
     FRAME(samples, SAMPLES, 0, 0, 1024), FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
     FRAME(shutter.exposure, EXPOSURE, 0, 0, SMEAR_LEADING),
-    FRAME(shutter.mode, MODE, 0, 0, SMEAR_WITH_SHUTTER_MODES ? SMEAR_SHUTTER_FIXED : SMEAR_SHUTTER_NATIVE),
+    FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
-    FRAME(shutter.us, US, 0, 0, SMEAR_WITH_SHUTTER_MODES ? UINT32_MAX : 0),
+    FRAME(shutter.us, US, 0, 0, SMEAR_SHUTTER_US_MOST),
     FRAME(filter.kind, KIND, 0, 0, SMEAR_FILTER_PINGPONG),
-    FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WITH_FILTERS ? SMEAR_WEIGHTS_JIMENEZ : SMEAR_WEIGHTS_STACK),
-    FRAME(filter.camera_step, STEP, 0, 0, SMEAR_WITH_FILTERS ? 4 : 0),
+    FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WEIGHTS_MOST),
+    FRAME(filter.camera_step, STEP, 0, 0, SMEAR_CAMERA_STEP_MOST),
     FRAME(filter.pingpong.passes, PASSES, 2, 1, PINGPONG_PASSES_MAX), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
     FRAME(filter.pingpong.base, BASE, 0, 0, 64), FRAME(filter.pingpong.jitter, JITTER, 0, 0, 128),
     FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1)
 };
 static const struct field scale_fields[] = {
-    FRAME(scale.rotation, ROTATION, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST),
-    FRAME(scale.translation, TRANSLATION, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST),
-    FRAME(scale.object, OBJECT, 256, SMEAR_WITH_SCALES ? 0 : 256, SCALE_MOST)
+    FRAME(scale.rotation, ROTATION, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
+    FRAME(scale.translation, TRANSLATION, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
+    FRAME(scale.object, OBJECT, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST)
 };
 #undef FRAME
 
@@ -199,7 +196,7 @@ static int resolve_scales(smear_frame *f)
     uint16_t *scale[] = { &f->scale.rotation, &f->scale.translation, &f->scale.object };
     bool none[3];
     for (int i = 0; i < 3; i++) {
-        none[i] = SMEAR_WITH_SCALES && *scale[i] == SMEAR_SCALE_NONE;
+        none[i] = SMEAR_SCALE_LEAST == 0 && *scale[i] == SMEAR_SCALE_NONE;
         if (none[i])
             *scale[i] = 0;
     }
@@ -237,7 +234,7 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
     if ((sums && f->samples > SUM_SAMPLES_MAX)
-        || (!SMEAR_WITH_LINEAR && f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_PACKED_INSTANTS))
+        || (f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_SUBFRAMES_MOST))
         return FAULT(FRAME_SAMPLES);
     /* Steps of so few greys hide an error of several codes. */
     if (f->target == 0)
@@ -253,7 +250,7 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
         filter->camera_step = 1;
     if (filter->camera_step == 3)
         return FAULT(FRAME_STEP);
-    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_WITH_FILTERS
+    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_FILTER_KINDS
         || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))
         filter->kind = SMEAR_FILTER_RECONSTRUCT;
     else if (f->method == SMEAR_PINGPONG)
@@ -298,7 +295,7 @@ static bool is_camera(const smear_camera *c)
             return false;
     if (c->near_plane <= 0 || (c->far_plane != 0 && c->far_plane <= c->near_plane))
         return false;
-    return SMEAR_WITH_ORTHOGRAPHIC && c->half_height > 0 ? c->far_plane != 0
+    return SMEAR_ORTHOGRAPHIC_MOST && c->half_height > 0 ? c->far_plane != 0
                                                          : c->half_height == 0 && c->focal > 0;
 }
 
@@ -323,7 +320,7 @@ static bool is_layer(const smear_layer *l)
 
 int smear_check_layers(const smear_frame *f)
 {
-    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > (SMEAR_WITH_LAYERS ? SMEAR_LAYERS_MAX : 0))
+    if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MOST)
         return FAULT(FRAME_LAYER);
     for (int i = 0; i < f->layer_count; i++)
         if (!is_layer(&f->layer[i]))
@@ -335,7 +332,7 @@ int smear_check_layers(const smear_frame *f)
 
 static bool is_texture(const smear_texture *t)
 {
-    return SMEAR_WITH_TEXTURE && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1
+    return SMEAR_TEXTURE_MOST && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1
         && t->height <= 4096 && t->format <= SMEAR_TEXEL_PALETTE8
         && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL) && t->wrap_u <= SMEAR_MIRROR
         && t->wrap_v <= SMEAR_MIRROR;
@@ -355,8 +352,7 @@ static bool is_mesh(const smear_mesh *m)
 
 static bool is_material(const smear_material *m)
 {
-    return m->alpha <= (SMEAR_WITH_ALPHA ? SMEAR_BLEND : SMEAR_OPAQUE) && (m->texture == NULL || is_texture(m->texture))
-        && (SMEAR_WITH_BILINEAR || !m->bilinear);
+    return m->alpha <= SMEAR_ALPHA_MOST && (m->texture == NULL || is_texture(m->texture));
 }
 
 int smear_check_draw(const smear_draw *draw)
@@ -365,13 +361,13 @@ int smear_check_draw(const smear_draw *draw)
         return FAULT(DRAW_MESH);
     if (draw->motion > SMEAR_MOTION_NONE)
         return FAULT(DRAW_MOTION);
-    if (draw->billboard > (SMEAR_WITH_BILLBOARDS ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_NONE))
+    if (draw->billboard > SMEAR_BILLBOARD_MOST)
         return FAULT(DRAW_BILLBOARD);
-    if (!SMEAR_WITH_IDS && draw->id != 0)
+    if (!SMEAR_ID_MOST && draw->id != 0)
         return FAULT(DRAW_ID);
-    if (!SMEAR_WITH_GOURAUD && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
+    if (!SMEAR_VERTEX_COLORS_MOST && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
         return FAULT(DRAW_MESH_COLORS);
-    if (!SMEAR_WITH_DEFORM && (draw->open_position != NULL || draw->close_position != NULL))
+    if (!SMEAR_DEFORM_MOST && (draw->open_position != NULL || draw->close_position != NULL))
         return FAULT(DRAW_POSITION);
     return draw->material == NULL || is_material(draw->material) ? SMEAR_OK : FAULT(DRAW_MATERIAL);
 }

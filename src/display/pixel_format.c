@@ -8,8 +8,8 @@
 bool smear_format_has(int format, int dither)
 {
     static const bool has[] = {
-        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332,
-        SMEAR_WITH_L8, SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
+        SMEAR_WITH_RGB, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB, SMEAR_WITH_RGB,
+        SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY
     };
     if (format > SMEAR_L1_PAGES || dither > SMEAR_DITHER_BLUE || !has[format])
         return false;
@@ -82,7 +82,7 @@ static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32
 static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
-    const bool is_555 = SMEAR_WITH_RGB555 && format == SMEAR_RGB555, swapped = format == SMEAR_RGB565_SWAPPED;
+    const bool is_555 = SMEAR_WITH_RGB && format == SMEAR_RGB555, swapped = format == SMEAR_RGB565_SWAPPED;
     if (!is_dithered(dither)) {
         if (is_555)
             row_rgb555(out, in, n);
@@ -162,19 +162,19 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
                        int32_t y0, smear_format format, smear_dither dither)
 {
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
-    if (SMEAR_WITH_XRGB8888 && format == SMEAR_XRGB8888)
+    if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888)
         row_xrgb8888((uint32_t *)(void *)row + x, in, n);
     else if ((SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
-             || (SMEAR_WITH_RGB555 && format == SMEAR_RGB555))
+             || (SMEAR_WITH_RGB && format == SMEAR_RGB555))
         row_16bit((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
-    else if (SMEAR_WITH_RGB332 && format == SMEAR_RGB332)
+    else if (SMEAR_WITH_RGB && format == SMEAR_RGB332)
         row_rgb332(row + x, in, n, x, y, dither);
-    else if (SMEAR_WITH_L8 && format == SMEAR_L8)
+    else if (SMEAR_WITH_GREY && format == SMEAR_L8)
         row_l8(row + x, in, n);
-    else if (SMEAR_WITH_L4 && format == SMEAR_L4)
+    else if (SMEAR_WITH_GREY && format == SMEAR_L4)
         row_l4(row, in, n, x, y, dither);
-    else if (SMEAR_WITH_L1 && format == SMEAR_L1)
+    else if (SMEAR_WITH_GREY && format == SMEAR_L1)
         row_l1(row, in, n, x, y, dither);
-    else if (SMEAR_WITH_L1 && format == SMEAR_L1_PAGES)
+    else if (SMEAR_WITH_GREY && format == SMEAR_L1_PAGES)
         row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }

@@ -4,33 +4,6 @@
 
 #include "base/fixmath.h"
 
-/* ------------------------------------------------------------------ instants */
-
-const struct smear_instant smear_instant_now = { { 1 << 24, 0, 0 } };
-
-struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u)
-{
-    struct smear_instant i;
-    if (shot->shutter_poses) {
-        const int64_t square = (int64_t)u * u >> 16;
-        i.weight[1] = (int32_t)((square - u) * 128);
-        i.weight[2] = (int32_t)((square + u) * 128);
-    } else {
-        /* Frames from now: the exposure's centre plus u half exposures. */
-        const int64_t half = shot->half_exposure;
-        const int64_t centre = shot->exposure == SMEAR_TRAILING ? -half : shot->exposure == SMEAR_LEADING ? half : 0;
-        i.weight[1] = (int32_t)-(centre + (half * u >> 16));
-        i.weight[2] = 0;
-    }
-    i.weight[0] = (1 << 24) - i.weight[1] - i.weight[2];
-    return i;
-}
-
-struct smear_instant smear_instant_middle(const struct smear_shot *shot)
-{
-    return shot->shutter_poses ? smear_instant_now : smear_instant_at(shot, 0);
-}
-
 /* ------------------------------------------------------------------ poses */
 
 bool smear_transform_is_mirrored(const smear_transform *t)

@@ -231,3 +231,25 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
     }
     return face;
 }
+
+/* ------------------------------------------------------------------ bounds */
+
+#if SMEAR_WITH_BOUNDS
+void smear_mesh_find_bounds(smear_mesh *mesh)
+{
+    int16_t *b = mesh->bounds;
+    for (int k = 0; k < 3; k++)
+        b[k] = b[k + 3] = mesh->vertex_count != 0 ? mesh->position[k] : 0;
+    for (uint32_t i = 3; i < mesh->vertex_count * 3u; i += 3)
+        for (uint32_t k = 0; k < 3; k++) {
+            const int16_t p = mesh->position[i + k];
+            b[k] = p < b[k] ? p : b[k];
+            b[k + 3] = p > b[k + 3] ? p : b[k + 3];
+        }
+}
+#else
+void smear_mesh_find_bounds(smear_mesh *mesh)
+{
+    (void)mesh;
+}
+#endif

@@ -178,7 +178,7 @@ static inline void copy_block(uint16_t *out, const uint16_t *from)
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format)
 {
-    ordered_fn *const fn = SMEAR_WITH_RGB555 && format == ROW_555         ? ordered_555
+    ordered_fn *const fn = SMEAR_WITH_RGB && format == ROW_555         ? ordered_555
                          : SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED ? ordered_565_swapped
                                                                           : ordered_565;
     uint32_t steps[2 * ORDERED_WIDTH], *step = steps + (x & (ORDERED_WIDTH - 1));

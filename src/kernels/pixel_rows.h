@@ -112,7 +112,7 @@ enum row_16bit { ROW_555, ROW_565, ROW_565_SWAPPED };
 static inline void row_dithered_reference(uint16_t *out, const uint32_t *in, int32_t n, int32_t x,
                                           const uint8_t *threshold, int32_t mask, enum row_16bit format)
 {
-    const bool is_555 = SMEAR_WITH_RGB555 && format == ROW_555, swapped = format == ROW_565_SWAPPED;
+    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555, swapped = format == ROW_565_SWAPPED;
     uint32_t last = n > 0 ? ~*in : 0, high = 0, green = 0, low = 0;
     for (; n > 0; n--, in++) {
         if (*in != last) {

@@ -296,7 +296,7 @@ void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *row
 
 /* ------------------------------------------------------------------ pixels of another renderer */
 
-#if SMEAR_WITH_FILTER_ALONE
+#if SMEAR_WITH_RECONSTRUCT
 
 /* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
 static uint16_t depth_code(uint32_t distance, int32_t near_plane)

@@ -21,7 +21,7 @@ static int32_t scale_for(int32_t size, int uv_shift, int8_t *shift)
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
                         bool bilinear, bool linear)
 {
-    bilinear = SMEAR_WITH_BILINEAR && bilinear;
+    bilinear = SMEAR_WITH_TEXTURE && bilinear;
     s->texels = texture->texels;
     s->palette = texture->palette;
     s->width = texture->width;
@@ -103,7 +103,7 @@ SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool
 {
     if (turns)
         return sampler_fetch(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
-    if (SMEAR_WITH_BILINEAR && s->bilinear)
+    if (SMEAR_WITH_TEXTURE && s->bilinear)
         return sample_bilinear(s, (int32_t)at, (int32_t)(at >> 32));
     return texel(s, (int32_t)at >> 16, (int32_t)(at >> 32) >> 16);
 }

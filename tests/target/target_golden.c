@@ -21,8 +21,8 @@ enum outcome { SAME_BITS, OTHER_METHODS, REFUSED };
 static bool has_format(const smear_desc *d)
 {
     static const bool has[] = {
-        SMEAR_WITH_XRGB8888, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB555, SMEAR_WITH_RGB332,
-        SMEAR_WITH_L8, SMEAR_WITH_L4, SMEAR_WITH_L1, SMEAR_WITH_L1
+        SMEAR_WITH_RGB, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB, SMEAR_WITH_RGB,
+        SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY
     };
     bool dithered = d->format != SMEAR_XRGB8888 && d->format != SMEAR_L8 && d->dither != SMEAR_DITHER_NONE;
     return has[d->format] && (!dithered || (d->dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER));
@@ -54,7 +54,7 @@ static enum outcome outcome_of(const struct tape *tape)
             return REFUSED;
         if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
             || ((f->frame->scale.rotation | f->frame->scale.translation | f->frame->scale.object) != 0 && !SMEAR_WITH_SCALES)
-            || ((f->frame->shutter.mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter.us != 0) && !SMEAR_WITH_SHUTTER_MODES))
+            || ((f->frame->shutter.mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter.us != 0) && !SMEAR_WITH_SCALES))
             return REFUSED;
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
@@ -64,7 +64,7 @@ static enum outcome outcome_of(const struct tape *tape)
             if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
                 || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))
                 return REFUSED;
-            if (m != NULL && ((m->texture != NULL && !SMEAR_WITH_TEXTURE) || (m->bilinear && !SMEAR_WITH_BILINEAR)
+            if (m != NULL && ((m->texture != NULL && !SMEAR_WITH_TEXTURE) || (m->bilinear && !SMEAR_WITH_TEXTURE)
                               || (m->alpha != SMEAR_OPAQUE && !SMEAR_WITH_ALPHA)))
                 return REFUSED;
         }

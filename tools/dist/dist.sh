@@ -50,8 +50,7 @@ kconfig() {
             printf '\nconfig %s\n\tbool "%s"\n\tdefault y\n' "$switch" "$switch"
             case $switch in
             *_TIMEMASK | *_DAMAGE) printf '\tdepends on SMEAR_WITH_SUBFRAMES\n' ;;
-            *_FILTERS | *_FILTER_ALONE | *_LAYERS) printf '\tdepends on SMEAR_WITH_RECONSTRUCT\n' ;;
-            *_BILINEAR) printf '\tdepends on SMEAR_WITH_TEXTURE\n' ;;
+            *_FILTERS | *_LAYERS) printf '\tdepends on SMEAR_WITH_RECONSTRUCT\n' ;;
             *_BLUE_DITHER) printf '\tdepends on SMEAR_WITH_DITHER\n' ;;
             esac
         done
