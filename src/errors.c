@@ -5,25 +5,29 @@
 
 #if SMEAR_WITH_ERROR_TEXT
 
-static const char *text_of_kind(int result)
-{
-    switch (result) {
-    case SMEAR_OK: return "no error";
-    case SMEAR_ERR_MEMORY: return "memory: fewer bytes than smear_memory_size says, or not 8-byte aligned";
-    case SMEAR_ERR_ORDER: return "a call out of turn";
-    case SMEAR_ERR_FULL: return "more draws in a frame than desc.max_draws";
-    default: return result < 0 ? "a required argument is missing" : "no error of smear's";
-    }
-}
+/* One after the other, each with its end: the kinds from SMEAR_OK down to SMEAR_ERR_FULL, then the faults. */
+#define TEXT(name, text) text "\0"
+static const char texts[] = "no error\0"
+                            "a required argument is missing\0"
+                            "memory: too little, or not 8-byte aligned\0"
+                            "a call out of turn\0"
+                            "more draws than desc.max_draws\0" SMEAR_FAULTS(TEXT) "unknown error";
+#undef TEXT
+
+enum { KINDS = 1 - SMEAR_ERR_FULL };
 
 const char *smear_error_text(int result)
 {
-#define TEXT(name, text) text,
-    static const char *const texts[SMEAR_FAULT_COUNT] = { SMEAR_FAULTS(TEXT) };
-#undef TEXT
-    const int number = result < SMEAR_ERR_FIELD && result > SMEAR_ERR_FIELD - 1 - SMEAR_FAULT_COUNT
-                     ? SMEAR_ERR_FIELD - 1 - result : -1;
-    return number >= 0 ? texts[number] : text_of_kind(result);
+    int number = KINDS + SMEAR_FAULT_COUNT;
+    if (result <= 0 && result >= SMEAR_ERR_FULL)
+        number = -result;
+    else if (result < SMEAR_ERR_FIELD && result >= SMEAR_ERR_FIELD - SMEAR_FAULT_COUNT)
+        number = KINDS + SMEAR_ERR_FIELD - 1 - result;
+    const char *text = texts;
+    while (number-- > 0)
+        while (*text++ != '\0')
+            ;
+    return text;
 }
 
 #else

@@ -11,38 +11,38 @@
     X(DESC_HEIGHT, "desc.height: not 1 to 2048") \
     X(DESC_TRIANGLES, "desc.max_triangles: above 2^24") \
     X(DESC_DRAWS, "desc.max_draws: out of range") \
-    X(DESC_METHODS, "desc.methods: not all are there, or compiled in") \
+    X(DESC_METHODS, "desc.methods: unknown here") \
     X(DESC_TILE, "desc.tile: not 8 to 64 (some methods: 4), a power of two, or below reach") \
     X(DESC_REACH, "desc.reach: not 1 to 64") \
     X(DESC_STRIP, "desc.strip: not 1 to 64 tiles") \
     X(DESC_BAND_ROWS, "desc.band_rows: below 2, not 8 n for OLED pages, or does not fit the tile") \
     X(DESC_BANDS, "desc.bands: above 2") \
-    X(DESC_FORMAT, "desc.format: unknown, or not compiled in") \
+    X(DESC_FORMAT, "desc.format: unknown here") \
     X(DESC_WORKERS, "desc.workers: above 8, or above 1 in this build or call") \
     X(DESC_VERTEX_CACHE, "desc.vertex_cache: not 16 to 4096, a power of two") \
     X(DESC_CACHE_STATIC, "desc.reuse.cache_static: above 1, or no method can") \
     X(DESC_BUFFER_AGE, "desc.reuse.buffer_age: above 7, or no method can") \
     X(DESC_PASSES, "desc.filter.passes: above 3, or no method can") \
     X(DESC_SCATTER, "desc.filter.scatter: above 1, or not with these methods") \
-    X(DESC_DITHER, "desc.dither: unknown, or not compiled in") \
+    X(DESC_DITHER, "desc.dither: unknown here") \
     X(DESC_FLUSH, "desc.flush: missing") \
     X(DESC_INSPECT, "desc.debug.inspect: not compiled in") \
     X(FRAME_CAMERA, "frame.camera: missing, no rotation, or a plane or focal out of range") \
     X(FRAME_OPEN, "frame.open: as frame.camera") \
     X(FRAME_CLOSE, "frame.close: as frame.camera") \
     X(FRAME_METHOD, "frame.method: unknown, or not in desc.methods") \
-    X(FRAME_LIGHT_SPACE, "frame.light_space: unknown, or not compiled in") \
+    X(FRAME_LIGHT_SPACE, "frame.light_space: unknown here") \
     X(FRAME_SAMPLES, "frame.samples: above 1024, or what the method takes") \
     X(FRAME_LIGHT, "frame.light: no direction") \
     X(FRAME_DEGREES, "frame.shutter.degrees: above 3600") \
     X(FRAME_EXPOSURE, "frame.shutter.exposure: unknown") \
-    X(FRAME_MODE, "frame.shutter.mode: unknown, or not compiled in") \
+    X(FRAME_MODE, "frame.shutter.mode: unknown here") \
     X(FRAME_REFERENCE, "frame.shutter.reference_hz: above 1000") \
     X(FRAME_TIME, "frame.shutter.frame_us: above 1000000, or missing") \
     X(FRAME_US, "frame.shutter.us: not compiled in") \
     X(FRAME_CURVE, "frame.shutter.curve: closed throughout") \
     X(FRAME_KIND, "frame.filter.kind: unknown, or not in desc.methods") \
-    X(FRAME_WEIGHTS, "frame.filter.weights: unknown, or not compiled in") \
+    X(FRAME_WEIGHTS, "frame.filter.weights: unknown here") \
     X(FRAME_STEP, "frame.filter.camera_step: not 1, 2 or 4") \
     X(FRAME_PASSES, "frame.filter.pingpong.passes: above desc.filter.passes") \
     X(FRAME_TAPS, "frame.filter.pingpong.taps: not 2 to 64") \
@@ -55,11 +55,11 @@
     X(FRAME_LAYER, "frame.layer: too many, no mask, or a bad method, camera or shutter") \
     X(DRAW_ID, "draw.id: twice in this frame, or not compiled in") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
-    X(DRAW_MESH_COLORS, "draw.mesh: colours and normals were not compiled in") \
+    X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \
     X(DRAW_MATERIAL, "draw.material: out of range, or not compiled in") \
     X(DRAW_POSITION, "draw.open_position: not compiled in") \
     X(DRAW_MOTION, "draw.motion: unknown") \
-    X(DRAW_BILLBOARD, "draw.billboard: unknown, or not compiled in")
+    X(DRAW_BILLBOARD, "draw.billboard: unknown here")
 
 #define SMEAR_FAULT_NUMBER_(name, text) FAULT_NUMBER_##name,
 enum { SMEAR_FAULTS(SMEAR_FAULT_NUMBER_) SMEAR_FAULT_COUNT };

@@ -13,6 +13,9 @@
 
 /* ------------------------------------------------------------------ ranges */
 
+/* What 0 means for scales, of which SMEAR_SCALE_NONE means 0. */
+enum { WHOLE = 256 };
+
 /* A field of a struct: what 0 means, and its range. */
 struct field {
     uint8_t offset, size;           /* size 1, 2 or 4 */
@@ -55,10 +58,13 @@ static int resolve_fields(void *record, const struct field *field, int count)
     for (int i = 0; i < count; i++, field++) {
         uint8_t *at = (uint8_t *)record + field->offset;
         uint32_t value = read_field(at, field->size);
-        if (value == 0 && field->otherwise != 0) {
+        const uint32_t given = value;
+        if (value == 0)
             value = field->otherwise;
+        else if (value == SMEAR_SCALE_NONE && field->otherwise == WHOLE)
+            value = 0;
+        if (value != given)
             write_field(at, field->size, value);
-        }
         if (value < field->least || value > field->most)
             return SMEAR_ERR_FIELD - 1 - field->fault;
     }
@@ -181,31 +187,12 @@ static const struct field frame_fields[] = {
     FRAME(filter.camera_step, STEP, 0, 0, SMEAR_CAMERA_STEP_MOST),
     FRAME(filter.pingpong.passes, PASSES, 2, 1, PINGPONG_PASSES_MAX), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
     FRAME(filter.pingpong.base, BASE, 0, 0, 64), FRAME(filter.pingpong.jitter, JITTER, 0, 0, 128),
-    FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1)
-};
-static const struct field scale_fields[] = {
-    FRAME(scale.rotation, ROTATION, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
-    FRAME(scale.translation, TRANSLATION, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
-    FRAME(scale.object, OBJECT, 256, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST)
+    FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1),
+    FRAME(scale.rotation, ROTATION, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
+    FRAME(scale.translation, TRANSLATION, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
+    FRAME(scale.object, OBJECT, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST)
 };
 #undef FRAME
-
-/* SMEAR_SCALE_NONE, a number that means nothing, becomes 0 after 0 has become 256. */
-static int resolve_scales(smear_frame *f)
-{
-    uint16_t *scale[] = { &f->scale.rotation, &f->scale.translation, &f->scale.object };
-    bool none[3];
-    for (int i = 0; i < 3; i++) {
-        none[i] = SMEAR_SCALE_LEAST == 0 && *scale[i] == SMEAR_SCALE_NONE;
-        if (none[i])
-            *scale[i] = 0;
-    }
-    const int result = resolve_fields(f, scale_fields, 3);
-    for (int i = 0; i < 3; i++)
-        if (none[i])
-            *scale[i] = 0;
-    return result;
-}
 
 /* Returns the method that a desc has by default. */
 static uint8_t default_method(const smear_desc *d)
@@ -273,8 +260,6 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
 int smear_resolve_frame(smear_frame *f, const smear_desc *d)
 {
     int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
-    if (result == SMEAR_OK)
-        result = resolve_scales(f);
     if (result == SMEAR_OK)
         result = resolve_method(f, d);
     if (result == SMEAR_OK)

@@ -86,9 +86,10 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
     d->next[0] = d->next[1] = 0;
     mix_transform(d->next, &camera->pose);
     mix(d->next, word, (int)(sizeof word / sizeof *word));
-    mix(d->next, sun->direction, 3);
-    mix(d->next, sun->ambient, 3);
-    mix(d->next, sun->diffuse, 3);
+    for (int i = 0; i < 3; i++) {
+        const int32_t light[] = { sun->direction[i], sun->ambient[i], sun->diffuse[i] };
+        mix(d->next, light, 3);
+    }
 }
 
 /* Takes in as much of a draw as its picture depends on. */
