@@ -43,7 +43,7 @@ static const uint8_t *thresholds(const struct kernel_call *c)
 static void dithered_reference(struct kernel_call *c)
 {
     row_dithered_reference(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
-                                 (enum row_16bit)c->word[LAYOUT]);
+                           (enum row_16bit)c->word[LAYOUT]);
 }
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. */
@@ -58,7 +58,7 @@ static void prepare_l4(struct kernel_call *c)
 static void l4_reference(struct kernel_call *c)
 {
     row_l4_reference(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X],
-                           c->word[IS_DITHERED] != 0 ? thresholds(c) : NULL, WIDTH - 1);
+                     c->word[IS_DITHERED] != 0 ? thresholds(c) : NULL, WIDTH - 1);
 }
 
 #ifndef __OPTIMIZE_SIZE__

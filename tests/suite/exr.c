@@ -206,7 +206,7 @@ static bool read_chunks(exr_context_t file, struct exr_frame *out, int top,
             exr_coding_channel_info_t *c = &decode->channels[i];
             int plane = plane_named(c->channel_name);
             c->decode_to_ptr = plane < 0 ? NULL
-                : (uint8_t *)(out->plane[plane] + (size_t)y * (size_t)out->width);
+                                         : (uint8_t *)(out->plane[plane] + (size_t)y * (size_t)out->width);
             c->user_bytes_per_element = (int16_t)sizeof(float);
             c->user_data_type = EXR_PIXEL_FLOAT;
             c->user_pixel_stride = (int32_t)sizeof(float);

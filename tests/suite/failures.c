@@ -14,7 +14,7 @@ const struct fail_method fail_method[METHODS] = {
     [ACCUMULATE] = {"accumulate 32", SMEAR_ACCUMULATE, 32, 0, 0},
     [PLAIN] = {"reconstruct 8", SMEAR_RECONSTRUCT, 8, 0, 0},
     [MENDED] = {"mended 8", SMEAR_RECONSTRUCT, 8,
-                SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
+                 SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM, 0},
     [SUBFRAMES] = {"subframes 32", SMEAR_SUBFRAMES, 32, 0, 0},
     [TIMEMASK] = {"timemask 32", SMEAR_TIMEMASK, 32, 0, 0},
     [AUTO] = {"auto balanced", SMEAR_AUTO, 0, 0, SMEAR_BALANCED},

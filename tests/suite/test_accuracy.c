@@ -69,9 +69,9 @@ static bool take_planes(struct subject *s, const struct present_options *present
     return shot_take(s, present,
                      &(struct shot_options){.width = width, .height = height, .look = true},
                      &shot[0])
-           && shot_take(s, &sharp, &(struct shot_options){.width = width, .height = height},
-                        &shot[1])
-           && take_ids(s, present, width, height, &shot[2]);
+        && shot_take(s, &sharp, &(struct shot_options){.width = width, .height = height},
+                     &shot[1])
+        && take_ids(s, present, width, height, &shot[2]);
 }
 
 /* What struct ref_difference does not tell. */

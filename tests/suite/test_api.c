@@ -26,7 +26,7 @@ static void test_one_byte_less_fails_and_the_exact_size_leaves_the_bytes_around_
                          : variant == 9 || variant == 11  ? SMEAR_SET_TEMPORAL
                          : variant >= 8                   ? SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_RECONSTRUCT)
                          : variant == 4 ? SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET(SMEAR_RECONSTRUCT)
-                                        : SMEAR_SET(SMEAR_RECONSTRUCT);
+                                                         : SMEAR_SET(SMEAR_RECONSTRUCT);
             desc.tile = (int16_t)(variant >= 10 ? 8 << (variant - 10) : 0);
             desc.bands = variant == 2 ? 1 : variant == 12 ? 2 : 0;
             desc.reach = variant == 3 ? 20 : 8;
@@ -78,7 +78,8 @@ static void test_every_bad_field_of_a_desc_is_refused(void)
         BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 2), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
         BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(dither, SMEAR_DITHER_BLUE + 1), BAD(bands, 3),
         BAD(workers, 9), BAD(workers, 255), BAD(methods, SMEAR_SET(SMEAR_METHOD_COUNT)),
-        BAD(reuse.cache_static, 1), BAD(reuse.buffer_age, 1), BAD(filter.passes, 4), BAD(filter.scatter, 2), BAD(band_rows, 1), BAD(band_rows, 6), BAD(band_rows, 32), BAD(band_rows, -8), BAD(band_rows, 12),
+        BAD(reuse.cache_static, 1), BAD(reuse.buffer_age, 1), BAD(filter.passes, 4), BAD(filter.scatter, 2),
+        BAD(band_rows, 1), BAD(band_rows, 6), BAD(band_rows, 32), BAD(band_rows, -8), BAD(band_rows, 12),
         BAD(vertex_cache, 8), BAD(vertex_cache, 65), BAD(vertex_cache, 8192),
         BAD(max_triangles, (16 << 20) + 1), BAD(max_triangles, -1)
 #undef BAD

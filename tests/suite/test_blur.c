@@ -201,7 +201,7 @@ enum { PORT_SCENES = sizeof port_scene / sizeof *port_scene };
 static void test_filter_is_its_port_with_every_option(void)
 {
     static const int flags[] = {0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION,
-                                SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_DIRECTION};
+                                 SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_DIRECTION};
     say("    %-16s", "8 taps, encoded:");
     for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
         char names[40];
@@ -346,7 +346,7 @@ static void check_workers(struct subject *s)
         {SMEAR_ACCUMULATE, 0, SMEAR_LIGHT_LINEAR},
         {SMEAR_RECONSTRUCT, 0, SMEAR_LIGHT_LINEAR},
         {SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM,
-         SMEAR_LIGHT_ENCODED},
+          SMEAR_LIGHT_ENCODED},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct shot one;

@@ -1669,7 +1669,7 @@ static struct movie read_apng(const struct buffer *file)
 {
     struct movie m = {0};
     struct second_png r = {file->data + 8, file->data + file->size,
-                           has_signature(file->data, file->size)};
+                            has_signature(file->data, file->size)};
     char name[5];
     size_t size;
     const uint8_t *p = second_chunk(&r, name, &size);
@@ -1715,7 +1715,7 @@ static struct movie write_movie(bool is_gif, const struct image *frames, int cou
     const char *path = scratch(is_gif ? "test_image.gif" : "test_image.apng");
     struct failure f = {""};
     struct animation_writer *w = (is_gif ? gif_begin : apng_begin)(path, frames[0].width,
-                                                                  frames[0].height, &f);
+                                                                   frames[0].height, &f);
     if (!CHECK(w != NULL))
         return (struct movie){0};
     for (int i = 0; i < count; i++)

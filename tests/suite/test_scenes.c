@@ -257,7 +257,7 @@ static int cut_near(const struct corner in[3], struct point out[4])
             kept[keep++] = (struct corner){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, 0.25};
         for (int k = 0; k < keep; k++)
             out[count++] = (struct point){(1 + kept[k].x / kept[k].w) / 2 * PEER_WIDTH,
-                                          (1 - kept[k].y / kept[k].w) / 2 * PEER_HEIGHT,
+                                           (1 - kept[k].y / kept[k].w) / 2 * PEER_HEIGHT,
                                           1 / kept[k].w};
     }
     return count;

@@ -89,7 +89,7 @@ static bool kept(struct pair *p, const struct set *s)
     CHECK_EQ(stats.triangles_in, full.triangles_in);
     CHECK(stats.parts_added != 0
           || (stats.static_cached ? stats.triangles_drawn <= full.triangles_drawn
-                               : stats.triangles_drawn == full.triangles_drawn));
+                                  : stats.triangles_drawn == full.triangles_drawn));
     return stats.static_cached != 0;
 }
 
@@ -253,7 +253,7 @@ static int bits_of(uint8_t format)
          : format >= SMEAR_RGB565 && format <= SMEAR_RGB555        ? 16
          : format == SMEAR_L4                                      ? 4
          : format == SMEAR_L1                                      ? 1
-                                                                   : 8;
+                                                            : 8;
 }
 
 static int put_band(void *user, const smear_band *band)

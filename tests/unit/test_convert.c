@@ -174,7 +174,7 @@ static void test_pages_pack_eight_rows_with_the_top_one_in_bit_0(void)
             int y = order == 0 ? k : ROWS - 1 - k;
             for (int x = 0; x < N; x += 8)
                 smear_format_row(band, N, picture + y * N + x, x + 8 < N ? 8 : N - x, x, 40 + y, 40,
-                                  SMEAR_L1_PAGES, SMEAR_DITHER_NONE);
+                                 SMEAR_L1_PAGES, SMEAR_DITHER_NONE);
         }
         for (int y = 0; y < ROWS; y++)
             for (int x = 0; x < N; x++)
@@ -201,7 +201,7 @@ static void test_pieces_of_a_row_give_the_bytes_of_the_row(void)
             band_fill(0);
             for (int x = 0; x < n; x += 24)
                 smear_format_row(band, stride, pixels + x, x + 24 < n ? 24 : n - x, x, 0, 0, (smear_format)format,
-                                  (smear_dither)dither);
+                                 (smear_dither)dither);
             for (uint32_t i = 0; i < stride; i++)
                 if (!CHECK_EQ(band[i], whole[i]))
                     return;
@@ -241,7 +241,7 @@ static void test_white_and_black_are_exact_under_every_dither(void)
                         pixels[i] = white ? 0xffffffu : 0;
                     band_fill(0);
                     smear_format_row(band, stride, pixels, MOST, 0, y, y, (smear_format)format,
-                                      (smear_dither)dither);
+                                     (smear_dither)dither);
                     for (uint32_t i = 0; i < bytes; i++) {
                         uint32_t lit = format == SMEAR_L1_PAGES ? 1
                                      : format == SMEAR_RGB555 ? (i & 1 ? 0x7f : 0xff) : 0xff;
@@ -261,7 +261,7 @@ static void test_ordered_16_bit_pixels_are_the_formulas_for_all_codes(void)
             }
             for (int format = SMEAR_RGB565; format <= SMEAR_RGB555; format++) {
                 smear_format_row(band, smear_format_stride(MOST, (smear_format)format), pixels, MOST, 0, y, y,
-                                  (smear_format)format, SMEAR_DITHER_ORDERED);
+                                 (smear_format)format, SMEAR_DITHER_ORDERED);
                 for (int i = 0; i < MOST; i++) {
                     const uint32_t t = smear_dither_ordered[y << 3 | (i & 7)], p = pixels[i];
                     const bool is_555 = format == SMEAR_RGB555;

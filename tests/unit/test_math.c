@@ -218,7 +218,8 @@ static void test_compose_does_first_the_second_then_the_first(void)
         const smear_vec3 place = random_vec(), by = random_vec();
         const smear_transform t = smear_compose(smear_move(place.x, place.y, place.z), smear_from_euler(random_u32(), random_u32(), 0));
         const smear_transform same = SMEAR_IDENTITY, a = smear_compose(same, t), b = smear_compose(t, same);
-        const smear_transform moved = smear_compose(smear_move(by.x >> 1, by.y >> 1, by.z >> 1), smear_move(place.x >> 1, place.y >> 1, place.z >> 1));
+        const smear_transform moved = smear_compose(smear_move(by.x >> 1, by.y >> 1, by.z >> 1),
+                                                    smear_move(place.x >> 1, place.y >> 1, place.z >> 1));
         if (!CHECK_EQ(basis_distance(&a, &t), 0) || !CHECK_EQ(basis_distance(&b, &t), 0) || !CHECK_EQ(a.origin[0], place.x)
             || !CHECK_EQ(b.origin[2], place.z) || !CHECK_EQ(moved.origin[1], (by.y >> 1) + (place.y >> 1)))
             return;

@@ -16,7 +16,7 @@ static int32_t wild(void)
     static const int32_t value[] = { INT32_MAX, INT32_MIN, 1, -1, 0, 1 << 24, -(1 << 24), 65536 };
     uint32_t kind = random_u32() % 3u, kind_shift = random_u32() % 32u;
     return kind == 0 ? value[random_u32() & 7u] : kind == 1 ? between(INT32_MIN, INT32_MAX)
-                     : (int32_t)random_u32() >> kind_shift;
+                                                            : (int32_t)random_u32() >> kind_shift;
 }
 
 static int32_t wild_positive(void)
@@ -222,7 +222,7 @@ static double worst_sum(bool orthographic, bool apart)
             for (int k = 0; k < count; k++) {
                 for (int i = 0; i < 3; i++)
                     v[k][i] = k == 0 ? (int16_t)between(-30000, 30000)
-                            : (int16_t)(v[0][i] + (apart ? between(-2000, 2000) : 0));
+                                     : (int16_t)(v[0][i] + (apart ? between(-2000, 2000) : 0));
                 double clip[4];
                 clip_exactly(clip, &mesh, &object[k], &camera[k], 240, v[k]);
                 for (int i = 0; i < 4; i++)

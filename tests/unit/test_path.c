@@ -18,14 +18,14 @@ static int32_t random_coordinate(void)
     uint32_t kind = random_u32() % 4u;
     int32_t centre = 1024 << 8;
     return kind == 0 ? centre - guard : kind == 1 ? centre + guard
-         : centre - guard + (int32_t)(random_u32() % (uint32_t)(2 * guard + 1));
+                                                  : centre - guard + (int32_t)(random_u32() % (uint32_t)(2 * guard + 1));
 }
 
 static int32_t random_depth(void)
 {
     uint32_t kind = random_u32() % 4u;
     return kind == 0 ? SMEAR_DEPTH_MIN : kind == 1 ? SMEAR_DEPTH_MAX
-         : (int32_t)(random_u32() % (uint32_t)SMEAR_DEPTH_MAX) + 1;
+                                                   : (int32_t)(random_u32() % (uint32_t)SMEAR_DEPTH_MAX) + 1;
 }
 
 /* The same in 64 bits, times 2^31: middle 2^31 + slope u 2^15 + bend u^2, u in q15. */

@@ -612,7 +612,7 @@ static void test_depth_is_the_plane_through_the_corners(void)
         for (int i = 0; i < 3; i++)
             q[i] = n % 3 == 0 ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
                  : n % 3 == 1 ? (32768 << 11) + between(-(1 << 24), 1 << 24)
-                 : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
+                              : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
         list_begin();
         uint16_t v[3];
         for (int i = 0; i < 3; i++)

@@ -240,7 +240,7 @@ static void draw_want(int32_t instants)
             want[i] = want[i] << 8 | (frame.linear ? smear_srgb_encode[mean >> 4] : mean);
             /* Means of codes in 16 bits go up a little early. */
             want_is_high[3 * i + c] = !frame.linear && instants <= 256
-                                    && 128 * ((sum[3 * i + c] + n / 2) % n) >= 127 * n;
+                                   && 128 * ((sum[3 * i + c] + n / 2) % n) >= 127 * n;
         }
     }
 }

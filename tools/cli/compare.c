@@ -60,8 +60,8 @@ static int load(const char *path, struct image *out)
     bool is_pfm = size > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f');
     bool is_pnm = size > 2 && bytes[0] == 'P' && bytes[1] >= '0' && bytes[1] <= '9';
     bool ok = is_pfm   ? load_pfm(bytes, size, out, &f)
-              : is_pnm ? ppm_decode(bytes, size, out, &f)
-                       : png_decode(bytes, size, out, &f);
+            : is_pnm ? ppm_decode(bytes, size, out, &f)
+                     : png_decode(bytes, size, out, &f);
     free(bytes);
     return ok ? STATUS_OK : say_bad_input(path, &f);
 }

@@ -250,7 +250,7 @@ int help_print(const char *command)
     static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
                                          "help", NULL };
     static const char *const *const texts[] = { render_help, convert_help, compare_help, info_help,
-                                               bench_help, chart_help, help_help };
+                                                bench_help, chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {
         fputs(program_help, stdout);

@@ -94,9 +94,9 @@ static bool time_frame(struct render *r, const struct shot *shot, struct frame_r
     int repeat = r->options.repeat > 0 ? r->options.repeat : 1;
     for (int i = 0; i < repeat; i++) {
         bool ok = r->options.exact
-                      ? exact_time(r->presenter, &r->device, shot->time, &shot->options,
-                                   r->options.samples, &r->times[i], f)
-                      : device_time(&r->device, shot->presented, &r->times[i], f);
+                    ? exact_time(r->presenter, &r->device, shot->time, &shot->options,
+                                 r->options.samples, &r->times[i], f)
+                    : device_time(&r->device, shot->presented, &r->times[i], f);
         if (!ok)
             return false;
     }
@@ -166,8 +166,8 @@ static int render_frames(struct render *r)
     int status = STATUS_OK;
     for (long frame = o->first; frame <= o->last && status == STATUS_OK; frame++) {
         double time = o->has_frames ? (double)frame / r->setup.present.fps
-                      : o->has_time || r->source.is_file ? o->time
-                                                         : scene->time;
+                    : o->has_time || r->source.is_file ? o->time
+                                                       : scene->time;
         status = render_frame(r, frame, time);
         say_progress(frame - o->first + 1, o->last - o->first + 1, "frame");
     }

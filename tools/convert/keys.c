@@ -166,8 +166,8 @@ static bool find_instants(struct converter *c, const struct model_channel *chann
     for (int key = 1; key < channel->key_count; key++) {
         double from = (double)channel->time[key - 1], to = (double)channel->time[key];
         bool ok = channel->interpolation == MODEL_STEP
-                ? add_instant(all, channel, to, c->f)
-                : add_between(all, channel, m, from, to, DEPTH, c->tolerance / 4, scratch, c->f);
+                    ? add_instant(all, channel, to, c->f)
+                    : add_between(all, channel, m, from, to, DEPTH, c->tolerance / 4, scratch, c->f);
         if (!ok)
             return false;
     }
@@ -449,9 +449,10 @@ static bool write_weights_at_rest(struct converter *c)
                           : node->mesh >= 0      ? m->mesh[node->mesh].weight
                                                  : NULL;
         int first = c->weight_first[n];
-        for (int k = 0; first >= 0 && rest != NULL && k < track_weight_count(m, n); k++)
-            table[first + k] = (int16_t)fmax(-32767, fmin(32767, floor(
-                (double)rest[k] / ((double *)c->weight_factor.data)[first + k] * 16384 + 0.5)));
+        for (int k = 0; first >= 0 && rest != NULL && k < track_weight_count(m, n); k++) {
+            double steps = (double)rest[k] / ((double *)c->weight_factor.data)[first + k] * 16384;
+            table[first + k] = (int16_t)fmax(-32767, fmin(32767, floor(steps + 0.5)));
+        }
     }
     c->out->model.weight = table;
     c->out->model.weight_count = (uint16_t)c->weight_count;

@@ -426,7 +426,7 @@ static smear_texel_format format_of(const struct converter *c, int image)
         return SMEAR_TEXEL_8888;
     /* 565 has no alpha */
     return c->options->texture == CONVERT_RGB565 && is_opaque_picture(c, image) ? SMEAR_TEXEL_565
-                                                                               : SMEAR_TEXEL_PALETTE8;
+                                                                                : SMEAR_TEXEL_PALETTE8;
 }
 
 bool texture_for(struct converter *c, const struct model_material *m, int *texture)

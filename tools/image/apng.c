@@ -118,7 +118,7 @@ static bool end(struct animation_writer *w, struct failure *f)
     if (!animation_flush(w, f))
         return false;
     uint8_t control[8] = {(uint8_t)(w->frames >> 24), (uint8_t)(w->frames >> 16),
-                          (uint8_t)(w->frames >> 8), (uint8_t)w->frames, 0, 0, 0, 0};
+                           (uint8_t)(w->frames >> 8), (uint8_t)w->frames, 0, 0, 0, 0};
     png_chunk(&w->bytes, "acTL", control, sizeof control);
     if (fseek(w->out.stream, ACTL_AT, SEEK_SET) != 0)
         return fail(f, "cannot be written (%s)", strerror(errno));

@@ -197,7 +197,7 @@ static void fixed_huffman(struct huffman *literal, struct huffman *distance)
     for (unsigned i = 0; i < 288; i++) {
         unsigned bits = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
         unsigned code = i < 144 ? 0x30 + i : i < 256 ? 0x190 + i - 144 : i < 280 ? i - 256
-                                                                                : 0xc0 + i - 280;
+                                                     : 0xc0 + i - 280;
         literal->length[i] = (uint8_t)bits;
         for (unsigned bit = 0; bit < bits; bit++)
             literal->code[i] = (uint16_t)((unsigned)literal->code[i] << 1 | (code >> bit & 1));

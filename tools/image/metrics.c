@@ -379,7 +379,7 @@ static void flip_fill_row(const struct flip *p, struct ring *r, int y, const str
     double *in = ring_input(r);
     for (int x = 0; x < r->width; x++, from += 4)
         row[x] = rgb_to_ycxcz(p, (struct color){p->linear[from[0]], p->linear[from[1]],
-                                                p->linear[from[2]]});
+                                                 p->linear[from[2]]});
     for (int x = 0; x < r->width; x++)
         in[x] = row[x].y;
     ring_clamp_input(r);

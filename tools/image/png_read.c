@@ -312,7 +312,7 @@ static bool convert_pixel(const struct reader *r, const uint8_t *row, size_t i, 
         }
         if (r->type == RGB)
             rgba[3] = r->has_key && s[0] == r->key[0] && s[1] == r->key[1] && s[2] == r->key[2] ? 0
-                                                                                              : 255;
+                                                                                                : 255;
         return true;
     }
     }

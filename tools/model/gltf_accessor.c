@@ -135,7 +135,7 @@ static bool read_sparse(struct gltf *g, int accessor_object, struct gltf_accesso
     if (!slice(g, indices, index_view, index_offset, index_size, index_size, (int)count,
                &a->sparse_index) ||
         !slice(g, values, value_view, value_offset, value_size, value_size, (int)count,
-               &a->sparse_value))
+                  &a->sparse_value))
         return false;
     double last = -1;
     for (int i = 0; i < (int)count; i++) {

@@ -56,7 +56,7 @@ int json_member(const struct json *json, int object, const char *key);
 __attribute__((format(printf, 5, 6)))
 #endif
 bool json_fail(const struct json *json, int value, const char *key, struct failure *f,
-               const char *format, ...);
+          const char *format, ...);
 
 /* Typed reads of a member. An absent member leaves *out alone and is no failure; a wrong type or a
  * value outside the range is. */

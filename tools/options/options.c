@@ -258,7 +258,7 @@ static const char *read_cut(void *to, const char *value)
     if (o->cut_count == OPTIONS_MAX_CUTS)
         return "too many of them";
     return read_integer(value, 0, 999999999, &o->cut[o->cut_count++]) ? NULL
-                                                                     : "needs a frame number";
+                                                                      : "needs a frame number";
 }
 
 static const char *read_light(void *to, const char *value)

@@ -80,7 +80,9 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
             fprintf(s->stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].name,
                     c->tiles[method_list[i].method]);
     fputs("},\n", s->stream);
-    fprintf(s->stream, " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32 ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
+    fprintf(s->stream,
+            " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32
+            ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
             c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);
     fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
             c->crc32);

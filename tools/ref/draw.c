@@ -247,7 +247,7 @@ static void flat_normal(const struct scene_draw *draw, const uint32_t *index, do
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < 3; i++)
             e[k][i] = (double)draw->position[3 * (size_t)index[k + 1] + (size_t)i]
-                      - (double)draw->position[3 * (size_t)index[0] + (size_t)i];
+                    - (double)draw->position[3 * (size_t)index[0] + (size_t)i];
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = e[0][j] * e[1][k] - e[0][k] * e[1][j];

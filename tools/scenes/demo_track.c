@@ -172,7 +172,7 @@ static void add_boards(struct stage *stage, double length)
         double x0 = slot * i + 0.3, x1 = slot * (i + 1) - 0.3;
         double v0 = kind[i] / 3.0, v1 = v0 + 1 / 3.0;
         struct vec3 corner[4] = {vec3(x0, 0.12, z), vec3(x1, 0.12, z), vec3(x1, 1.25, z - 0.25),
-                                 vec3(x0, 1.25, z - 0.25)};
+                                  vec3(x0, 1.25, z - 0.25)};
         uint32_t v[4];
         for (int k = 0; k < 4; k++)
             v[k] = build_vertex(&b, corner[k], vec3(0, 0.22, 1), k == 1 || k == 2 ? 1 : 0,

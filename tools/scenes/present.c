@@ -443,8 +443,8 @@ void present_exposure(double time, const struct present_options *options, double
 {
     double length = options->shutter_degrees / 360.0 / options->fps;
     double before = options->exposure == SMEAR_TRAILING  ? 1.0
-                    : options->exposure == SMEAR_LEADING ? 0.0
-                                                         : 0.5;
+                  : options->exposure == SMEAR_LEADING ? 0.0
+                                                        : 0.5;
     *open = time - before * length;
     *close = *open + length;
 }
@@ -568,7 +568,7 @@ static bool plan_draws(struct presenter *p, const bool has[POSES], bool keep, st
 static uint8_t motion_mode(uint8_t scene_motion)
 {
     return scene_motion == SCENE_MOTION_CAMERA ? SMEAR_MOTION_CAMERA
-           : scene_motion == SCENE_MOTION_NONE ? SMEAR_MOTION_NONE
+         : scene_motion == SCENE_MOTION_NONE ? SMEAR_MOTION_NONE
                                                : SMEAR_MOTION_FULL;
 }
 
@@ -693,7 +693,7 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
     const smear_frame *frame = &presented->frame;
     const bool has_kind = frame->method == SMEAR_CAMERA || frame->method == SMEAR_HALF;
     const bool is_pingpong = frame->method == SMEAR_PINGPONG
-                             || (has_kind && frame->filter.kind == SMEAR_FILTER_PINGPONG);
+                          || (has_kind && frame->filter.kind == SMEAR_FILTER_PINGPONG);
     const unsigned passes = frame->filter.pingpong.passes != 0 ? frame->filter.pingpong.passes : 2;
     const unsigned own = frame->method != SMEAR_DEFAULT_METHOD ? SMEAR_SET(frame->method) : 0;
     const unsigned methods = own | (is_pingpong ? SMEAR_SET(SMEAR_PINGPONG) : 0);

@@ -178,7 +178,7 @@ struct grid grid_fit(const struct bounds *b, double *x, int count)
 }
 
 void quantise_positions(int16_t *out, const float *position, const struct part *part,
-                               const struct grid *grid)
+                        const struct grid *grid)
 {
     for (int i = 0; i < part->vertex_count; i++) {
         for (int axis = 0; axis < 3; axis++) {
@@ -463,8 +463,8 @@ static bool convert_parts(struct converted *c, struct failure *f)
 static uint8_t wrap_mode(enum model_wrap wrap)
 {
     return wrap == MODEL_WRAP_CLAMP    ? SMEAR_CLAMP
-           : wrap == MODEL_WRAP_MIRROR ? SMEAR_MIRROR
-                                       : SMEAR_REPEAT;
+         : wrap == MODEL_WRAP_MIRROR ? SMEAR_MIRROR
+                                     : SMEAR_REPEAT;
 }
 
 static bool is_opaque(const uint8_t *rgba, size_t count)

@@ -11,7 +11,7 @@
 static struct xform aim(struct vec3 eye, double yaw, double pitch, double roll)
 {
     struct xform turn = xform_mul(xform_turn_y(yaw), xform_mul(xform_turn_x(pitch),
-                                                             xform_turn_z(roll)));
+                                                               xform_turn_z(roll)));
     return xform_mul(xform_move(eye.x, eye.y, eye.z), turn);
 }
 

@@ -299,7 +299,7 @@ static void skin_move(const struct stage *stage, double time, struct scene_insta
 
     /* The trunk hangs from the neck, so it is turned about the hip as a whole. */
     struct xform lean = xform_mul(xform_move(0, 1.25, 0), xform_mul(xform_turn_z(0.42 * s),
-                                                                  xform_move(0, -1.25, 0)));
+                                                                    xform_move(0, -1.25, 0)));
     for (int i = 0; i < LIMBS; i++) {
         struct xform at = xform_move(limbs[i].x, limbs[i].y, 0);
         double side = limbs[i].x > 0 ? 1 : -1;

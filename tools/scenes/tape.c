@@ -260,8 +260,8 @@ static int texture(struct tape_writer *w, const smear_texture *t)
         return NO_OBJECT;
     size_t count = (size_t)t->width * t->height;
     enum element kind = t->format == SMEAR_TEXEL_8888  ? UINT32
-                        : t->format == SMEAR_TEXEL_565 ? UINT16
-                                                       : UINT8;
+                      : t->format == SMEAR_TEXEL_565 ? UINT16
+                                                      : UINT8;
     int texels = array(w, kind, t->texels, count);
     int palette = t->format == SMEAR_TEXEL_PALETTE8 ? array(w, UINT32, t->palette, 256) : NO_OBJECT;
     add(&text, "{ ");

@@ -88,7 +88,7 @@ static int min_int(int a, int b)
 }
 
 struct panel_place panel_place_on(const struct panel_look *look, int width, int height,
-                             const struct surface *s)
+                                  const struct surface *s)
 {
     int w = look->turns & 1 ? height : width, h = look->turns & 1 ? width : height;
     int fits = min_int(s->width / w, s->height / h);

@@ -40,7 +40,7 @@ struct panel_place {
 };
 
 struct panel_place panel_place_on(const struct panel_look *look, int width, int height,
-                             const struct surface *s);
+                                  const struct surface *s);
 
 /* Fills the whole surface: the picture (width x height codes) in its place, the rest dark. */
 void panel_show(const struct panel_look *look, const struct panel_place *place,

@@ -173,7 +173,7 @@ static void use_board(struct shown *s, const struct board *board)
         snprintf(word, sizeof word, "%.*s", (int)colon, value);
         if (strcmp(name, "--tint") == 0)
             s->look.has_tint = read_color(word, &s->look.dark)
-                               && read_color(value + colon + 1, &s->look.lit);
+                            && read_color(value + colon + 1, &s->look.lit);
         else if (strcmp(name, "--bus") == 0)
             read_number(value, 1.0, 1e12, &s->bus.hz);
         else if (strcmp(name, "--panel-hz") == 0)

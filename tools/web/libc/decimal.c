@@ -128,7 +128,7 @@ void decimal_round(struct decimal *d, int count)
     }
     bool is_half = d->digit[count] == 5 && count == d->count - 1;
     bool is_up = d->digit[count] > 5 || (d->digit[count] == 5 && !is_half)
-                 || (is_half && count > 0 && (d->digit[count - 1] & 1) != 0);
+              || (is_half && count > 0 && (d->digit[count - 1] & 1) != 0);
     d->count = count;
     while (is_up && d->count > 0 && d->digit[d->count - 1] == 9)
         d->count--;

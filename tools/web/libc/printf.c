@@ -131,8 +131,8 @@ static void put_double(struct writer *w, const struct spec *s, double x, char ki
         decimal_round(&d, precision);
         int exponent = d.count > 0 ? d.point - 1 : 0;
         n = exponent < -4 || exponent >= precision
-                ? write_scientific(text, &d, precision - 1, true)
-                : write_plain(text, &d, precision - 1 - exponent, true);
+              ? write_scientific(text, &d, precision - 1, true)
+              : write_plain(text, &d, precision - 1 - exponent, true);
     }
     put_field(w, s, sign, text, n, s->zero);
 }
@@ -148,8 +148,8 @@ static int64_t signed_argument(va_list *args, int longs)
 static uint64_t unsigned_argument(va_list *args, int longs)
 {
     return longs >= 2   ? va_arg(*args, unsigned long long)
-           : longs == 1 ? va_arg(*args, unsigned long)
-                        : va_arg(*args, unsigned);
+         : longs == 1 ? va_arg(*args, unsigned long)
+                      : va_arg(*args, unsigned);
 }
 
 static int number_of(const char **p, va_list *args)
