@@ -113,7 +113,7 @@
          : 136u + 3u * SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * 2u) \
                + SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * ((r) <= 30 ? 2u : 4u)) \
                + SMEAR_UP8_(SMEAR_PARTS_(w, T) * 36u) + SMEAR_UP8_(SMEAR_PARTS_(w, T) * 18u) \
-               + SMEAR_UP8_((size_t)(k) * (size_t)(T) * (size_t)(T)) + 8u)
+                                            + SMEAR_UP8_((size_t)(k) * (size_t)(T) * (size_t)(T)) + 8u)
 /* Finished pixels of a worker: a tile, or a strip with what is drawn beyond its sides. */
 #define SMEAR_COLUMNS_(m, w, T, s) \
     (SMEAR_HAS_TEMPORAL_(m) ? (s) + ((s) >= SMEAR_STRIP && (s) < (size_t)(w) ? 16u : 0u) : (s))

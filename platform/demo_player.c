@@ -84,7 +84,7 @@ void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *scre
         desc->tile = blur->method == SMEAR_NONE         ? screen->sharp_tile
                    : blur->method != SMEAR_ACCUMULATE   ? 0
                    : desc->reach <= 8                   ? 8
-                                                        : 16;
+                                                      : 16;
 }
 
 /* The props are the only frame of the tape that is called like the level. */

@@ -36,7 +36,8 @@ static void take_row(void *user, int y, const uint32_t *color, const uint16_t *d
 
 smear_desc small_desc(int width, int height)
 {
-    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_triangles = 400,
+    return (smear_desc){ .width = (int16_t)width, .height = (int16_t)height, .reach = 8,
+                         .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_triangles = 400,
                          .max_draws = 8, .format = SMEAR_XRGB8888 };
 }
 

@@ -10,10 +10,10 @@
 enum {
     SMEAR_SET_COMPILED
         = (int)(SMEAR_SET(SMEAR_NONE) | (SMEAR_WITH_ACCUMULATE ? SMEAR_SET_SUMS : 0u)
-                | (SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u)
-                | (SMEAR_WITH_FILTERS ? SMEAR_SET_FILTERS : 0u) | (SMEAR_WITH_LAYERS ? SMEAR_SET_LAYERS : 0u)
-                | (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_AUTO) : 0u)
-                | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
+                               | (SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u)
+                               | (SMEAR_WITH_FILTERS ? SMEAR_SET_FILTERS : 0u) | (SMEAR_WITH_LAYERS ? SMEAR_SET_LAYERS : 0u)
+                               | (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_AUTO) : 0u)
+                               | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
 };
 
 /* Other fields of desc. */

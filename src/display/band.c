@@ -74,7 +74,7 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
     if (left != 0)      /* where column 0 would be: within the buffer */
         band += smear_format_size(left, job_bottom(r) - top, format) - smear_format_stride(left, format);
     smear_format_row(band, smear_format_stride(job_right(r) - left, format), in, x1 - x0, x0, y, top, format,
-                      (smear_dither)rows->desc->dither);
+                     (smear_dither)rows->desc->dither);
 }
 
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,

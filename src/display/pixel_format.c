@@ -159,7 +159,7 @@ static void row_page(uint8_t *page, const uint32_t *in, int32_t n, int32_t x, in
 }
 
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
-                       int32_t y0, smear_format format, smear_dither dither)
+                      int32_t y0, smear_format format, smear_dither dither)
 {
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
     if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888)

@@ -403,10 +403,10 @@ static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struc
 
 /* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
-                                                      const struct smear_assembly *d, uint32_t tag,
-                                                      const struct smear_cached_vertex *in_use1,
-                                                      const struct smear_cached_vertex *in_use2,
-                                                      struct smear_cached_vertex *spare)
+                                                       const struct smear_assembly *d, uint32_t tag,
+                                                       const struct smear_cached_vertex *in_use1,
+                                                       const struct smear_cached_vertex *in_use2,
+                                                       struct smear_cached_vertex *spare)
 {
     struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
     if ((tag & 0xffffu) >= d->mesh->vertex_count) {

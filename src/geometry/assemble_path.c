@@ -379,7 +379,7 @@ static void scale_homogeneous(struct smear_homogeneous *h, int down)
  * throughout would be too little. In a short interval of the exposure that is about what is in front in its middle; at
  * its ends a little of that may lie behind, though not behind the eye. */
 static SMEAR_NOINLINE bool add_intervals(struct path_batch *b, const struct smear_clip_vertex corner[3],
-                                      struct cut *cut, const struct smear_face *face)
+                                         struct cut *cut, const struct smear_face *face)
 {
     /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
     int scale = min_i32(cut->projection[MIDDLE].scale,

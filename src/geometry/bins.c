@@ -42,7 +42,7 @@ static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
 }
 
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
-                              int32_t y)
+                          int32_t y)
 {
     uint32_t fresh = SMEAR_NO_TRIANGLE;
     if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */

@@ -142,13 +142,13 @@ static inline struct smear_triangle *bins_triangle(const struct smear_bins *g, u
 }
 
 static inline const int32_t *bins_vertex(const struct smear_bins *g,
-                                             const struct smear_segment *s, uint16_t offset)
+                                         const struct smear_segment *s, uint16_t offset)
 {
     return (const int32_t *)(const void *)(g->pool + s->base + offset);
 }
 
 static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_words,
-                                     uint32_t triangles)
+                                 uint32_t triangles)
 {
     uint32_t triangle_words = (g->triangle_count + triangles) * (sizeof(struct smear_triangle) / 4);
     return g->vertex_words + vertex_words + triangle_words <= g->pool_words;
@@ -184,7 +184,7 @@ static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *la
 
 /* Takes two entries for a triangle with a path and links the second one. There must be room. */
 static inline struct smear_triangle *bins_add_path(struct smear_bins *g, uint32_t *last_of_row,
-                                                       const struct smear_path_bounds *bounds)
+                                                   const struct smear_path_bounds *bounds)
 {
     void *entry = bins_triangle(g, g->triangle_count++);
     *(struct smear_path_bounds *)entry = *bounds;
@@ -192,7 +192,7 @@ static inline struct smear_triangle *bins_add_path(struct smear_bins *g, uint32_
 }
 
 static inline const struct smear_path_bounds *bins_bounds(const struct smear_bins *g,
-                                                              uint32_t triangle)
+                                                          uint32_t triangle)
 {
     return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
 }
@@ -204,6 +204,6 @@ uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, ui
 
 /* Moves a list on like smear_bins_advance, for who looks further up: drops only what ends above pixel row y. */
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
-                              int32_t y);
+                          int32_t y);
 
 #endif

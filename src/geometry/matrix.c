@@ -136,7 +136,7 @@ static void set_distances(struct smear_projection *p, const smear_camera *camera
     /* Rows stay below 2^30, so what lies farther is in front of a plane that is clamped there. */
     p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
     p->far_distance = camera->far_plane == 0 ? INT32_MAX
-                    : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
+                                             : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
     if (is_orthographic(p)) {
         /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
         uint32_t range = (uint32_t)(p->far_distance - p->near_distance);

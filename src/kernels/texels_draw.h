@@ -73,7 +73,7 @@ SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log
 #if defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
 #define TEXELS_KEEP_ALL \
     __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
-               : "r"(ddu), "r"(ddv), "r"(dz), "r"(texels), "r"(end))
+            : "r"(ddu), "r"(ddv), "r"(dz), "r"(texels), "r"(end))
 #else
 #define TEXELS_KEEP_ALL (void)0
 #endif

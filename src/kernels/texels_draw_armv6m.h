@@ -10,11 +10,11 @@
 
 /* Where registers are loaded from, and what is stored at the end. */
 SMEAR_STATIC_ASSERT(offsetof(struct texel_run, end) == 20 && offsetof(struct texel_run, color) == 24
-                    && offsetof(struct texel_run, depth) == 28 && offsetof(struct texel_run, z) == 32
-                    && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, count) == 48
+                        && offsetof(struct texel_run, depth) == 28 && offsetof(struct texel_run, z) == 32
+                        && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, count) == 48
                     && offsetof(struct texel_run, light) == 52, "the assembly knows struct texel_run");
 SMEAR_STATIC_ASSERT(offsetof(struct texel_light, index) == 0 && offsetof(struct texel_light, pixel) == 4
-                    && offsetof(struct texel_light, from_v) == 8 && offsetof(struct texel_light, mask_v) == 12
+                        && offsetof(struct texel_light, from_v) == 8 && offsetof(struct texel_light, mask_v) == 12
                     && offsetof(struct texel_light, from_u) == 16, "the assembly knows struct texel_light");
 
 /* One pixel, whose depth lies AT bytes and whose colour lies PLACE bytes further on; LABEL is behind it. r0 points to colours,

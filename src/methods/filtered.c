@@ -152,8 +152,8 @@ static void tile_job(void *argument, int column, int worker)
     }
     uint32_t *tile = rows->scratch + worker * rows->window.tile * rows->desc->band_rows;
     rows->samples[worker] += SMEAR_WITH_FILTERS && f->window == f->half
-                           ? filter_half(r, tile, column, worker)
-                           : filter_tile(f, tile, r->row.row, column, r->row.y0, r->row.y1);
+                               ? filter_half(r, tile, column, worker)
+                               : filter_tile(f, tile, r->row.row, column, r->row.y0, r->row.y1);
     if (rows->blend != SMEAR_NO_TRIANGLE)
         smear_band_blend_tile(&r->row, column, tile);
     smear_band_convert_tile(&r->row, column, tile);

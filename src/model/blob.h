@@ -66,8 +66,8 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_mesh) == 48, "no padding");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_texture) == 20, "no padding");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_material) == 12, "no padding");
 SMEAR_STATIC_ASSERT(sizeof(smear_model_draw) == 28 && sizeof(smear_model_node) == 52
-               && sizeof(smear_model_joint) == 52 && sizeof(smear_model_skin) == 24
-               && sizeof(smear_model_target) == 16 && sizeof(smear_model_delta) == 8
+                        && sizeof(smear_model_joint) == 52 && sizeof(smear_model_skin) == 24
+                        && sizeof(smear_model_target) == 16 && sizeof(smear_model_delta) == 8
                && sizeof(smear_model_clip) == 16 && sizeof(smear_model_channel) == 36, "no padding");
 
 #if SMEAR_WITH_MODEL

@@ -108,8 +108,8 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
         struct number offset = times(number_of(m->offset[i], 0), zoom);
         m->offset[i] = offset.e > 30 ? 0
-                  : offset.e < 0  ? (offset.e < -31 ? 0 : offset.m >> -offset.e)
-                               : (int64_t)offset.m * ((int64_t)1 << offset.e);
+                     : offset.e < 0  ? (offset.e < -31 ? 0 : offset.m >> -offset.e)
+                                     : (int64_t)offset.m * ((int64_t)1 << offset.e);
     }
 }
 

@@ -140,7 +140,7 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
     struct wide_sum sum = { 0, 0, 0, 0 };
     int32_t taps = g->taps | 1;         /* one of them is the pixel itself */
     wide_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1),
-            g->settings->linear);
+             g->settings->linear);
     for (int32_t i = 0; i < taps; i++) {
         if (2 * i == taps - 1)
             continue;
@@ -258,10 +258,10 @@ uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const s
             int32_t noise = (int32_t)noise_of(inner) - 32768;
             taken += (uint32_t)g.taps;
             out[x - x0] = settings->weights == SMEAR_WEIGHTS_MCGUIRE
-                        ? gather_mcguire(&g, at, x, y - rows->first, top, length, noise)
+                            ? gather_mcguire(&g, at, x, y - rows->first, top, length, noise)
                         : settings->weights == SMEAR_WEIGHTS_GUERTIN
-                        ? gather_guertin(&g, at, x, y - rows->first, top, length, noise)
-                        : gather_jimenez(&g, at, x, y - rows->first, top, length, noise);
+                            ? gather_guertin(&g, at, x, y - rows->first, top, length, noise)
+                            : gather_jimenez(&g, at, x, y - rows->first, top, length, noise);
         }
     }
     return taken;

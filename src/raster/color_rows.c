@@ -115,7 +115,7 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
 }
 
 static void draw_run(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
-                       const struct span_side *side)
+                     const struct span_side *side)
 {
     struct shade k;
     if (s->perspective_color) {

@@ -69,7 +69,7 @@ static SMEAR_NOINLINE void draw_cutout(const struct setup *s, struct span *p, sm
 
 /* Pixels [p->a, p->b), which lie in one slope of the depth code and within the target's columns. */
 static inline void draw_run(const struct setup *s, struct span *p, const struct row *r,
-                              enum depth_slope slope, int32_t units, smear_span_fn *write)
+                            enum depth_slope slope, int32_t units, smear_span_fn *write)
 {
     const struct smear_raster_target *t = s->target;
     p->at = r->window + p->a;
@@ -90,7 +90,7 @@ static inline void draw_run(const struct setup *s, struct span *p, const struct 
 
 /* The depth code's break lies within the span: draws up to the first pixel beyond it. Returns that pixel. */
 static SMEAR_NOINLINE int32_t draw_to_break(const struct setup *s, struct span *p, const struct row *r,
-                                           int32_t units, smear_span_fn *write)
+                                            int32_t units, smear_span_fn *write)
 {
     enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
     int32_t a = p->a, b = p->b;

@@ -25,7 +25,8 @@ struct curve {
     int32_t at, dx, dy, dxx, dxy, dyy;
 };
 
-enum depth_slope {          /* smear.h, smear_depth_units */
+/* smear.h, smear_depth_units */
+enum depth_slope {
     SLOPE_FAR,              /* code = units */
     SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
     SLOPE_BOTH

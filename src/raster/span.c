@@ -178,7 +178,7 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
 
 /* Interpolated colours without a texture. */
 static void shade_untextured(uint32_t *out, const struct setup *s, const struct span *p, const struct block *k,
-                     int32_t n)
+                             int32_t n)
 {
     uint32_t c[4], d[4];
     channels_at(s, p, k, c, d);

@@ -67,7 +67,7 @@ struct texcoord {
  * Along a row u'' = -2 u' q'/q: with the chord's step d and b = d q'/q, the parabola from the chord's start
  * to its end has steps from d + b (n - 1) on, each 2 b less. */
 SMEAR_INLINE struct texcoord texcoord_between(const struct texture_setup *t, struct place from, struct place to,
-                                          int32_t n, bool turns)
+                                              int32_t n, bool turns)
 {
     const int up = t->up;
     struct texcoord c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
@@ -92,7 +92,7 @@ SMEAR_INLINE struct texcoord texcoord_between(const struct texture_setup *t, str
 
 /* Where polynomials hold: from pixel (x, y) on. */
 static inline struct texcoord texcoord_curved(const struct texture_setup *t, const struct smear_sampler *m,
-                                          int32_t x, int32_t y)
+                                              int32_t x, int32_t y)
 {
     uint32_t word[2][3];
     x -= t->x0;

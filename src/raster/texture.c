@@ -80,8 +80,8 @@ static uint32_t mix_texels(uint32_t a, uint32_t b, uint32_t weight, bool linear)
     for (int shift = 0; shift < 32; shift += 8) {
         uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
         uint32_t c = linear && shift < 24
-            ? smear_srgb_encode[(smear_srgb_decode[ca] * rest + smear_srgb_decode[cb] * weight) >> 12]
-            : (ca * rest + cb * weight + 128u) >> 8;
+                       ? smear_srgb_encode[(smear_srgb_decode[ca] * rest + smear_srgb_decode[cb] * weight) >> 12]
+                       : (ca * rest + cb * weight + 128u) >> 8;
         result |= c << shift;
     }
     return result;

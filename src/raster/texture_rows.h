@@ -54,6 +54,6 @@ struct row_run {
 /* Finds the next run of a row after pixel a: within the target's columns and one slope of the depth
  * code. False when there is none. Writes its velocities. */
 bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row,
-                      int32_t a);
+                        int32_t a);
 
 #endif

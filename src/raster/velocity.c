@@ -93,7 +93,7 @@ void smear_setup_velocity(struct setup *s)
     const uint32_t longest = in_front ? find_displacements(s, dx, dy) : 0;
     /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
     s->velocity_affine = in_front
-        && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
+                      && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
     /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
      * depths change, pixels may go further than their vertices. */
     s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21

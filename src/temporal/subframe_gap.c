@@ -171,7 +171,7 @@ static SMEAR_RARE void average_wide(const struct subframes *f, const struct stre
             continue;
         for (int i = 0; i < 3; i++)
             mean[i] = wide_mean_of(&m, gap_sum(f->sum[i], at, gap, s->pairs, taps)
-                              + light_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
+                                           + light_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
         *out = linear ? pixel_make(0, smear_srgb_encode[mean[0] >> 4], smear_srgb_encode[mean[1] >> 4],
                                    smear_srgb_encode[mean[2] >> 4])
                       : pixel_make(0, mean[0], mean[1], mean[2]);

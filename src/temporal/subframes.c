@@ -147,7 +147,7 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
 }
 
 static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
-                  const struct smear_raster_target *target, struct pixel_box *all)
+                             const struct smear_raster_target *target, struct pixel_box *all)
 {
     for (uint32_t i = f->moving_listed; i < f->all_listed; i++)
         blend_one(f, f->listed[i], time, pass, target, all);

@@ -127,8 +127,8 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
     } else {
         choice->method = TILE_SUBFRAMES;
         choice->instants = chooser->method != SMEAR_AUTO
-                         ? instants_for(tile, chooser->samples)
-                         : min_i32(auto_instants(preset_of(chooser->target), chooser, tile), INSTANTS_MAX);
+                             ? instants_for(tile, chooser->samples)
+                             : min_i32(auto_instants(preset_of(chooser->target), chooser, tile), INSTANTS_MAX);
     }
 }
 

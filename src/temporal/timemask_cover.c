@@ -170,7 +170,7 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     x->slack = (part << c->samples_log2 >> 1) + (abs_i32(x->bow) << c->samples_log2 >> 2);
     /* Covered only where it is left after the start, entered before the end. */
     struct timemask_plane seen = leaves ? x->mean
-        : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
+                                        : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
     seen.at += (1 << (SAMPLE_Q - 1 + c->samples_log2)) + x->slack;
     bound_add(c, &seen);
     return true;

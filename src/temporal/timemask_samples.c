@@ -3,7 +3,7 @@
 #include "temporal/timemask_samples.h"
 
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                int32_t samples_log2, bool linear)
+                                  int32_t samples_log2, bool linear)
 {
     size_t pixels = (size_t)1 << pixels_log2;
     b->any = (uint32_t *)memory;
@@ -214,7 +214,7 @@ void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, 
 }
 
 int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
-                                    int32_t stride)
+                                      int32_t stride)
 {
     const uint32_t all = UINT32_MAX >> (32 - (1 << b->samples_log2));
     int32_t farthest = UINT16_MAX;

@@ -44,7 +44,7 @@ static inline size_t timemask_samples_bytes(uint32_t pixels)
 
 /* Over `memory` of that size, aligned for words. */
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                int32_t samples_log2, bool linear);
+                                  int32_t samples_log2, bool linear);
 
 /* Frees all entries. */
 void smear_timemask_samples_clear(struct timemask_samples *b);
@@ -68,11 +68,11 @@ static inline bool timemask_is_same(const struct timemask_samples *b, uint32_t a
 
 /* timemask_samples_add, where others have a say or entries run out. */
 void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel,
-                                  const struct timemask_fragment *f);
+                                    const struct timemask_fragment *f);
 
 /* `high`: code that is not exceeded. */
 SMEAR_INLINE void timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f,
-                                     int32_t high)
+                                       int32_t high)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
     int32_t farthest = b->farthest[pixel];
@@ -103,7 +103,7 @@ SMEAR_INLINE void timemask_samples_add(struct timemask_samples *b, uint32_t pixe
 /* Depth code at or beyond which nothing new is seen in rows of `width`
  * pixels, `stride` apart: 0 while samples are free. */
 int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
-                                    int32_t stride);
+                                      int32_t stride);
 
 /* The pixel over the background's colour. */
 uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t background);

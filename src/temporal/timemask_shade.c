@@ -139,7 +139,7 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
         struct slopes start = slopes_of(&c->start, value[0]),
-                               end = slopes_of(&c->end, value[2]);
+                      end = slopes_of(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
         change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;

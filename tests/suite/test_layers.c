@@ -194,7 +194,7 @@ static int keep_band(void *user, const smear_band *band)
 
 static smear_desc desc_of(uint32_t *out)
 {
-    return (smear_desc){ .width = W, .height = H, .reach = REACH, .tile = TILE, .format = SMEAR_XRGB8888, 
+    return (smear_desc){ .width = W, .height = H, .reach = REACH, .tile = TILE, .format = SMEAR_XRGB8888,
                          .methods = SMEAR_SET_LAYERS, .flush = keep_band, .user = out };
 }
 

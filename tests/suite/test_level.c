@@ -191,7 +191,7 @@ static void compare(const smear_desc *desc, uint8_t method, uint8_t light, int k
 
 static smear_desc desc_of_all(void)
 {
-    return (smear_desc){ .width = 64, .height = 48, .reach = 8, .max_triangles = 400, .max_draws = 2, 
+    return (smear_desc){ .width = 64, .height = 48, .reach = 8, .max_triangles = 400, .max_draws = 2,
                          .methods = SMEAR_SET_FILTERS | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_ACCUMULATE),
                          .format = SMEAR_XRGB8888 };
 }

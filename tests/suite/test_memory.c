@@ -72,7 +72,7 @@ static smear_desc pick_desc(uint16_t methods)
 
 #define VALUES(d) (d).width, (d).height, (d).max_triangles, (d).max_draws, (d).methods, (d).tile, (d).reach, (d).strip, \
     (d).band_rows, (d).bands, (d).format, (d).workers, (d).vertex_cache, (d).reuse.cache_static, (d).reuse.buffer_age, \
-    (d).filter.passes, (d).filter.scatter
+                  (d).filter.passes, (d).filter.scatter
 
 static void describe(const smear_desc *d, size_t room, size_t need)
 {

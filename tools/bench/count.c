@@ -154,7 +154,8 @@ static bool same_rig(const struct take *a, const struct take *b)
     return strcmp(a->scene, b->scene) == 0 && a->width == b->width && a->height == b->height
         && a->windowed == b->windowed && a->band_rows == b->band_rows
         && a->format == b->format && a->method == b->method && a->samples == b->samples
-        && a->reconstruct == b->reconstruct && a->plain == b->plain && a->target == b->target && a->reach == b->reach && a->filter == b->filter
+        && a->reconstruct == b->reconstruct && a->plain == b->plain
+        && a->target == b->target && a->reach == b->reach && a->filter == b->filter
         && a->camera_step == b->camera_step && a->weights == b->weights
         && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0 && a->shutter_poses == b->shutter_poses
         && a->workers == b->workers && a->texels_565 == b->texels_565 && a->fit_grid == b->fit_grid

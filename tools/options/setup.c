@@ -26,7 +26,7 @@ static unsigned method_set(const struct render_options *o)
     if (o->method == SMEAR_AUTO)
         return SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT);
     return SMEAR_SET(o->method)
-           | (has_kind && o->filter == SMEAR_FILTER_PINGPONG ? SMEAR_SET(SMEAR_PINGPONG) : 0u);
+         | (has_kind && o->filter == SMEAR_FILTER_PINGPONG ? SMEAR_SET(SMEAR_PINGPONG) : 0u);
 }
 
 /* What --motion and --mask say of each draw. */
