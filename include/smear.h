@@ -9,30 +9,42 @@
  * SMEAR_ACCUMULATE and what you ask to be cached), no scene graph, no clock. It never reads the display back.
  *
  *     #include <smear.h>
- *     #include <smear_memory.h>
- *     #include <smear_math.h>
+ *     #include <smear_math.h>                             // SMEAR_Q16, smear_perspective, smear_rotate_y ...
+ *     #include <smear_memory.h>                           // SMEAR_MEMORY_WORDS, SMEAR_DESC
  *
- *     #define SCREEN 240, 240, 600, 8         // width, height, triangles, draws
+ *     #define SCREEN 240, 240, 600, 8                     // width, height, triangles, draws
  *     static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
+ *     static const int16_t corner[] = { -1, -1, 0,  1, -1, 0,  0, 1, 0 };
+ *     static const uint16_t side[] = { 0, 1, 2 };
+ *     static smear_mesh mesh;                             // zero: the default of every field
+ *     static smear_frame frame;
+ *     static smear_draw draw;
  *
- *     static int flush(void *user, const smear_band *band) { ...send band->pixels...; return 0; }
+ *     static int flush(void *user, const smear_band *band)
+ *     {
+ *         ...send band->size bytes from band->pixels to rows band->y and below of the panel...
+ *         return 0;
+ *     }
  *
- *     smear_desc desc = SMEAR_DESC(SCREEN);
- *     desc.format = SMEAR_RGB565;
- *     desc.flush = flush;
- *     smear_context *ctx;
- *     int result = smear_init(&ctx, &desc, memory, sizeof memory);
- *     if (result != SMEAR_OK)
- *         log(smear_error_text(result));
- *
- *     smear_camera camera = smear_perspective(SMEAR_DEGREES(45), SMEAR_Q16(0.1), SMEAR_Q16(100));
- *     smear_frame frame = { &camera };
- *     for (;;) {
- *         smear_transform pose = ...where the cube is now...;
- *         smear_draw draw = { 1, &cube, &red, &pose };    // id, mesh, material, now
- *         smear_begin(ctx, &frame);
- *         smear_submit(ctx, &draw);
- *         smear_render(ctx);                              // bands come to flush()
+ *     int main(void)
+ *     {
+ *         smear_context *ctx;
+ *         smear_desc desc = SMEAR_DESC(SCREEN);
+ *         desc.format = SMEAR_RGB565;
+ *         desc.flush = flush;
+ *         int result = smear_init(&ctx, &desc, memory, sizeof memory);
+ *         smear_camera camera = smear_perspective(SMEAR_DEGREES(45), SMEAR_Q16(0.1), SMEAR_Q16(100));
+ *         frame.camera = &camera;
+ *         mesh.position = corner, mesh.vertex_count = 3, mesh.index = side, mesh.triangle_count = 1;
+ *         draw.id = 1, draw.mesh = &mesh;                 // the id tells where it was a frame ago
+ *         for (int n = 0; result == SMEAR_OK; n++) {
+ *             smear_transform pose = smear_move(n * SMEAR_Q16(0.1), 0, SMEAR_Q16(-6));
+ *             draw.now = &pose;
+ *             smear_begin(ctx, &frame);
+ *             smear_submit(ctx, &draw);
+ *             result = smear_render(ctx);                 // bands come to flush()
+ *         }
+ *         puts(smear_error_text(result));
  *     }
  *
  * Numbers. Q16.16 is an int32_t holding value x 65536; a basis is Q8.24. smear_math.h makes both from constants and
@@ -41,7 +53,10 @@
  *
  * Zero in an optional field means the default, which is the best picture in the least memory that is not slow, so
  * `= {0}` is a good start for every struct. Functions return SMEAR_OK or a negative number, of which smear_error_text
- * says what is wrong; a context stays usable after any error. */
+ * says what is wrong; a context stays usable after any error.
+ *
+ * Where to find what: smear_desc, what a context is made for; smear_frame, how a frame is seen and blurred; smear_draw,
+ * smear_mesh, smear_material, what is drawn; smear_method, the ways to blur; the functions come last. */
 #ifndef SMEAR_H
 #define SMEAR_H
 
@@ -58,8 +73,8 @@ extern "C" {
 #define SMEAR_VERSION_MINOR 2
 #define SMEAR_VERSION_PATCH 0
 
-/* What a function returns. An argument that is wrong has a number of its own, SMEAR_ERR_FIELD or less, which says which
- * field of what it is: smear_error_text puts it in words, smear_error_kind tells the kinds below apart. */
+/* What a function returns. Each field that may be wrong has a number of its own, SMEAR_ERR_FIELD or less:
+ * smear_error_text puts it in words, smear_error_kind makes SMEAR_ERR_ARG of it. */
 typedef enum smear_result {
     SMEAR_OK         =  0,
     SMEAR_ERR_ARG    = -1,      /* a required argument is missing, or a value is outside its stated range */
@@ -74,8 +89,8 @@ static inline int smear_error_kind(int result)
     return result <= SMEAR_ERR_FIELD ? (int)SMEAR_ERR_ARG : result;
 }
 
-/* One sentence without a full stop, as in "desc.width: not 1 to 2048 pixels"; never null. Where SMEAR_WITH_ERROR_TEXT
- * is 0 it is short and always the same. */
+/* Returns a sentence without a full stop, as "desc.width: not 1 to 2048 pixels"; never null. Where SMEAR_WITH_ERROR_TEXT
+ * is 0 it is short and does not name the field. */
 const char *smear_error_text(int result);
 
 /* ------------------------------------------------------------------ geometry */
@@ -172,7 +187,7 @@ typedef enum smear_motion {
 typedef enum smear_billboard {
     SMEAR_BILLBOARD_NONE,
     SMEAR_BILLBOARD_FACING,     /* its basis is relative to the camera's */
-    SMEAR_BILLBOARD_UPRIGHT     /* the same, turned about the world's y only */
+    SMEAR_BILLBOARD_UPRIGHT     /* as FACING, but turned about the world's y only */
 } smear_billboard;
 
 /* One mesh in one place. Transforms are copied by smear_submit; what else is pointed to is read until smear_render
@@ -270,7 +285,7 @@ typedef struct smear_pingpong {
                                  * of their spacing to either side */
     uint8_t bias;               /* a tap nearer than its pixel by more than so many 1/256 of the distance is
                                  * left out. 255: none is. 0 means 255, with `spread` 16 */
-    uint8_t spread;             /* 1: moving things spread over what is still: tile maxima tell
+    uint8_t spread;             /* 1: moving things spread over what is static: tile maxima tell
                                  * a pixel what may come over it */
 } smear_pingpong;
 
@@ -283,7 +298,7 @@ enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 /* How the exposure follows the time from frame to frame, smear_shutter.frame_us. */
 typedef enum smear_shutter_mode {
     SMEAR_SHUTTER_NATIVE,       /* `degrees` of the frame time */
-    SMEAR_SHUTTER_CAPPED,       /* the same, but never more than at reference_hz: frames
+    SMEAR_SHUTTER_CAPPED,       /* as NATIVE, but never more than at reference_hz: frames
                                  * that come late do not smear more */
     SMEAR_SHUTTER_FIXED         /* `degrees` at reference_hz, whatever the frame time
                                  * is: streaks keep their length */
@@ -300,7 +315,7 @@ typedef enum smear_light_space { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear
 
 /* Departures of SMEAR_RECONSTRUCT from the Post Processing Stack v2 filter, or-ed together. */
 enum {
-    SMEAR_FENCE     = 1,    /* a still pixel takes nothing from behind: keeps the edges of still foreground */
+    SMEAR_FENCE     = 1,    /* a static pixel takes nothing from behind: keeps the edges of static foreground */
     SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
     SMEAR_BOX       = 4,    /* box shutter instead of the tent */
     SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
@@ -317,7 +332,7 @@ typedef enum smear_weights {
     SMEAR_WEIGHTS_JIMENEZ       /* Jimenez 2014: the weights are an alpha, hidden sides are mirrored */
 } smear_weights;
 
-/* A set of draws that is blurred on its own and merged over what is still, for SMEAR_OBJECT
+/* A set of draws that is blurred on its own and merged over what is static, for SMEAR_OBJECT
  * and SMEAR_LAYERED. A draw is in the first of the frame's layers whose mask shares a bit
  * with smear_draw.layers; in none, it is as SMEAR_NONE draws it, bit for bit where no
  * streak passes over it. So is what does not move. */
@@ -325,10 +340,10 @@ typedef struct smear_layer {
     uint8_t mask;               /* bits of smear_draw.layers; required */
     uint8_t method;             /* SMEAR_OBJECT, SMEAR_LAYERED, or SMEAR_NONE: sharp; 0: the frame's */
     uint8_t over;               /* 1: over all before it in the frame's list and all that is
-                                 * still, whatever the depths are */
+                                 * static, whatever the depths are */
     uint8_t two_camera;         /* 1: SMEAR_OBJECT as two cameras do it: what moves along one
                                  * velocity, that of the layer's first draw, in `samples` taps (up
-                                 * to 64), over all that is still */
+                                 * to 64), over all that is static */
     uint16_t shutter_degrees;   /* 1..3600; 0: the frame's */
     const smear_camera *camera; /* its own: a cockpit, a weapon, a display in the view;
                                  * implies `over`. Null: the frame's */
@@ -439,7 +454,7 @@ typedef struct smear_band {
  * a refused band needs no smear_band_done(). */
 typedef int smear_flush_fn(void *user, const smear_band *band);
 
-/* Looked at by tests and tools: a drawn row before the blur. depth: codes, see smear_depth_units().
+/* Shows a drawn row before the blur to tests and tools. depth: codes, see smear_depth_units().
  * velocity: x y of each pixel in 1/256 px per frame, before any clamp or packing. */
 typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const uint16_t *depth,
                               const int32_t *velocity);
@@ -580,7 +595,7 @@ void smear_band_done(smear_context *ctx);
  * waits for all of them. */
 void smear_work(smear_context *ctx, int worker);
 
-/* Of the last frame that was rendered. */
+/* Copies the statistics of the last frame that was rendered. */
 void smear_get_stats(const smear_context *ctx, smear_stats *stats);
 
 /* ------------------------------------------------------------------ the filter alone */

@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-/* Of the tables below and of blobs; a header made for another version does not compile. */
+/* The version of the tables below and of blobs; a header made for another version does not compile. */
 #define SMEAR_MODEL_FORMAT 1
 
 /* ------------------------------------------------------------------ tables */
@@ -178,7 +178,7 @@ enum {
  * without reading or writing outside of it. SMEAR_OK or why not. */
 int smear_mesh_check(const void *blob, size_t bytes);
 
-/* The same in words, in English; "" for SMEAR_OK. */
+/* Returns the result in words, in English; "" for SMEAR_OK. */
 const char *smear_mesh_reason(int error);
 
 /* Bytes of the tables with pointers that smear_model_open builds; 0 for what smear_mesh_check refuses. */
