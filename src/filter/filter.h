@@ -15,7 +15,7 @@ struct smear_blur_settings {
     bool linear;                /* average linear light, else codes */
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
-    bool dense;                 /* plain means take a tap per pixel of the travel, not one per two */
+    bool dense;                 /* unweighted means take a tap per pixel of the travel, not one per two */
     bool held;                  /* something stays where it is in front of a moving camera: it must not be mixed in */
     uint8_t flags;              /* SMEAR_FENCE | ... */
     uint8_t weights;            /* smear_weights */
@@ -64,8 +64,8 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
                                 const struct smear_row_table *rows, int32_t row, int32_t column,
                                 const struct smear_blur_settings *settings);
 
-/* Takes the plain mean along each pixel's own velocity, for tiles in whose reach all motion is alike or changes without
- * a step. */
+/* Takes the unweighted mean along each pixel's own velocity, for tiles in whose reach all motion is alike or changes
+ * without a step. */
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* gather.h - what filters that gather pixels share: vectors, weighed sums, plain sums. */
+/* gather.h - what filters that gather pixels share: vectors, weighed sums, sums of even weight. */
 #ifndef SMEAR_GATHER_H
 #define SMEAR_GATHER_H
 
@@ -41,16 +41,16 @@ SMEAR_INLINE void weighed_add(struct weighed_sum *s, uint32_t pixel, uint32_t we
     s->weight += weight;
 }
 
-/* ------------------------------------------------------------------ plain sums */
+/* ------------------------------------------------------------------ even sums */
 
 /* Sums of pixels of equal weight. Of codes, red_blue has red and blue side by side and `all` the three channels, so
  * that their difference is green, times 256. */
-struct plain_sum {
+struct even_sum {
     uint32_t r, g, b;           /* linear light */
     uint32_t all, red_blue;     /* codes */
 };
 
-SMEAR_INLINE void plain_add(struct plain_sum *s, uint32_t pixel, bool linear)
+SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, bool linear)
 {
     if (linear) {
         s->r += smear_srgb_decode[pixel_red(pixel)];
@@ -64,7 +64,7 @@ SMEAR_INLINE void plain_add(struct plain_sum *s, uint32_t pixel, bool linear)
 
 /* Returns the mean of n pixels, n at most 256; `over` is 2^24 / n, rounded up: sums stay below 2^24 n, and equal pixels
  * keep their value. */
-SMEAR_INLINE uint32_t plain_mean(const struct plain_sum *s, uint32_t over, bool linear)
+SMEAR_INLINE uint32_t even_mean(const struct even_sum *s, uint32_t over, bool linear)
 {
     if (linear)
         return pixel_make(0, smear_srgb_encode[mulh_u32(s->r << 8, over) >> 4],

@@ -29,17 +29,17 @@ SMEAR_INLINE uint32_t mean_along(const uint32_t *color, const uint32_t *row_offs
     int32_t dx = taps->first_x, dy = taps->first_y;
     x = (x << 16) + 0x8000;
     y = (y << 16) + 0x8000;
-    struct plain_sum sum = { 0, 0, 0, 0, 0 };
+    struct even_sum sum = { 0, 0, 0, 0, 0 };
     for (int32_t i = n; i > 0; i -= 2, dx += taps->step_x, dy += taps->step_y) {
         int32_t left = (x - dx) >> 16, other = (x + dx) >> 16;
         if (edge) {
             left = clamp_i32(left, 0, right);
             other = clamp_i32(other, 0, right);
         }
-        plain_add(&sum, color[row_offset[(y - dy) >> 16] + (uint32_t)left], linear);
-        plain_add(&sum, color[row_offset[(y + dy) >> 16] + (uint32_t)other], linear);
+        even_add(&sum, color[row_offset[(y - dy) >> 16] + (uint32_t)left], linear);
+        even_add(&sum, color[row_offset[(y + dy) >> 16] + (uint32_t)other], linear);
     }
-    return plain_mean(&sum, over, linear);
+    return even_mean(&sum, over, linear);
 }
 
 /* Takes the mean where things that move with the camera may be in front: a tap that meets one, static and nearer,
@@ -121,5 +121,5 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
     if (SMEAR_WITH_LINEAR && settings->linear)
         return mean_tile(out, w, rows, column, n, true, held, true);
     return edge || held ? mean_tile(out, w, rows, column, n, false, held, true)
-                                  : mean_tile(out, w, rows, column, n, false, false, false);
+                        : mean_tile(out, w, rows, column, n, false, false, false);
 }

@@ -25,7 +25,7 @@ struct smear_clip_vertex {
 /* A triangle cut by six planes has at most nine corners. Cut in three poses it may have more, but hardly ever has. */
 #define SMEAR_CLIP_MAX (SMEAR_WITH_SUBFRAMES ? 12 : 9)
 
-/* A cut makes two corners before those outside it are given up; one that rounding bent makes a few more. */
+/* A cut makes two corners before those outside it are given up; one whose edges rounding moved makes a few more. */
 #define SMEAR_CLIP_ROOM (SMEAR_CLIP_MAX + 4)
 
 /* A convex polygon: its corners are vertex[order[0]], vertex[order[1]] ... Behind them `order` names the vertices

@@ -74,8 +74,8 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
         s->motion = (uint8_t)at;
         at += PATH_WORDS;
     }
-    const bool plain = !d->shading.lit && d->shading.white && mesh->face_color == NULL && mesh->color == NULL;
-    s->shade = per_vertex ? SHADE_GOURAUD : textured && plain ? SHADE_NONE : SHADE_FLAT;
+    const bool unshaded = !d->shading.lit && d->shading.white && mesh->face_color == NULL && mesh->color == NULL;
+    s->shade = per_vertex ? SHADE_GOURAUD : textured && unshaded ? SHADE_NONE : SHADE_FLAT;
     s->flat = assembly_is_flat(d);
     s->flat_depth = is_orthographic(&d->at.now);
     s->stride = (uint8_t)at;
@@ -175,7 +175,7 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
 }
 
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
-                              const struct smear_face *face)
+                          const struct smear_face *face)
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
@@ -194,7 +194,7 @@ static uint32_t channel_code(const struct smear_segment *s, const int32_t *recor
 }
 
 bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                        bool linear)
+                             bool linear)
 {
     if (s->shade != SHADE_GOURAUD || s->uv != 0)
         return false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* vertex.h - what both assemblers share: a draw on its way into the store, its vertex records, its faces. */
+/* vertex.h - what both assemblers share: a draw that is assembled, its vertex records, its faces. */
 #ifndef SMEAR_VERTEX_H
 #define SMEAR_VERTEX_H
 
@@ -210,7 +210,7 @@ static inline void assembly_find_flat(struct smear_assembly *d)
 {
     if (SMEAR_FIND_FLAT)
         d->flat = d->material->alpha == SMEAR_OPAQUE && !shading_is_linear(&d->shading)
-                && smear_vertex_is_flat(d->mesh, d->shading.lit);
+               && smear_vertex_is_flat(d->mesh, d->shading.lit);
 }
 
 /* Starts a segment for more records of this draw; null when the table is full. */
@@ -232,7 +232,7 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
 
 /* Finds the colour of three stored vertices. Returns false unless they have one, or nearly, and no texture. */
 bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                        bool linear);
+                             bool linear);
 
 /* ------------------------------------------------------------------ faces */
 
@@ -256,7 +256,7 @@ static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t 
 }
 
 static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
-                       const struct smear_screen *c)
+                              const struct smear_screen *c)
 {
     return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
 }

@@ -143,17 +143,17 @@ void smear_groups_end(struct smear_layers *l, uint32_t draw_count)
         l->group[i].end = 0;
     }
     /* Draws by groups, those of none first: `end` counts, then tells where the next draw of a group goes. */
-    uint32_t still = 0;
+    uint32_t ungrouped = 0;
     for (uint32_t i = 0; i < draw_count; i++) {
         if (l->group_of[i] == SMEAR_NO_GROUP)
-            l->sequence[still++] = (uint16_t)i;
+            l->sequence[ungrouped++] = (uint16_t)i;
         else
             l->group[l->group_of[i]].end++;
     }
     for (uint32_t i = 0; i < l->group_count; i++) {
         uint32_t count = l->group[i].end;
-        l->group[i].end = still;
-        still += count;
+        l->group[i].end = ungrouped;
+        ungrouped += count;
     }
     for (uint32_t i = 0; i < draw_count; i++)
         if (l->group_of[i] != SMEAR_NO_GROUP)

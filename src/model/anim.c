@@ -64,8 +64,8 @@ static void compose(smear_transform *out, const smear_transform *parent, const s
         for (int j = 0; j < 3; j++)
             out->basis[3 * i + j] = within_factor(row_times(row, local->basis[j], local->basis[3 + j],
                                                             local->basis[6 + j]));
-        const int32_t way = row_times(row, local->origin[0], local->origin[1], local->origin[2]);
-        out->origin[i] = within_factor(add_wrap(parent->origin[i], way));
+        const int32_t offset = row_times(row, local->origin[0], local->origin[1], local->origin[2]);
+        out->origin[i] = within_factor(add_wrap(parent->origin[i], offset));
     }
 }
 

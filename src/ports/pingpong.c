@@ -49,7 +49,7 @@ static const uint32_t share[65] = {
 enum { EDGE = 256 };
 
 /* Returns the mean of 2^shift taps, where `all` began with 0x010101 halves of that, `red_blue` with 0x010001. */
-SMEAR_INLINE uint32_t mean_shift(const struct plain_sum *s, int shift, bool linear)
+SMEAR_INLINE uint32_t mean_shift(const struct even_sum *s, int shift, bool linear)
 {
     if (linear)
         return pixel_make(0, smear_srgb_encode[s->r >> (shift + 4)], smear_srgb_encode[s->g >> (shift + 4)],
@@ -132,12 +132,12 @@ static SMEAR_NOINLINE void limit_choose(struct passing *p, uint32_t code)
 }
 
 /* Returns the mean where not all taps count, or not 2^n of them. */
-static SMEAR_NOINLINE uint32_t mean_of_some(struct plain_sum *s, uint32_t count, const struct taps *t, uint32_t own,
+static SMEAR_NOINLINE uint32_t mean_of_some(struct even_sum *s, uint32_t count, const struct taps *t, uint32_t own,
                                             bool linear)
 {
     s->all -= t->all;
     s->red_blue -= t->red_blue;
-    return count != 0 ? plain_mean(s, share[count], linear) : own;
+    return count != 0 ? even_mean(s, share[count], linear) : own;
 }
 
 /* Returns the mean of a pixel's taps without those in front of it. `place` is the first one: its column in the frame
@@ -149,7 +149,7 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
     const uint16_t *depth = p->depth;
     const int32_t right = p->w->width - 1;
     const uint64_t step = t->step;
-    struct plain_sum s = { 0, 0, 0, t->all, t->red_blue };
+    struct even_sum s = { 0, 0, 0, t->all, t->red_blue };
     uint32_t count = 0;
     int32_t i = t->count;
     do {
@@ -158,14 +158,14 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
             column = (uint32_t)clamp_i32((int32_t)column - EDGE, 0, right);
         uint32_t tap = row[place >> 48] + column;
         if (depth[tap] <= limit) {
-            plain_add(&s, in[tap], linear);
+            even_add(&s, in[tap], linear);
             count++;
         }
         place += step;
     } while (--i != 0);
     if (count == (uint32_t)t->count && t->shift >= 0)
         return mean_shift(&s, t->shift, linear);
-    struct plain_sum some = s;
+    struct even_sum some = s;
     return mean_of_some(&some, count, t, in[at], linear);
 }
 
@@ -183,7 +183,7 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
     int32_t code = w->depth[at], limit = (int32_t)p->limit, behind = max_i32(2 * code - limit, 0);
     int32_t own_square = own.x * own.x + own.y * own.y;
     int32_t tx = (x << 16) + 0x8000 - half * step_x, ty = (y << 16) + 0x8000 - half * step_y;
-    struct plain_sum s = { 0, 0, 0, 0, 0 };
+    struct even_sum s = { 0, 0, 0, 0, 0 };
     for (int32_t i = -half; i <= half; i += 2, tx += 2 * step_x, ty += 2 * step_y) {
         uint32_t tap = p->row[ty >> 16] + (uint32_t)clamp_i32(tx >> 16, 0, right);
         struct smear_pixel_velocity v = window_velocity(w, tap);
@@ -193,9 +193,9 @@ static SMEAR_NOINLINE uint32_t gather_spread(const struct passing *p, uint32_t a
         int32_t square = dx * dx + dy * dy;
         bool comes = w->depth[tap] >= behind && v.x * v.x + v.y * v.y >= square;
         bool goes = w->depth[tap] <= limit && own_square >= square;
-        plain_add(&s, p->in[comes || goes ? tap : at], linear);
+        even_add(&s, p->in[comes || goes ? tap : at], linear);
     }
-    return plain_mean(&s, share[p->pass->taps], linear);
+    return even_mean(&s, share[p->pass->taps], linear);
 }
 
 /* ------------------------------------------------------------------ a tile */
