@@ -15,10 +15,10 @@
     X(DESC_TILE, "desc.tile: not 8 to 64 (some methods: 4), a power of two, or below reach") \
     X(DESC_REACH, "desc.reach: not 1 to 64") \
     X(DESC_STRIP, "desc.strip: not 1 to 64 tiles") \
-    X(DESC_BAND_ROWS, "desc.band_rows: below 2, not 8 n for OLED pages, or does not fit the tile") \
+    X(DESC_BAND_ROWS, "desc.band_rows: below 2, or not what pages or tiles take") \
     X(DESC_BANDS, "desc.bands: above 2") \
     X(DESC_FORMAT, "desc.format: unknown here") \
-    X(DESC_WORKERS, "desc.workers: above 8, or above 1 in this build or call") \
+    X(DESC_WORKERS, "desc.workers: above 8, or above 1 here") \
     X(DESC_VERTEX_CACHE, "desc.vertex_cache: not 16 to 4096, a power of two") \
     X(DESC_CACHE_STATIC, "desc.reuse.cache_static: above 1, or no method can") \
     X(DESC_BUFFER_AGE, "desc.reuse.buffer_age: above 7, or no method can") \
@@ -52,7 +52,7 @@
     X(FRAME_ROTATION, "frame.scale.rotation: above 16128, or not compiled in") \
     X(FRAME_TRANSLATION, "frame.scale.translation: as rotation") \
     X(FRAME_OBJECT, "frame.scale.object: as rotation") \
-    X(FRAME_LAYER, "frame.layer: too many, no mask, or a bad method, camera or shutter") \
+    X(FRAME_LAYER, "frame.layer: too many, or one out of range") \
     X(DRAW_ID, "draw.id: twice in this frame, or not compiled in") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
     X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \
