@@ -3,7 +3,7 @@
  * (cover.c), and what is kept of those that go on in the next rows. */
 #include "raster/raster.h"
 
-#include "raster/cover.h"
+#include "raster/cover_tiny.h"
 #include "raster/span.h"
 
 /* ------------------------------------------------------------------ a triangle */
@@ -102,7 +102,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         if (cover_is_tiny(s, pixels)) {
             if (entry != NULL)
                 entry->triangle = SMEAR_NO_TRIANGLE;
-            smear_cover_tiny(s, (int32_t)area, &box);
+            cover_tiny(s, (int32_t)area, &box);
             return;
         }
         smear_setup(s, area);
