@@ -5,7 +5,7 @@
 #include "geometry/assemble_path.h"
 #include "layers/groups.h"
 
-/* The frame has blurred layers. */
+/* Whether the frame has blurred layers. */
 static inline bool has_layers(const struct smear_context *c)
 {
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
@@ -25,7 +25,7 @@ static void poses_of(struct smear_draw_poses *p, const struct smear_context *c, 
     smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, layer_camera(c, i));
 }
 
-/* Where velocities come from depth: whether a draw has one of its own, or stays where it is before the camera. */
+/* Finds, where velocities come from depth, whether a draw has one of its own, or stays where it is before the camera. */
 static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw_poses *p, uint8_t motion)
 {
     bool own = false, attached = true;
@@ -208,7 +208,7 @@ static bool static_is_disturbed(const struct smear_context *c)
 
 /* ------------------------------------------------------------------ assembling */
 
-/* Draws of a kind. */
+/* Which draws are assembled. */
 enum draws { DRAWS_ALL, DRAWS_MOVING, DRAWS_STATIC };
 
 static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
@@ -264,7 +264,7 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
 }
 
 #if SMEAR_FAST_STACK
-/* Assembles with what is worked on brought to the stack. */
+/* Assembles with the assembler's state on the stack, where that is faster. */
 static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant, bool drop)
 {
     enum { VERTICES = 64 };

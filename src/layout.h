@@ -6,8 +6,8 @@
 #include "base/arena.h"
 #include "context.h"
 
-/* Measures or cuts all that a context needs beside itself; `c` receives the pieces, or addresses without meaning while
- * measuring. d is valid, its defaults filled in. */
+/* Measures or cuts all that a context needs beside itself; `c` receives the addresses, which mean nothing while
+ * measuring. The desc is valid, its defaults filled in. */
 void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 
 #endif

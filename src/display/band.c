@@ -64,7 +64,7 @@ int smear_band_flush(const struct row_job *r)
     return result;
 }
 
-/* Row y of the frame: pixels of columns [x0, x1). */
+/* Converts columns [x0, x1) of row y of the frame. */
 static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;

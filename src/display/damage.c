@@ -24,7 +24,7 @@ static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
     h[1] = h1;
 }
 
-/* A pointer as two words. */
+/* Return the two words of a pointer. */
 static int32_t low(const void *p)
 {
     return (int32_t)(uint32_t)(uintptr_t)p;

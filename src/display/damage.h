@@ -19,19 +19,19 @@ struct smear_damage {
     struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
 };
 
-/* What is static need not be drawn: the window shows it. */
+/* Whether what is static need not be drawn: the window shows it. */
 static inline bool static_is_cached(const struct smear_damage *d)
 {
     return SMEAR_WITH_DAMAGE && d != NULL && d->caches && d->is_same;
 }
 
-/* Only damaged tiles are drawn and sent. */
+/* Whether only damaged tiles are drawn and sent. */
 static inline bool damage_has_tiles(const struct smear_damage *d)
 {
     return SMEAR_WITH_DAMAGE && d != NULL && d->tiles.tile != NULL;
 }
 
-/* Nothing shows it any longer: something else is drawn. */
+/* Forgets what is shown: something else is drawn. */
 static inline void damage_forget(struct smear_damage *d)
 {
     if (SMEAR_WITH_DAMAGE && d != NULL)
@@ -45,20 +45,21 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
 void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
 
-/* All rows have been drawn, or held. `disturbed`: triangles that move by less than a step of their vertices were drawn
+/* Ends a frame: all rows have been drawn or kept. `disturbed`: triangles that move by less than a step of their vertices were drawn
  * among what is static. */
 void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed);
 
-/* The next tiles beside each other that must be drawn and sent, of a row whose moving triangles are listed: from tile
- * `end` of the run before, or 0, on. False when there are no more. */
+/* Tiles [first, end) of a row. */
 struct smear_damage_run {
-    int first, end;                 /* [first, end) */
+    int first, end;
 };
 
+/* Finds the next tiles beside each other that must be drawn and sent, of a row whose moving triangles are listed: from
+ * tile `end` of the run before, or 0, on. False when there are no more. */
 bool smear_damage_next_run(const struct smear_damage *d, const struct smear_rows *rows, int row,
                            struct smear_damage_run *run);
 
-/* They have all been sent. */
+/* Notes that the row's damaged tiles have been sent. */
 void smear_damage_row_sent(struct smear_damage *d, const struct smear_rows *rows, int row);
 
 #endif

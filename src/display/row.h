@@ -52,7 +52,7 @@ static inline void stage_end(const struct smear_rows *rows, uint32_t *stage, uin
 
 /* ------------------------------------------------------------------ places */
 
-/* Pixel rows of a tile row. */
+/* Return the first pixel row of a tile row, and the end of its rows. */
 static inline int32_t row_top(const struct smear_rows *rows, int row)
 {
     return row * rows->bins.row_px;
@@ -63,7 +63,7 @@ static inline int32_t row_bottom(const struct smear_rows *rows, int row)
     return min_i32(row_top(rows, row) + rows->bins.row_px, rows->window.height);
 }
 
-/* Pixel columns of a tile. */
+/* Return the first pixel column of a tile, and the end of its columns. */
 static inline int32_t tile_left(const struct smear_rows *rows, int column)
 {
     return column << rows->window.tile_shift;

@@ -12,7 +12,7 @@
 
 #if SMEAR_WITH_RECONSTRUCT
 
-/* A tile row, or a part of it, on its way. */
+/* What the jobs of a tile row, or of a part of it, share. */
 struct filter_job {
     struct row_job row;
     struct smear_filtered *filtered;
@@ -124,7 +124,7 @@ static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int 
     return smear_blur_reconstruct(tile, w, &rows, row, column, &f->blur);
 }
 
-/* The tile at half the size, blended with the whole frame's. */
+/* Filters the tile at half the size and blends it with the whole frame's. Returns the samples taken. */
 static uint32_t filter_half(const struct filter_job *r, uint32_t *tile, int column, int worker)
 {
     const struct smear_filtered *f = r->filtered;

@@ -18,7 +18,7 @@
 
 #if SMEAR_WITH_LAYERS
 
-/* A tile row on its way. */
+/* What the jobs of a tile row share. */
 struct layers_row {
     struct row_job row;
     struct smear_layers *layers;
@@ -207,7 +207,7 @@ static void mark_tiles(const struct layers_row *r)
         w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
 }
 
-/* How far and along what the group is blurred. */
+/* Finds how far and along what the group is blurred. */
 static void set_streak(struct layers_row *r)
 {
     const struct smear_window *w = &r->row.rows->window;

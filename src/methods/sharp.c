@@ -67,8 +67,8 @@ bool smear_sharp_may_be_direct(const smear_desc *d, bool has_window)
         && (d->format == SMEAR_RGB565 || d->format == SMEAR_RGB565_SWAPPED);
 }
 
-/* Neither working pixels nor a conversion: a row's place in the band is its place in the window, which has no more
- * rows. */
+/* The display's own pixels are drawn, so nothing is converted. A row's place in the band is its place in the window,
+ * which has no more rows. */
 static void direct_job(void *argument, int job, int worker)
 {
     const struct row_job *r = (const struct row_job *)argument;

@@ -13,7 +13,7 @@
 
 #if SMEAR_WITH_SUBFRAMES
 
-/* A run of tiles of a row on its way. */
+/* What the jobs of a run of tiles of a row share. */
 struct finish {
     struct row_job row;
     struct smear_temporal *self;
@@ -113,7 +113,8 @@ static void widen(struct smear_tile_run *t, const struct finish *f, const struct
     t->last_column += t->background.x1 > t->x1;
 }
 
-/* Tiles beside each other share instants: as many as the one that needs most. */
+/* Draws tiles beside each other from `first` on, which share instants: as many as the one that needs most. Returns the
+ * first tile that is not among them. */
 static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
 {
     const struct smear_temporal *self = f->self;
@@ -153,7 +154,7 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
     hand_on(f, &t);
 }
 
-/* Tiles of the run in as many strips as the frame has. */
+/* Finishes the tiles of the run that lie in a strip. */
 static void finish_job(void *argument, int strip, int worker)
 {
     const struct finish *f = (const struct finish *)argument;

@@ -17,13 +17,13 @@ struct smear_step {
     int16_t x, y;
 };
 
-/* Bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
+/* Returns the bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
 size_t smear_subframes_work(int32_t width, int32_t height);
 
-/* The mean of `instants` (1 .. 1024) sharp instants at the middles of slots of equal weight. Still
- * opaque surfaces are taken from `still`; moving triangles and all blended draws are drawn at every instant.
- * `step`, one per tile, or null: what lies between instants is filled in along the way, where
- * nothing is blended. Returns the samples taken. */
+/* Writes the mean of `instants` (1 .. 1024) sharp instants, which stand in the middles of sub-intervals of equal weight.
+ * Static opaque surfaces come from the background; moving triangles and all blended draws are drawn at every instant.
+ * Where `step`, one per tile, is not null, gaps between instants are closed along it, unless something is blended there.
+ * Returns the samples taken. */
 uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
                                const struct smear_step *step);
 
