@@ -11,6 +11,7 @@ exr() {
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite includes $make -s layers
+suite house $make -s house
 suite build $make -s $jobs all build/host/run
 suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
