@@ -184,7 +184,7 @@ static void gather_light(const struct smear_streak_part *m, const struct line *l
             out[at] = sum;
             if (*in >> 24 != 0)
                 continue;
-            struct light p = light_of(*in);
+            struct light p = light_of_pixel(*in);
             sum = (struct light){ sum.r + p.r, sum.g + p.g, sum.b + p.b, sum.a + p.a };
         }
     }

@@ -63,7 +63,7 @@ static SMEAR_NOINLINE void mean_before(struct mean *out, const struct smear_stre
             continue;
         uint32_t weight = abs_i32(t) > s->half ? s->rest : s->inner + s->rest;
         if (m->a->linear) {
-            struct light p = light_of(m->a->color[at]);
+            struct light p = light_of_pixel(m->a->color[at]);
             light_add(&light, &p, weight);
         } else {
             sum += lanes_times(lanes_of(m->a->color[at]) | (lanes)0xff << 48, weight);

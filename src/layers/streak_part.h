@@ -48,7 +48,7 @@ struct light {
     uint32_t r, g, b, a;
 };
 
-static inline struct light light_of(uint32_t p)
+static inline struct light light_of_pixel(uint32_t p)
 {
     return (struct light){ smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)],
                            smear_srgb_decode[pixel_blue(p)], 65535u };

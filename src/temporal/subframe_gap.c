@@ -171,7 +171,7 @@ static SMEAR_RARE void average_wide(const struct subframes *f, const struct stre
             continue;
         for (int i = 0; i < 3; i++)
             mean[i] = wide_mean_of(&m, gap_sum(f->sum[i], at, gap, s->pairs, taps)
-                                           + light_of(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
+                                           + light_of_code(*out >> (16 - 8 * i) & 0xffu, linear) * (m.n - times));
         *out = linear ? pixel_make(0, smear_srgb_encode[mean[0] >> 4], smear_srgb_encode[mean[1] >> 4],
                                    smear_srgb_encode[mean[2] >> 4])
                       : pixel_make(0, mean[0], mean[1], mean[2]);
@@ -180,7 +180,7 @@ static SMEAR_RARE void average_wide(const struct subframes *f, const struct stre
 
 /* ------------------------------------------------------------------ tiles */
 
-static enum gap_cover cover_of(const struct subframes *f, const struct pixel_box *b)
+static enum gap_cover cover_of(const struct subframes *f, const struct subframe_box *b)
 {
     if (f->highest == f->lowest)
         return COVER_NONE;
@@ -202,7 +202,7 @@ static void average_packed(const struct gap_planes *planes, const struct stretch
 }
 
 /* Averages a box, which lies in one tile: rows, cut where fewer pairs count. */
-static void average_tile(const struct subframes *f, const struct pixel_box *b, struct gap *gap)
+static void average_tile(const struct subframes *f, const struct subframe_box *b, struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->background;
     const enum gap_cover cover = cover_of(f, b);
@@ -223,7 +223,7 @@ static void average_tile(const struct subframes *f, const struct pixel_box *b, s
     }
 }
 
-void smear_subframe_average(const struct subframes *f, const struct pixel_box *all, const struct smear_step *step)
+void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_step *step)
 {
     static const struct smear_step none = { 0, 0 };
     const struct smear_tile_run *t = f->t;
@@ -232,10 +232,10 @@ void smear_subframe_average(const struct subframes *f, const struct pixel_box *a
         struct gap gap;
         gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - t->x0) / t->tile] : &none);
         const int32_t wide = gap.pairs;
-        const struct pixel_box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
-                                     min_i32(min_i32(x + t->tile, t->x1), all->x1 + wide),
-                                     min_i32(s->y1, all->y1 + wide) };
-        if (!box_is_empty(&b))
+        const struct subframe_box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
+                                        min_i32(min_i32(x + t->tile, t->x1), all->x1 + wide),
+                                        min_i32(s->y1, all->y1 + wide) };
+        if (!subframe_box_is_empty(&b))
             average_tile(f, &b, &gap);
     }
 }

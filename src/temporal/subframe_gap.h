@@ -8,6 +8,6 @@
 
 /* Puts means in place of the background where anything was summed, which is within `all`. `step`, one per tile, or
  * null, as for smear_subframes_tiles. */
-void smear_subframe_average(const struct subframes *f, const struct pixel_box *all, const struct smear_step *step);
+void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_step *step);
 
 #endif

@@ -74,7 +74,7 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     if (rows.low >= rows.high)
         return false;
     p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
-    p->box = (struct pixel_box){ columns.low, rows.low, columns.high, rows.high };
+    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
     if (!s->path)
         return true;
     if (is_turned_away(p->record[0], p->record[1], p->record[2]))

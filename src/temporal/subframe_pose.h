@@ -13,7 +13,7 @@ struct posed {
     uint32_t color;
     const int32_t *v[3];        /* `record`, or the vertices themselves where they do not move */
     struct bounds bounds;       /* of the vertices */
-    struct pixel_box box;       /* within the tiles */
+    struct subframe_box box;       /* within the tiles */
     int32_t record[3][RECORD_WORDS];
 };
 

@@ -13,9 +13,9 @@ static SMEAR_RARE void add_wide(const struct subframes *f, int32_t at, const uin
     for (int32_t i = 0; i < n; i++) {
         uint32_t c = p[i], behind = background[i];
         if (((c ^ behind) | all) != 0) {
-            r[i] += light_of(pixel_red(c), linear);
-            g[i] += light_of(pixel_green(c), linear);
-            b[i] += light_of(pixel_blue(c), linear);
+            r[i] += light_of_code(pixel_red(c), linear);
+            g[i] += light_of_code(pixel_green(c), linear);
+            b[i] += light_of_code(pixel_blue(c), linear);
             times[i]++;
             p[i] = behind;
         }
@@ -35,12 +35,12 @@ static void clear_row(const struct subframes *f, int32_t at, int32_t n)
 }
 
 /* A gap's mean is taken up to GAP_PAIRS_MAX pixels beyond what was drawn, and reads as far beyond that. */
-SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct pixel_box *set)
+SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set)
 {
     const struct smear_raster_target *s = &f->t->background;
     const int32_t reach = 2 * GAP_PAIRS_MAX;
-    const struct pixel_box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
-                                 min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    const struct subframe_box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                                    min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
     for (int32_t y = b.y0; y < b.y1; y++) {
         const int32_t at = work_row(f, &b, y);
         if (y < set->y0 || y >= set->y1) {
@@ -54,7 +54,7 @@ SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const s
     }
 }
 
-void smear_subframe_sums_add(const struct subframes *f, const struct pixel_box *b, bool sets)
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *b, bool sets)
 {
     const struct smear_raster_target *s = &f->t->background;
     const int32_t n = b->x1 - b->x0;

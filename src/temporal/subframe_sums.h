@@ -9,9 +9,9 @@
 static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS && is_packed(f) && !f->blends; }
 
 /* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
-void smear_subframe_sums_clear(const struct subframes *f, const struct pixel_box *set);
+void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
 
 /* Adds an instant's box to the sums, or sets them, and makes it background again. */
-void smear_subframe_sums_add(const struct subframes *f, const struct pixel_box *b, bool sets);
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *b, bool sets);
 
 #endif

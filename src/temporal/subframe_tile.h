@@ -7,13 +7,13 @@
 #include "temporal/moving.h"
 
 /* Pixels [x0, x1) x [y0, y1). */
-struct pixel_box {
+struct subframe_box {
     int32_t x0, y0, x1, y1;
 };
 
-static const struct pixel_box no_box = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
+static const struct subframe_box no_box = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
 
-static inline void box_add(struct pixel_box *b, const struct pixel_box *add)
+static inline void box_add(struct subframe_box *b, const struct subframe_box *add)
 {
     b->x0 = min_i32(b->x0, add->x0);
     b->y0 = min_i32(b->y0, add->y0);
@@ -21,7 +21,7 @@ static inline void box_add(struct pixel_box *b, const struct pixel_box *add)
     b->y1 = max_i32(b->y1, add->y1);
 }
 
-static inline bool box_is_empty(const struct pixel_box *b)
+static inline bool subframe_box_is_empty(const struct subframe_box *b)
 {
     return b->x0 >= b->x1 || b->y0 >= b->y1;
 }
@@ -44,11 +44,11 @@ struct subframes {
     uint32_t moving_rest, blend_rest;
     uint32_t lowest, highest;   /* depth codes of the background */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */
-    struct pixel_box area;      /* and nothing of it is seen elsewhere */
+    struct subframe_box area;      /* and nothing of it is seen elsewhere */
 };
 
 /* Index of the first of the box's pixels in row y of the work planes. */
-static inline int32_t work_row(const struct subframes *f, const struct pixel_box *b, int32_t y)
+static inline int32_t work_row(const struct subframes *f, const struct subframe_box *b, int32_t y)
 {
     return (y - f->t->background.y0) * f->t->pitch + (b->x0 - f->t->background.x0);
 }
@@ -57,7 +57,7 @@ static inline int32_t work_row(const struct subframes *f, const struct pixel_box
 static inline bool is_packed(const struct subframes *f) { return !SMEAR_WITH_LINEAR || f->packed; }
 
 /* A code as it is summed. */
-static inline uint32_t light_of(uint32_t code, bool linear)
+static inline uint32_t light_of_code(uint32_t code, bool linear)
 {
     return linear ? smear_srgb_decode[code] : code;
 }

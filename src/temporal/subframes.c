@@ -54,7 +54,7 @@ static void note(struct subframes *f, const struct smear_moving_triangle *m)
 {
     const struct smear_path_bounds *b = bins_bounds(f->t->frame->bins, m->triangle);
     f->nearest = max_u32(f->nearest, m->nearest);
-    const struct pixel_box path = { b->x0, b->y0, b->x1, b->y1 };
+    const struct subframe_box path = { b->x0, b->y0, b->x1, b->y1 };
     box_add(&f->area, &path);
 }
 
@@ -65,7 +65,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     const struct smear_bins *g = t->frame->bins;
     uint32_t n = 0;
     bool moves = false;
-    const struct pixel_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
+    const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
     const struct depth_range depths = smear_subframe_depths(f, &whole, 0);
     f->lowest = depths.least;
     f->highest = depths.most;
@@ -108,7 +108,7 @@ static inline void draw(const struct posed *p, const struct subframes *f, const 
     smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v, &p->bounds);
 }
 
-static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, int32_t time, struct pixel_box *all)
+static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, int32_t time, struct subframe_box *all)
 {
     struct posed p;
     if (smear_subframe_pose(&p, f, triangle, time)) {
@@ -117,7 +117,7 @@ static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, i
     }
 }
 
-static void draw_moving(const struct subframes *f, int32_t time, struct pixel_box *all)
+static void draw_moving(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     for (uint32_t i = 0; i < f->moving_listed; i++)
         draw_moving_triangle(f, f->listed[i], time, all);
@@ -133,7 +133,7 @@ enum blend_pass {
 };
 
 static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time, enum blend_pass pass,
-                      const struct smear_raster_target *target, struct pixel_box *all)
+                      const struct smear_raster_target *target, struct subframe_box *all)
 {
     const struct smear_bins *g = f->t->frame->bins;
     bool moves = g->segment[bins_triangle(g, triangle)->segment].path;
@@ -147,7 +147,7 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
 }
 
 static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
-                             const struct smear_raster_target *target, struct pixel_box *all)
+                             const struct smear_raster_target *target, struct subframe_box *all)
 {
     for (uint32_t i = f->moving_listed; i < f->all_listed; i++)
         blend_one(f, f->listed[i], time, pass, target, all);
@@ -157,7 +157,7 @@ static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend
 }
 
 /* The work planes within a box. */
-static struct smear_raster_target within(const struct subframes *f, const struct pixel_box *b)
+static struct smear_raster_target within(const struct subframes *f, const struct subframe_box *b)
 {
     struct smear_raster_target t = f->work;
     t.color_rows.ring_row = t.window_rows.ring_row = b->y0 - t.y0;
@@ -169,14 +169,14 @@ static struct smear_raster_target within(const struct subframes *f, const struct
 }
 
 /* Draws everything that moves, and what is blended over it; returns where. */
-static struct pixel_box draw_instant(const struct subframes *f, int32_t time)
+static struct subframe_box draw_instant(const struct subframes *f, int32_t time)
 {
-    struct pixel_box all = no_box;
+    struct subframe_box all = no_box;
     draw_moving(f, time, &all);
     if (!f->blends)
         return all;
     blend(f, time, BLEND_BOX, NULL, &all);
-    if (!box_is_empty(&all)) {
+    if (!subframe_box_is_empty(&all)) {
         struct smear_raster_target target = within(f, &all);
         blend(f, time, BLEND_ALL, &target, NULL);
     }
@@ -184,14 +184,14 @@ static struct pixel_box draw_instant(const struct subframes *f, int32_t time)
 }
 
 /* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
-static uint32_t draw_instants(const struct subframes *f, struct pixel_box *all)
+static uint32_t draw_instants(const struct subframes *f, struct subframe_box *all)
 {
     const int32_t instants = (int32_t)f->instants;
     uint32_t samples = 0;
     *all = no_box;
     for (int32_t k = 0; k < instants; k++) {
-        const struct pixel_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
-        if (box_is_empty(&box))
+        const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
+        if (subframe_box_is_empty(&box))
             continue;
         const bool sets = samples == 0 && sums_are_set(f);
         if (samples == 0)
@@ -226,7 +226,7 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_PLANES * pixels);
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 
-    struct pixel_box all;
+    struct subframe_box all;
     smear_subframe_take_background(&f);
     const uint32_t samples = list(&f) ? draw_instants(&f, &all) : 0;
     if (f.blends)
