@@ -13,11 +13,9 @@ BEGIN {
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/ports/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
-    if (root != "") {       # smear_jobs_run lies in its caller
-        reach["src/frame.c"] = reach["src/base/jobs.c"]
+    if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
-    }
-    is_callback["src/display/band.h"] = is_callback["src/display/band.c"] = is_callback["src/frame.c"] = 1
+    is_callback["src/display/row.h"] = is_callback["src/display/band.c"] = is_callback["src/methods/sharp.c"] = 1
 }
 function field(name,    text) {
     if (!match($0, name ": \"[^\"]*\""))

@@ -95,10 +95,6 @@ static const smear_desc desc = {
     .vertex_cache = 16, .flush = flush
 };
 
-/* Where things are now, at shutter open and at shutter close: the
- * library reads it until the frame is drawn. */
-static smear_transform plane[3], blade[3];
-
 static __attribute__((noinline)) int submit(smear_context *ctx, int frame, bool sharp)
 {
     static const smear_material paint = { 0 },
@@ -116,7 +112,8 @@ static __attribute__((noinline)) int submit(smear_context *ctx, int frame, bool 
         { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED, .shutter.poses = 1,
           .clear = 0x9cc4e8 }
     };
-    static const smear_draw draws[3] = {
+    smear_transform plane[3], blade[3];         /* now, at shutter open and at shutter close */
+    const smear_draw draws[3] = {
         { .mesh = &ground_mesh, .material = &grass },
         { .mesh = &plane_mesh, .material = &paint, .now = &plane[0], .open = &plane[1], .close = &plane[2] },
         { .mesh = &blade_mesh, .material = &blade_paint, .now = &blade[0], .open = &blade[1],

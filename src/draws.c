@@ -2,6 +2,7 @@
 /* draws.c - see draws.h. */
 #include "draws.h"
 
+#include "base/compiled.h"
 #include "geometry/assemble_path.h"
 #include "layers/groups.h"
 
@@ -60,15 +61,15 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     const smear_draw *d = &c->submitted[i].draw;
     const smear_material *m = d->material;
     struct smear_raster_draw *r = &c->raster_draw[i];
+    const smear_texture *texture = SMEAR_TEXTURE_MOST && m != NULL ? m->texture : NULL;
     r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
     r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-    if (m != NULL && m->texture != NULL)
-        smear_sampler_make(&r->sampler, m->texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
+    if (texture != NULL)
+        smear_sampler_make(&r->sampler, texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
                            frame_is_linear(&c->rows.raster));
     c->rows.blends = c->rows.blends || draw_is_blended(r);
     /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
-    c->direct = c->direct && !c->rows.blends
-             && (m == NULL || m->texture == NULL || m->texture->format == SMEAR_TEXEL_565);
+    c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);
 }
 
 void smear_draws_prepare(struct smear_context *c)
@@ -154,7 +155,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     /* Layers reach beyond the frame. */
     if (!has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
         return false;
-    smear_shading_make(&a->shading, poses.object[0], a->material, a->mesh->normal != NULL,
+    smear_shading_make(&a->shading, poses.object[0], a->material, SMEAR_VERTEX_COLORS_MOST && a->mesh->normal != NULL,
                        frame_is_linear(&c->rows.raster), &c->sun);
     assembly_find_flat(a);
     if (!moves)
@@ -176,7 +177,7 @@ static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
 void smear_draws_find_damage(struct smear_context *c)
 {
     struct smear_damage *d = c->damage;
-    if (d == NULL)
+    if (!SMEAR_WITH_DAMAGE || d == NULL)
         return;
     smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, c->frame.light_space, &c->sun);
     for (uint32_t i = 0; i < c->draw_count; i++)

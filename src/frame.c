@@ -128,11 +128,13 @@ static void prepare_stages(struct smear_context *c, bool filters)
                            && !(smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[1])
                                 && smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2]));
     raster->linear = c->frame.light_space == SMEAR_LIGHT_LINEAR;
-    raster->velocity_scale = c->shot.shutter_poses ? 32768 : c->shot.half_exposure >> 8;
-    raster->inspect_scale = c->shot.shutter_poses ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
-    raster->reach_q3 = rows->window.reach * 8;
-    raster->velocity_from_depth = filters && c->frame.filter.camera_step != 0 && camera_moves && !c->shot.cut;
     c->shot.camera_moves = camera_moves;
+    if (SMEAR_WITH_RECONSTRUCT) {
+        raster->velocity_scale = c->shot.shutter_poses ? 32768 : c->shot.half_exposure >> 8;
+        raster->inspect_scale = c->shot.shutter_poses ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
+        raster->reach_q3 = rows->window.reach * 8;
+        raster->velocity_from_depth = filters && c->frame.filter.camera_step != 0 && camera_moves && !c->shot.cut;
+    }
     rows->clear = c->frame.clear & 0xffffffu;
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
     c->assembler.keep_paths = smear_method_is_temporal(method);
@@ -151,6 +153,8 @@ static void prepare_methods(struct smear_context *c)
         damage_forget(c->damage);
     if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(method))
         smear_filtered_begin(&c->filtered, &c->rows, &c->frame, &c->shot.camera[0]);
+    if (!SMEAR_WITH_SUBFRAMES)
+        return;
     /* Pairs of taps of the widest gap, 8 to either side, find room between the borders of a frame this large. */
     c->temporal.chooser = (struct smear_chooser){ method, c->frame.samples, c->frame.target,
                                                   min_i32(w->width, w->height) >= 24 };
@@ -211,6 +215,7 @@ int smear_frame_render(struct smear_context *c)
     return result;
 }
 
+#if SMEAR_WITH_RECONSTRUCT
 void smear_frame_filter_begin(struct smear_context *c)
 {
     c->draw_count = 0;
@@ -234,3 +239,4 @@ int smear_frame_filter_row(struct smear_context *c, const uint32_t *color, const
         sum_up(c);
     return result;
 }
+#endif

@@ -20,8 +20,7 @@ enum { WHOLE = 256 };
 struct field {
     uint8_t offset, size;           /* size 1, 2 or 4 */
     uint8_t fault;
-    uint8_t least;
-    uint16_t otherwise;
+    uint16_t least, otherwise;
     uint32_t most;
 };
 
@@ -182,12 +181,14 @@ static const struct field frame_fields[] = {
     FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
     FRAME(shutter.us, US, 0, 0, SMEAR_SHUTTER_US_MOST),
-    FRAME(filter.kind, KIND, 0, 0, SMEAR_FILTER_PINGPONG),
     FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WEIGHTS_MOST),
     FRAME(filter.camera_step, STEP, 0, 0, SMEAR_CAMERA_STEP_MOST),
+#if SMEAR_WITH_FILTERS
+    FRAME(filter.kind, KIND, 0, 0, SMEAR_FILTER_PINGPONG),
     FRAME(filter.pingpong.passes, PASSES, 2, 1, PINGPONG_PASSES_MAX), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
     FRAME(filter.pingpong.base, BASE, 0, 0, 64), FRAME(filter.pingpong.jitter, JITTER, 0, 0, 128),
     FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1),
+#endif
     FRAME(scale.rotation, ROTATION, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
     FRAME(scale.translation, TRANSLATION, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST),
     FRAME(scale.object, OBJECT, WHOLE, SMEAR_SCALE_LEAST, SMEAR_SCALE_MOST)
@@ -224,7 +225,7 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
         || (f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_SUBFRAMES_MOST))
         return FAULT(FRAME_SAMPLES);
     /* Steps of so few greys hide an error of several codes. */
-    if (f->target == 0)
+    if (is_temporal(d) && f->target == 0)
         f->target = d->format == SMEAR_L4 || is_one_bit(d->format) ? SMEAR_DRAFT : SMEAR_BALANCED;
     return SMEAR_OK;
 }
@@ -233,12 +234,15 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
 {
     smear_filter *filter = &f->filter;
     smear_pingpong *p = &filter->pingpong;
+    if (!SMEAR_FILTER_KINDS) {
+        filter->kind = SMEAR_FILTER_RECONSTRUCT;
+        return SMEAR_OK;
+    }
     if (f->method == SMEAR_CAMERA && filter->camera_step == 0)
         filter->camera_step = 1;
     if (filter->camera_step == 3)
         return FAULT(FRAME_STEP);
-    if (f->method == SMEAR_RECONSTRUCT || !SMEAR_FILTER_KINDS
-        || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))
+    if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))
         filter->kind = SMEAR_FILTER_RECONSTRUCT;
     else if (f->method == SMEAR_PINGPONG)
         filter->kind = SMEAR_FILTER_PINGPONG;
@@ -307,7 +311,7 @@ int smear_check_layers(const smear_frame *f)
 {
     if ((f->layer == NULL) != (f->layer_count == 0) || f->layer_count > SMEAR_LAYERS_MOST)
         return FAULT(FRAME_LAYER);
-    for (int i = 0; i < f->layer_count; i++)
+    for (int i = 0; i < SMEAR_LAYERS_MOST && i < f->layer_count; i++)
         if (!is_layer(&f->layer[i]))
             return FAULT(FRAME_LAYER);
     return SMEAR_OK;

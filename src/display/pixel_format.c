@@ -79,7 +79,7 @@ static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32
     return smear_dither_ordered + ((y & 7) << 3);
 }
 
-static void row_16bit(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
+static void row_rgb16(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
     const bool is_555 = SMEAR_WITH_RGB && format == SMEAR_RGB555, swapped = format == SMEAR_RGB565_SWAPPED;
@@ -166,7 +166,7 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
         row_xrgb8888((uint32_t *)(void *)row + x, in, n);
     else if ((SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
              || (SMEAR_WITH_RGB && format == SMEAR_RGB555))
-        row_16bit((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
+        row_rgb16((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
     else if (SMEAR_WITH_RGB && format == SMEAR_RGB332)
         row_rgb332(row + x, in, n, x, y, dither);
     else if (SMEAR_WITH_GREY && format == SMEAR_L8)

@@ -50,9 +50,9 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
         const int32_t at = target_row(&t->window_rows, t, y) + t->x0;
         pixels_fill(t->color + at, color, n);
         __builtin_memset(t->depth + at, 0, (size_t)n * 2);
-        if (t->velocity8 != NULL)
+        if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)
             __builtin_memset(t->velocity8 + 2 * at, velocity, (size_t)n * 2);
-        if (t->velocity16 != NULL)
+        if (SMEAR_WITH_RECONSTRUCT && t->velocity16 != NULL)
             __builtin_memset(t->velocity16 + 2 * at, velocity, (size_t)n * 4);
         if (target_is_inspected(t))
             __builtin_memset(t->inspect + 2 * at, 0, (size_t)n * 8);

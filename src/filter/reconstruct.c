@@ -433,7 +433,7 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
         .w = w, .rows = rows, .linear = settings->linear,
         .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
         .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
-        .far_units = blur_far_units(settings), .wanted = clamp_i32(settings->samples / 2, 1, 64)
+        .wanted = clamp_i32(settings->samples / 2, 1, 64), .far_units = blur_far_units(settings)
     };
     struct choice choice;
     choice_make(&choice, &g, row, column);

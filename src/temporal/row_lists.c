@@ -314,8 +314,8 @@ void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *
     for (uint32_t i = last; i != SMEAR_NO_TRIANGLE;) {
         i = bins_triangle(g, i)->next;
         const struct smear_path_bounds *b = bins_bounds(g, i);
-        const int32_t class = min_i32((b->travel + b->curvature) >> TRAVEL_CLASS_SHIFT, TRAVEL_CLASSES - 1);
-        uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[class], area = moving_area(g, i);
+        const int32_t length = min_i32((b->travel + b->curvature) >> TRAVEL_CLASS_SHIFT, TRAVEL_CLASSES - 1);
+        uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[length], area = moving_area(g, i);
         if (b->interval != 0)      /* it is there in one of so many sub-intervals of the exposure */
             area = (area + PATH_INTERVALS - 1) / PATH_INTERVALS;
         *sum = min_u32(*sum, UINT32_MAX - area) + area;
