@@ -14,15 +14,16 @@ static const char texts[] = "no error\0"
                             "more draws than desc.max_draws\0" SMEAR_FAULTS(TEXT) "unknown error";
 #undef TEXT
 
-enum { KINDS = 1 - SMEAR_ERR_FULL };
+/* How many are kinds; how many there are before the last. */
+enum { KINDS = 1 - SMEAR_ERR_FULL, TEXTS = KINDS + (int)SMEAR_FAULT_COUNT };
 
 const char *smear_error_text(int result)
 {
-    int number = KINDS + SMEAR_FAULT_COUNT;
+    int number = TEXTS;
     if (result <= 0 && result >= SMEAR_ERR_FULL)
         number = -result;
-    else if (result < SMEAR_ERR_FIELD && result >= SMEAR_ERR_FIELD - SMEAR_FAULT_COUNT)
-        number = KINDS + SMEAR_ERR_FIELD - 1 - result;
+    else if (result < SMEAR_ERR_FIELD && result >= SMEAR_ERR_FIELD - (int)SMEAR_FAULT_COUNT)
+        number = (int)KINDS + SMEAR_ERR_FIELD - 1 - result;
     const char *text = texts;
     while (number-- > 0)
         while (*text++ != '\0')

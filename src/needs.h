@@ -18,7 +18,7 @@ static inline bool has_layers(const smear_desc *d) { return wants(d, SMEAR_SET_L
 static inline bool has_half(const smear_desc *d) { return wants(d, SMEAR_SET(SMEAR_HALF)); }
 static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS); }
 static inline bool caches_static(const smear_desc *d) { return SMEAR_CACHE_STATIC_MOST && d->reuse.cache_static; }
-static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE_MOST && d->reuse.buffer_age; }
+static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE_MOST != 0 && d->reuse.buffer_age; }
 
 /* Rows are drawn a tile at a time; else a band at a time. */
 static inline bool has_tiles(const smear_desc *d)

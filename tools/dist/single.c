@@ -147,7 +147,7 @@ static void find_names(int file)
         "SMEAR_NOINLINE", "SMEAR_SHARED", NULL
     };
     int depth = 0, parentheses = 0;
-    bool in_enum = false, line_start = true;
+    bool in_enum = false, in_value = false, line_start = true;      /* in_value: behind the = of an object */
     struct token before = { END, "", 0 }, before_that = before;
     for (const char *p = files[file].text; *p != '\0';) {
         struct token t = next_token(p);
@@ -168,6 +168,8 @@ static void find_names(int file)
         line_start = false;
         if (t.kind == OTHER)
             continue;
+        if (depth == 0 && (is_mark(t, '=') || is_mark(t, ';')))
+            in_value = is_mark(t, '=');
         if (is_mark(t, '{')) {
             in_enum = in_enum || (depth == 0 && (is_word(before, "enum") || is_word(before_that, "enum")));
             depth++;
@@ -187,7 +189,7 @@ static void find_names(int file)
             if (depth == 1) {
                 if (is_mark(before, '{') || is_mark(before, ','))
                     add_name(t, file);
-            } else if (!is_keyword && (is_tag ? is_mark(after, '{')
+            } else if (!is_keyword && !in_value && (is_tag ? is_mark(after, '{')
                                               : after.kind == MARK && strchr("(;=[,", after.at[0]) != NULL)) {
                 add_name(t, file);
             }
