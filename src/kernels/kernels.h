@@ -25,7 +25,7 @@
 #ifndef SMEAR_KERNELS_H
 #define SMEAR_KERNELS_H
 
-#include "base/vector.h"
+#include "kernels/vector.h"
 
 /* Assembly for ARMv6-M (Cortex-M0 and M0+), whose eight general registers compilers use badly. It keeps all of
  * them busy, frame pointers included: builds without optimization need those. */

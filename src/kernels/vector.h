@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* vector.h - four words or eight halves at once, where the compiler and the core have them: the vocabulary of the
- * vector variants in kernels/, each of which gives the same bits as its scalar reference. */
+/* vector.h - four words or eight halves at once, where the compiler and the core have them: what vector variants of
+ * kernels are written in, each of which gives the same bits as its scalar reference. */
 #ifndef SMEAR_VECTOR_H
 #define SMEAR_VECTOR_H
 
