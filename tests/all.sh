@@ -12,6 +12,9 @@ exr() {
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite includes $make -s layers
 suite house $make -s house
+if needs clang-format-14 "clang-format-14"; then
+    suite format $make -s format-check
+fi
 suite build $make -s $jobs all build/host/run
 suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers

@@ -7,10 +7,15 @@ set -u
 longest=" accuracy blur failures "
 
 suite includes $make -s layers
+suite house $make -s house
+if needs clang-format-14 "clang-format-14"; then
+    suite format $make -s format-check
+fi
 suite build $make -s $jobs all build/host/run
 suite headers $make -s test-headers
 suite table-file $make -s test-tables
 suite readme $make -s test-readme
+suite examples $make -s test-examples
 for name in $($make -s print-suites); do
     case $longest in
     *" $name "*) ;;
