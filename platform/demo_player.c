@@ -111,15 +111,17 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
 static int submit(struct demo_player *player, const smear_frame *how)
 {
     int result = smear_begin(player->ctx, how);
-    for (int i = 0; i < player->scene.draw_count && result == SMEAR_OK; i++)
-        result = smear_submit(player->ctx, &player->scene.draw[i]);
+    for (int i = 0; i < player->scene.draw_count && result == SMEAR_OK; i++) {
+        const smear_draw draw = demo_scene_draw(&player->scene, player->props, i);
+        result = smear_submit(player->ctx, &draw);
+    }
     return result;
 }
 
 int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
 {
     struct demo_scene *scene = &player->scene;
-    demo_scene_pose(scene, player->props, frame);
+    demo_scene_pose(scene, frame);
     const struct demo_blur *blur = player->blur;
     smear_frame how = {
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
@@ -138,7 +140,7 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
 
 int demo_player_instant(struct demo_player *player, int32_t time)
 {
-    demo_scene_pose_at(&player->scene, player->props, time);
+    demo_scene_pose_at(&player->scene, time);
     const smear_frame how = {
         .camera = &player->scene.camera, .cut = 1, .clear = player->screen->sky, .method = SMEAR_NONE,
         .light_space = player->screen->light

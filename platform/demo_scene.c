@@ -92,23 +92,22 @@ static smear_transform moved(int32_t x, int32_t y, int32_t z)
 
 /* ------------------------------------------------------------------ props */
 
-static void add(struct demo_scene *out, const smear_draw *props, enum demo_prop prop,
+static void add(struct demo_scene *out, enum demo_prop prop,
                 const smear_transform *pose)
 {
     int i = out->draw_count++;
+    out->prop[i] = (uint8_t)prop;
     out->pose[i] = *pose;
-    out->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = props[prop].mesh,
-                                 .material = props[prop].material, .now = &out->pose[i] };
 }
 
-static void add_car(struct demo_scene *out, const smear_draw *props, const smear_transform *car,
+static void add_car(struct demo_scene *out, const smear_transform *car,
                     int32_t time, int32_t steer)
 {
     static const int32_t hub[4][2] = {
         { METRES(1.38), METRES(0.80) }, { METRES(1.38), METRES(-0.80) },
         { METRES(-1.32), METRES(0.80) }, { METRES(-1.32), METRES(-0.80) },
     };
-    add(out, props, PROP_CAR, car);
+    add(out, PROP_CAR, car);
     for (int i = 0; i < 4; i++) {
         smear_transform wheel = *car;
         move(&wheel, hub[i][0], METRES(0.45), hub[i][1]);
@@ -116,34 +115,34 @@ static void add_car(struct demo_scene *out, const smear_draw *props, const smear
             turn(&wheel, 1, steer);
         turn(&wheel, 2, -along(time, WHEEL_STEP));
         turn(&wheel, 0, hub[i][1] > 0 ? DEGREES(90) : DEGREES(-90));
-        add(out, props, PROP_WHEEL, &wheel);
+        add(out, PROP_WHEEL, &wheel);
     }
     smear_transform shadow = *car;
     shadow.origin[1] = METRES(0.015);
-    add(out, props, PROP_SHADOW, &shadow);
+    add(out, PROP_SHADOW, &shadow);
 }
 
-static void add_drone(struct demo_scene *out, const smear_draw *props,
+static void add_drone(struct demo_scene *out,
                       const smear_transform *drone, int32_t time)
 {
-    add(out, props, PROP_DRONE, drone);
+    add(out, PROP_DRONE, drone);
     for (int i = 0; i < 4; i++) {
         smear_transform rotor = *drone;
         turn(&rotor, 1, DEGREES(45) + i * DEGREES(90));
         move(&rotor, METRES(0.70), METRES(0.10), 0);
         turn(&rotor, 1, i % 2 == 0 ? along(time, ROTOR_STEP) : -along(time, ROTOR_STEP));
-        add(out, props, PROP_ROTOR, &rotor);
+        add(out, PROP_ROTOR, &rotor);
     }
 }
 
 /* What stands still; the hills stay around the eye. */
-static void add_land(struct demo_scene *out, const smear_draw *props)
+static void add_land(struct demo_scene *out)
 {
     static const uint8_t land[] = { PROP_BOARDS, PROP_KERBS, PROP_ROAD, PROP_TREES, PROP_GRASS };
     for (unsigned i = 0; i < sizeof land / sizeof *land; i++)
-        add(out, props, (enum demo_prop)land[i], &identity);
+        add(out, (enum demo_prop)land[i], &identity);
     smear_transform hills = moved(out->camera.pose.origin[0], 0, out->camera.pose.origin[2]);
-    add(out, props, PROP_HILLS, &hills);
+    add(out, PROP_HILLS, &hills);
 }
 
 static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_t yaw,
@@ -158,7 +157,7 @@ static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_
 
 /* ------------------------------------------------------------------ shots */
 
-static void chase(struct demo_scene *out, const smear_draw *props, int32_t time)
+static void chase(struct demo_scene *out, int32_t time)
 {
     int32_t phase = time * (65536 / DEMO_TIME) / CHASE;
     int32_t x = METRES(-6) + along(time, CAR_STEP), sway = sine(phase);
@@ -168,18 +167,18 @@ static void chase(struct demo_scene *out, const smear_draw *props, int32_t time)
     int32_t yaw = scaled(DEGREES(2), cosine(phase));
     smear_transform car = moved(x, 0, METRES(-0.2) - scaled(METRES(0.12), sway));
     turn(&car, 1, yaw);
-    add_car(out, props, &car, time, 2 * yaw);
+    add_car(out, &car, time, 2 * yaw);
 
     smear_transform drone = moved(x - METRES(1.9) + scaled(METRES(0.3), cosine(phase)),
                                   METRES(2.5) + scaled(METRES(0.16), sine(2 * phase)),
                                   METRES(0.3) + scaled(METRES(0.6), sway));
     turn(&drone, 0, DEGREES(18));
     turn(&drone, 2, DEGREES(-20));
-    add_drone(out, props, &drone, time);
-    add_land(out, props);
+    add_drone(out, &drone, time);
+    add_land(out);
 }
 
-static void roadside(struct demo_scene *out, const smear_draw *props, int32_t time)
+static void roadside(struct demo_scene *out, int32_t time)
 {
     int32_t phase = time * (65536 / DEMO_TIME) / ROADSIDE, swing = sine(phase);
     look(out, METRES(1.2), METRES(1.6), METRES(5.2), DEGREES(16.7), DEGREES(2));
@@ -189,25 +188,31 @@ static void roadside(struct demo_scene *out, const smear_draw *props, int32_t ti
                                   METRES(0.6) - scaled(METRES(0.4), cosine(phase)));
     turn(&drone, 0, DEGREES(24));
     turn(&drone, 2, scaled(DEGREES(17), swing));
-    add_drone(out, props, &drone, time);
+    add_drone(out, &drone, time);
 
     smear_transform car = moved(along(time - ROADSIDE / 2 * DEMO_TIME, CAR_STEP), 0, METRES(-1.6));
-    add_car(out, props, &car, time, 0);
-    add_land(out, props);
+    add_car(out, &car, time, 0);
+    add_land(out);
 }
 
-void demo_scene_pose_at(struct demo_scene *out, const smear_draw *props, int32_t time)
+void demo_scene_pose_at(struct demo_scene *out, int32_t time)
 {
     const int32_t second = CHASE * DEMO_TIME;
     out->cut = time == 0 || time == second;
     out->draw_count = 0;
     if (time < second)
-        chase(out, props, time);
+        chase(out, time);
     else
-        roadside(out, props, time - second);
+        roadside(out, time - second);
 }
 
-void demo_scene_pose(struct demo_scene *out, const smear_draw *props, uint32_t frame)
+void demo_scene_pose(struct demo_scene *out, uint32_t frame)
 {
-    demo_scene_pose_at(out, props, (int32_t)(frame % DEMO_LOOP) * DEMO_TIME);
+    demo_scene_pose_at(out, (int32_t)(frame % DEMO_LOOP) * DEMO_TIME);
+}
+
+smear_draw demo_scene_draw(const struct demo_scene *scene, const smear_draw *props, int i)
+{
+    const smear_draw *prop = &props[scene->prop[i]];
+    return (smear_draw){ .id = (uint32_t)i + 1, .mesh = prop->mesh, .material = prop->material, .now = &scene->pose[i] };
 }

@@ -24,16 +24,19 @@ struct demo_scene {
     smear_camera camera;
     uint8_t cut;                    /* the camera has jumped since the frame before */
     int draw_count;
-    smear_draw draw[DEMO_DRAWS];
+    uint8_t prop[DEMO_DRAWS];       /* demo_prop of each draw */
     smear_transform pose[DEMO_DRAWS];
 };
 
-/* The scene in frame `frame`. props: a draw with mesh and material for each enum demo_prop. What
- * `out` holds points into itself: it must stay where it is until the frame has been drawn. */
-void demo_scene_pose(struct demo_scene *out, const smear_draw *props, uint32_t frame);
+/* The scene in frame `frame`. */
+void demo_scene_pose(struct demo_scene *out, uint32_t frame);
 
 /* The same at a time between frames, in DEMO_TIME of a frame from 0 to DEMO_LOOP frames. */
 enum { DEMO_TIME = 256 };
-void demo_scene_pose_at(struct demo_scene *out, const smear_draw *props, int32_t time);
+void demo_scene_pose_at(struct demo_scene *out, int32_t time);
+
+/* Draw `i` of the scene, which must stay where it is until that is submitted. props: a draw with mesh and material for
+ * each enum demo_prop. */
+smear_draw demo_scene_draw(const struct demo_scene *scene, const smear_draw *props, int i);
 
 #endif
