@@ -43,6 +43,9 @@ done
 allowed='^(__aeabi_u?idiv(mod)?|__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)|__gnu_thumb1_case_[a-z]+'
 allowed="$allowed|memcpy|memset|__aeabi_mem(cpy|set|clr)[48]?)\$"
 roots=$(interface)
+for name in ${NOT_CALLED:-}; do     # functions of the interface that the program would not call
+    roots=$(echo "$roots" | grep -v -- "-u $name\$")
+done
 # shellcheck disable=SC2086
 arm-none-eabi-ld -r --gc-sections $roots -Map="$out/all.map" -o "$out/all.o" $objects || exit 1
 foreign=$(arm-none-eabi-nm -u "$out/all.o" | awk '{ print $NF }' | sort -u | grep -Ev "$allowed|^($(echo $roots | sed 's/-u //g; s/ /|/g'))\$")
