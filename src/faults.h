@@ -27,7 +27,7 @@
     X(DESC_DITHER, "desc.dither: unknown here") \
     X(DESC_FLUSH, "desc.flush: missing") \
     X(DESC_INSPECT, "desc.debug.inspect: not compiled in") \
-    X(FRAME_CAMERA, "frame.camera: missing, no rotation, or a plane or focal out of range") \
+    X(FRAME_CAMERA, "frame.camera: missing, no rotation, or a length out of range") \
     X(FRAME_OPEN, "frame.open: as frame.camera") \
     X(FRAME_CLOSE, "frame.close: as frame.camera") \
     X(FRAME_METHOD, "frame.method: unknown, or not in desc.methods") \
@@ -52,7 +52,7 @@
     X(FRAME_ROTATION, "frame.scale.rotation: above 16128, or not compiled in") \
     X(FRAME_TRANSLATION, "frame.scale.translation: as rotation") \
     X(FRAME_OBJECT, "frame.scale.object: as rotation") \
-    X(FRAME_LAYER, "frame.layer: too many, or one out of range") \
+    X(FRAME_LAYER, "frame.layer: too many, or a bad one") \
     X(DRAW_ID, "draw.id: twice in this frame, or not compiled in") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
     X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \
