@@ -176,7 +176,11 @@ int smear_resolve_desc(smear_desc *d)
 static const struct field frame_fields[] = {
     FRAME(method, METHOD, 0, 0, SMEAR_METHOD_COUNT - 1),
     FRAME(light_space, LIGHT_SPACE, 0, SMEAR_LIGHT_SPACE_LEAST, SMEAR_LIGHT_ENCODED),
-    FRAME(samples, SAMPLES, 0, 0, 1024), FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
+    FRAME(samples, SAMPLES, 0, 0, 1024)
+};
+/* What is said of motion. */
+static const struct field blur_fields[] = {
+    FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
     FRAME(shutter.exposure, EXPOSURE, 0, 0, SMEAR_LEADING),
     FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
@@ -264,6 +268,8 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
 int smear_resolve_frame(smear_frame *f, const smear_desc *d)
 {
     int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
+    if (result == SMEAR_OK && SMEAR_BLURS)
+        result = resolve_fields(f, blur_fields, (int)(sizeof blur_fields / sizeof *blur_fields));
     if (result == SMEAR_OK)
         result = resolve_method(f, d);
     if (result == SMEAR_OK)

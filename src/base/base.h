@@ -56,6 +56,9 @@
 #define SMEAR_STATIC_ASSERT(condition, text) void smear_static_assert(int holds[(condition) ? 1 : -1])
 #endif
 
+/* Some method looks at more than the sharp instant: draws and cameras have other poses than that of now. */
+#define SMEAR_BLURS (SMEAR_WITH_ACCUMULATE || SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SUBFRAMES)
+
 SMEAR_STATIC_ASSERT((-1 >> 1) == -1, "right shift of a negative number must keep its sign");
 SMEAR_STATIC_ASSERT(sizeof(int) == 4, "int products of 16-bit values must be 32 bits wide");
 

@@ -27,26 +27,24 @@ static int shift_to(uint64_t largest, int bits)
     return 64 - count_leading_zeros_64(largest) - bits;
 }
 
-static uint32_t magnitude_of(int32_t a)
-{
-    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
-}
-
 void smear_sun_make(struct smear_sun *sun, const smear_light *light)
 {
     static const smear_light usual = SMEAR_LIGHT_DEFAULT;
     int32_t d[3];
+    uint32_t largest = 1, square = 0;
     if (light == NULL)
         light = &usual;
-    const int shift = shift_to(magnitude_of(light->direction[0]) | magnitude_of(light->direction[1])
-                               | magnitude_of(light->direction[2]), 29);
     for (int i = 0; i < 3; i++)
+        largest |= (uint32_t)magnitude(light->direction[i]);
+    const int shift = 32 - count_leading_zeros(largest) - 15;
+    for (int i = 0; i < 3; i++) {
         d[i] = shift >= 0 ? light->direction[i] >> shift : light->direction[i] * (1 << -shift);
-    const uint32_t length = max_u32(length_from(square_sum(d[0], d[1], d[2])), 1);
+        square += (uint32_t)(d[i] * d[i]);
+    }
+    const int32_t length = (int32_t)max_u32(length_from(square), 1);        /* 15 to 16 bits */
     sun->white = true;
     for (int i = 0; i < 3; i++) {
-        const int32_t along = ratio_q30((int64_t)min_u32(magnitude_of(d[i]), length), length) >> 16;
-        sun->direction[i] = d[i] < 0 ? -along : along;
+        sun->direction[i] = d[i] * 16384 / length;
         sun->ambient[i] = light->ambient[i];
         sun->diffuse[i] = light->diffuse[i];
         sun->white = sun->white && light->ambient[i] == light->ambient[0] && light->diffuse[i] == light->diffuse[0];

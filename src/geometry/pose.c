@@ -128,19 +128,20 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
     const bool moves = !shot->cut && d->motion != SMEAR_MOTION_NONE && (camera != NULL || shot->camera_moves);
     if (camera == NULL)
         camera = shot->camera;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < (SMEAR_BLURS ? 3 : 1); i++) {
         p->object[i] = d->now;
         p->camera[i] = camera;
         p->position[i] = d->mesh->position;
         p->projected[i] = false;
     }
     p->deform = 256;
-    if (moves) {
+    if (SMEAR_BLURS && moves) {
         p->camera[1] = &camera[1];
         if (shot->shutter_poses)
             p->camera[2] = &camera[2];
     }
-    object_poses(p, shot, d);
+    if (SMEAR_BLURS)
+        object_poses(p, shot, d);
     if (SMEAR_WITH_BILLBOARDS && d->billboard != SMEAR_BILLBOARD_NONE)
         turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
@@ -174,6 +175,11 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
     int32_t weight[TERMS];
     int count = 0;
     out->extra_count = 0;
+    if (!SMEAR_BLURS) {
+        out->now = *project_pose(p, shot, 0, mesh);
+        out->position = p->position[0];
+        return;
+    }
     for (int k = 0; k < 3; k++) {
         if (instant->weight[k] == 0)
             continue;

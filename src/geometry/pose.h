@@ -39,7 +39,10 @@ static inline bool pose_differs(const struct smear_draw_poses *p, int i)
         || !smear_transform_is_same(p->object[i], p->object[0]) || !smear_camera_is_same(p->camera[i], p->camera[0]);
 }
 
-static inline bool poses_differ(const struct smear_draw_poses *p) { return pose_differs(p, 1) || pose_differs(p, 2); }
+static inline bool poses_differ(const struct smear_draw_poses *p)
+{
+    return SMEAR_BLURS && (pose_differs(p, 1) || pose_differs(p, 2));
+}
 
 /* Finds where the vertices are at an instant: a sum of poses, linear in clip space. */
 void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,

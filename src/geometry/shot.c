@@ -72,6 +72,8 @@ static int32_t half_exposure(smear_frame *f)
 
 void smear_shot_expose(struct smear_shot *shot, smear_frame *f)
 {
+    if (!SMEAR_BLURS)
+        return;
     shot->half_exposure = half_exposure(f);
     shot->exposure = f->shutter.exposure;
     shot->shutter_poses = f->shutter.poses;
@@ -110,6 +112,10 @@ static bool same_kind(const smear_camera *a, const smear_camera *b)
  * after a cut. */
 void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last)
 {
+    if (!SMEAR_BLURS) {
+        shot->camera[0] = *frame->camera;
+        return;
+    }
     const smear_camera *now = frame->camera, *close = frame->close != NULL ? frame->close : now, *open = now;
     shot->camera_moves = true;
     if (frame->open != NULL)

@@ -505,7 +505,7 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
         return;
     }
 #endif
-    if (s->writes_velocity && !s->has_velocity) {
+    if (setup_writes_velocity(s) && !s->has_velocity) {
         smear_setup_velocity(s);
         s->has_velocity = true;
     }
