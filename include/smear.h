@@ -166,7 +166,8 @@ typedef struct smear_material {
     uint8_t bilinear;           /* 1: bilinear texels; 0: nearest */
 } smear_material;
 
-/* `pose` takes camera space to world space and must be a rotation and an origin (entries beyond +-2 are refused). */
+/* `pose` takes camera space to world space and must be a rotation and an origin: the lengths and right angles of its axes
+ * may be 1/64 off, all else is refused. */
 typedef struct smear_camera {
     smear_transform pose;
     int32_t focal;              /* Q16.16 > 0: 1 / tan(vertical field of view / 2); perspective */

@@ -133,7 +133,7 @@
          ? SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * 4u) + SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * 2u) \
                + SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * SMEAR_VELOCITY_BYTES_(r)) \
                + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 4u) + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 2u) \
-               + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) / (size_t)(T) + 1u) * 13u + 16u) \
+               + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) / (size_t)(T) + 1u) * 12u + 8u) \
                + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) + (size_t)(T) + 2u * (size_t)(r)) * 2u + 16u) \
                + SMEAR_UP8_(((size_t)(T) + 2u * (size_t)(r)) * 4u + 16u) \
                + SMEAR_UP8_((size_t)(d) * SMEAR_LAYER_DRAW_BYTES + 40u) + (size_t)(k) * ((size_t)(T) * 560u + 5120u) + 256u \

@@ -171,7 +171,9 @@ enum {
     SMEAR_MODEL_ERR_NODE     = -27,
     SMEAR_MODEL_ERR_SKIN     = -28,
     SMEAR_MODEL_ERR_MORPH    = -29,
-    SMEAR_MODEL_ERR_CLIP     = -30
+    SMEAR_MODEL_ERR_CLIP     = -30,
+    SMEAR_MODEL_ERR_SHARED   = -31      /* records share arrays so often that to check them takes more than 8 looks at
+                                         * each byte */
 };
 
 /* Looks at every byte of a blob once, at every index, texel and record: what passes can be drawn and played

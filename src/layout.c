@@ -142,7 +142,6 @@ static void lay_out_layer_rows(struct smear_layer_rows *r, struct smear_arena *a
     r->color = arena_take(a, layer, 4);
     r->depth = arena_take(a, layer, 2);
     lay_out_velocity(&r->velocity8, &r->velocity16, a, layer, d->reach);
-    r->moving = arena_take(a, cells, 1);
     r->cell = arena_take(a, 2 * cells, sizeof *r->cell);
     r->over = arena_take(a, (size_t)d->width * (size_t)d->tile, 4);
     r->over_depth = arena_take(a, (size_t)d->width * (size_t)d->tile, 2);

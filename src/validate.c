@@ -283,11 +283,32 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d)
                                                                                                    : SMEAR_OK;
 }
 
+/* Whether a basis is a rotation: products of two columns are 0, of one with itself 1, and the third is the first times the
+ * second, within 1/64. Entries in q14, so that three products fit. */
+static bool is_rotation(const int32_t basis[9])
+{
+    const int32_t one = 1 << 28, slack = one / 64;
+    int32_t b[9], volume = 0;
+    for (int i = 0; i < 9; i++) {
+        if (basis[i] > SMEAR_BASIS_ONE + SMEAR_BASIS_ONE / 64 || basis[i] < -SMEAR_BASIS_ONE - SMEAR_BASIS_ONE / 64)
+            return false;
+        b[i] = (basis[i] + (1 << 9)) >> 10;
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1, k = 3 - i - j;
+        const int32_t square = b[i] * b[i] + b[3 + i] * b[3 + i] + b[6 + i] * b[6 + i] - one;
+        const int32_t product = b[i] * b[j] + b[3 + i] * b[3 + j] + b[6 + i] * b[6 + j];
+        if (square > slack || square < -slack || product > slack || product < -slack)
+            return false;
+        volume += b[i] * ((b[3 + j] * b[6 + k] - b[3 + k] * b[6 + j]) >> 14);
+    }
+    return volume > 0;
+}
+
 static bool is_camera(const smear_camera *c)
 {
-    for (int i = 0; i < 9; i++)
-        if (c->pose.basis[i] > 2 * SMEAR_BASIS_ONE || c->pose.basis[i] < -2 * SMEAR_BASIS_ONE)
-            return false;
+    if (!is_rotation(c->pose.basis))
+        return false;
     if (c->near_plane <= 0 || (c->far_plane != 0 && c->far_plane <= c->near_plane))
         return false;
     return SMEAR_ORTHOGRAPHIC_MOST && c->half_height > 0 ? c->far_plane != 0

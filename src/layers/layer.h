@@ -52,7 +52,6 @@ struct smear_layer_rows {
     int32_t rows;                       /* how many there is memory for */
     int8_t *velocity8;                  /* SMEAR_LAYERED has one of the two, as in window.h */
     int16_t *velocity16;
-    uint8_t *moving;                    /* per tile, for the raster */
     struct smear_layer_cell *cell;      /* layer_gather.h */
     struct smear_held_rows held;
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */

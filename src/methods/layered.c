@@ -268,7 +268,6 @@ static void set_target(struct layers_row *r, int32_t y0, int32_t y1)
         return;
     r->target.velocity8 = rows->velocity8;
     r->target.velocity16 = rows->velocity16;
-    r->target.moving = rows->moving;
     r->frame.velocity_scale = (int32_t)((int64_t)r->frame.velocity_scale * r->layers->setting[group->layer].shutter >> 16);
 }
 

@@ -12,6 +12,7 @@
 struct blob {
     const uint8_t *bytes;
     const struct smear_blob_head *head;
+    uint32_t looks;             /* elements of arrays that may still be looked at */
 };
 
 static const void *blob_at(const struct blob *b, uint32_t at)
@@ -41,6 +42,15 @@ static bool blob_may_have(const struct blob *b, uint32_t at, uint32_t count, uin
     return at == 0 || blob_has(b, at, count, size);
 }
 
+/* Takes `count` elements that a record refers to from the looks that are left. Records may share arrays, so that a small
+ * blob could ask for any number of them. */
+static bool blob_looks(struct blob *b, uint32_t count)
+{
+    const bool may = b->looks != 0 && count < b->looks;
+    b->looks = may ? b->looks - count : 0;
+    return may;
+}
+
 /* Whether first + count <= limit, also where the sum would wrap. */
 static bool is_range(uint32_t first, uint32_t count, uint32_t limit)
 {
@@ -58,7 +68,7 @@ static bool is_modest(const int32_t *value, int count)
 
 /* ------------------------------------------------------------------ what smear_submit takes */
 
-static bool are_textures(const struct blob *b)
+static bool are_textures(struct blob *b)
 {
     const struct smear_blob_texture *t = blob_table(b, BLOB_TEXTURE);
     for (uint32_t i = 0; i < blob_count(b, BLOB_TEXTURE); i++, t++) {
@@ -72,6 +82,8 @@ static bool are_textures(const struct blob *b)
         if (t->format != SMEAR_TEXEL_PALETTE8)
             continue;
         if (!blob_has(b, t->palette, t->palette_count, 4))
+            return false;
+        if (!blob_looks(b, count))
             return false;
         const uint8_t *texel = blob_at(b, t->texels);
         for (uint32_t k = 0; k < count; k++)
@@ -91,7 +103,7 @@ static bool are_materials(const struct blob *b)
     return true;
 }
 
-static bool are_meshes(const struct blob *b)
+static bool are_meshes(struct blob *b)
 {
     const struct smear_blob_mesh *m = blob_table(b, BLOB_MESH);
     for (uint32_t i = 0; i < blob_count(b, BLOB_MESH); i++, m++) {
@@ -105,6 +117,8 @@ static bool are_meshes(const struct blob *b)
         for (int k = 0; k < 3; k++)
             if (m->offset[k] > 1 << 20 || m->offset[k] < -(1 << 20))
                 return false;
+        if (m->triangle_count > b->head->size || !blob_looks(b, 3 * m->triangle_count + m->vertex_count))
+            return false;
         const uint16_t *index = blob_at(b, m->index);
         for (uint32_t k = 0; k < 3 * m->triangle_count; k++)
             if (index[k] >= m->vertex_count)
@@ -145,11 +159,13 @@ static bool are_skins(const struct blob *b)
     return true;
 }
 
-static bool are_influences(const struct blob *b, const smear_model_draw *d, uint32_t vertices)
+static bool are_influences(struct blob *b, const smear_model_draw *d, uint32_t vertices)
 {
     const smear_model_skin *s = (const smear_model_skin *)blob_table(b, BLOB_SKIN) + d->skin;
     uint32_t n = d->influences, bytes = 2 * n - 1;
     if (n < 1 || n > 4 || !is_range(d->influence_first, vertices * bytes, blob_count(b, BLOB_INFLUENCE)))
+        return false;
+    if (!blob_looks(b, vertices * bytes))
         return false;
     const uint8_t *at = (const uint8_t *)blob_table(b, BLOB_INFLUENCE) + d->influence_first;
     for (uint32_t v = 0; v < vertices; v++, at += bytes) {
@@ -165,7 +181,7 @@ static bool are_influences(const struct blob *b, const smear_model_draw *d, uint
     return true;
 }
 
-static bool is_draw(const struct blob *b, const smear_model_draw *d)
+static bool is_draw(struct blob *b, const smear_model_draw *d)
 {
     if (d->mesh >= blob_count(b, BLOB_MESH)
         || (d->material != SMEAR_MODEL_NONE && d->material >= blob_count(b, BLOB_MATERIAL))
@@ -182,7 +198,7 @@ static bool is_draw(const struct blob *b, const smear_model_draw *d)
         && (d->skin == SMEAR_MODEL_NONE || are_influences(b, d, m->vertex_count));
 }
 
-static bool are_draws(const struct blob *b)
+static bool are_draws(struct blob *b)
 {
     const smear_model_draw *d = blob_table(b, BLOB_DRAW);
     for (uint32_t i = 0; i < blob_count(b, BLOB_DRAW); i++, d++)
@@ -191,13 +207,15 @@ static bool are_draws(const struct blob *b)
     return true;
 }
 
-static bool is_target(const struct blob *b, const smear_model_target *t, uint32_t vertices)
+static bool is_target(struct blob *b, const smear_model_target *t, uint32_t vertices)
 {
     if (!is_range(t->delta_first, t->delta_count, blob_count(b, BLOB_DELTA)) || t->shift > 2)
         return false;
     if (t->normal_first != SMEAR_MODEL_NO_NORMALS
         && (t->delta_count > blob_count(b, BLOB_DELTA_NORMAL) / 3
             || !is_range(t->normal_first, 3 * t->delta_count, blob_count(b, BLOB_DELTA_NORMAL))))
+        return false;
+    if (!blob_looks(b, t->delta_count))
         return false;
     const smear_model_delta *d = (const smear_model_delta *)blob_table(b, BLOB_DELTA) + t->delta_first;
     for (uint32_t i = 0; i < t->delta_count; i++)
@@ -206,7 +224,7 @@ static bool is_target(const struct blob *b, const smear_model_target *t, uint32_
     return true;
 }
 
-static bool are_morphs(const struct blob *b)
+static bool are_morphs(struct blob *b)
 {
     const smear_model_draw *d = blob_table(b, BLOB_DRAW);
     const smear_model_target *t = blob_table(b, BLOB_TARGET);
@@ -215,7 +233,8 @@ static bool are_morphs(const struct blob *b)
         if (d->target_count == 0)
             continue;
         if (!is_range(d->target_first, d->target_count, blob_count(b, BLOB_TARGET))
-            || !is_range(d->weight_first, d->target_count, blob_count(b, BLOB_WEIGHT)))
+            || !is_range(d->weight_first, d->target_count, blob_count(b, BLOB_WEIGHT))
+            || !blob_looks(b, d->target_count))
             return false;
         for (uint32_t k = 0; k < d->target_count; k++)
             if (!is_target(b, t + d->target_first + k, m[d->mesh].vertex_count))
@@ -224,7 +243,7 @@ static bool are_morphs(const struct blob *b)
     return true;
 }
 
-static bool is_channel(const struct blob *b, const smear_model_channel *c)
+static bool is_channel(struct blob *b, const smear_model_channel *c)
 {
     const smear_model_node *node = blob_table(b, BLOB_NODE);
     if (c->path > SMEAR_PATH_WEIGHTS || c->step > 1 || c->key_count < 1 || c->width < 1
@@ -239,6 +258,8 @@ static bool is_channel(const struct blob *b, const smear_model_channel *c)
                || node[c->target].moves == 0) {
         return false;
     }
+    if (!blob_looks(b, c->key_count))
+        return false;
     const uint16_t *time = (const uint16_t *)blob_table(b, BLOB_KEY_TIME) + c->time_first;
     for (uint32_t k = 1; k < c->key_count; k++)
         if (time[k] <= time[k - 1])
@@ -246,7 +267,7 @@ static bool is_channel(const struct blob *b, const smear_model_channel *c)
     return true;
 }
 
-static bool are_clips(const struct blob *b)
+static bool are_clips(struct blob *b)
 {
     const smear_model_channel *channel = blob_table(b, BLOB_CHANNEL);
     const smear_model_clip *c = blob_table(b, BLOB_CLIP);
@@ -308,20 +329,25 @@ static bool are_tables(const struct blob *b)
         && h->deformed_vertices <= 1u << 20 && h->unit_shift >= -31 && h->unit_shift <= 31;
 }
 
+/* Records of real models share little: this many looks at each byte are many. */
+enum { LOOKS_PER_BYTE = 8 };
+
 static int check_blob(struct blob *b, const void *bytes, size_t size)
 {
     int error = check_head(b, bytes, size);
     if (error != SMEAR_OK)
         return error;
-    return !are_tables(b)    ? SMEAR_MODEL_ERR_TABLE
-         : !are_textures(b)  ? SMEAR_MODEL_ERR_TEXTURE
-         : !are_materials(b) ? SMEAR_MODEL_ERR_MATERIAL
-         : !are_meshes(b)    ? SMEAR_MODEL_ERR_MESH
-         : !are_nodes(b)     ? SMEAR_MODEL_ERR_NODE
-         : !are_skins(b)     ? SMEAR_MODEL_ERR_SKIN
-         : !are_draws(b)     ? SMEAR_MODEL_ERR_DRAW
-         : !are_morphs(b)    ? SMEAR_MODEL_ERR_MORPH
-         : !are_clips(b)     ? SMEAR_MODEL_ERR_CLIP : (int)SMEAR_OK;
+    b->looks = LOOKS_PER_BYTE * min_u32(b->head->size, UINT32_MAX / LOOKS_PER_BYTE);
+    error = !are_tables(b)    ? SMEAR_MODEL_ERR_TABLE
+          : !are_textures(b)  ? SMEAR_MODEL_ERR_TEXTURE
+          : !are_materials(b) ? SMEAR_MODEL_ERR_MATERIAL
+          : !are_meshes(b)    ? SMEAR_MODEL_ERR_MESH
+          : !are_nodes(b)     ? SMEAR_MODEL_ERR_NODE
+          : !are_skins(b)     ? SMEAR_MODEL_ERR_SKIN
+          : !are_draws(b)     ? SMEAR_MODEL_ERR_DRAW
+          : !are_morphs(b)    ? SMEAR_MODEL_ERR_MORPH
+          : !are_clips(b)     ? SMEAR_MODEL_ERR_CLIP : (int)SMEAR_OK;
+    return error != SMEAR_OK && b->looks == 0 ? (int)SMEAR_MODEL_ERR_SHARED : error;
 }
 
 int smear_mesh_check(const void *blob, size_t bytes)
@@ -349,6 +375,7 @@ const char *smear_mesh_reason(int error)
     case SMEAR_MODEL_ERR_NODE:     return "a node comes before its parent or is out of range";
     case SMEAR_MODEL_ERR_SKIN:     return "a skin names a joint that is not there";
     case SMEAR_MODEL_ERR_MORPH:    return "a morph target names a vertex that is not there";
+    case SMEAR_MODEL_ERR_SHARED:   return "its records share arrays so often that checking them would take too long";
     case SMEAR_MODEL_ERR_CLIP:     return "a clip has keys out of order or a target that is not there";
     default:                       return "unknown error";
     }

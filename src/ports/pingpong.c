@@ -20,14 +20,18 @@ int smear_pingpong_plan(struct smear_pass pass[PINGPONG_PASSES_MAX], const smear
         /* power is below whole; 2^20 power / whole in two digits of 2^10. */
         int32_t high = (power << 10) / whole, low = (((power << 10) - high * whole) << 10) / whole;
         int32_t spacing = (high << 10) + low;
-        int32_t farthest = (p->taps - 1) * spacing + (spacing * p->jitter >> 7);
+        /* Where passes overlap, as `base` is above `taps`, jitter would take the outermost tap beyond the reach: there it
+         * moves no farther than to the end of the streak. */
+        const int32_t outermost = (p->taps - 1) * spacing, beyond = (1 << 20) - outermost;
+        const int32_t jitter = spacing * p->jitter >> 7 <= beyond ? p->jitter : (beyond << 7) / spacing;
+        const int32_t farthest = outermost + (spacing * jitter >> 7);
         pass[k] = (struct smear_pass){
             .taps = p->taps, .direct_up_to = p->passes > 1 ? min_i32(p->taps * p->passes, 64) / 2 : -1,
             .all_taps = min_i32(p->taps * p->passes, 64),
             .direct_spacing = (1 << 20) / min_i32(p->taps * p->passes, 64),
             .is_last = k == p->passes - 1, .spacing = spacing,
             .reach = min_i32(((farthest >> 4) * reach + (1 << 15)) >> 16, reach),
-            .jitter = p->jitter * 2, .bias = p->bias, .spread = p->spread != 0
+            .jitter = jitter * 2, .bias = p->bias, .spread = p->spread != 0
         };
     }
     return p->passes;

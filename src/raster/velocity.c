@@ -270,7 +270,10 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             stored[i] = stored_next[i];
         }
     }
-    /* Marks the tiles: their maximum must be looked for. */
+    /* Marks the tiles: their maximum must be looked for. Jobs never share a tile of a window; rows of layers, whose jobs
+     * may, have no marks. */
+    if (t->moving == NULL)
+        return;
     for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
         t->moving[tile] = 1;
 }

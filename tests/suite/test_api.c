@@ -160,6 +160,16 @@ static void test_every_bad_frame_is_refused_and_the_context_stays_usable(void)
         bad[count++].far_plane = 0;                 /* orthographic needs one */
         bad[count++].pose.basis[4] = 2 * SMEAR_BASIS_ONE + 1;
         bad[count++].pose.basis[8] = INT32_MIN;
+        for (int e = 0; e < 9; e++)                 /* an axis of 1.02, */
+            bad[count].pose.basis[e] += e % 3 == 1 ? bad[count].pose.basis[e] / 50 : 0;
+        count++;
+        for (int e = 0; e < 9; e++)                 /* two that are not upright to each other, */
+            bad[count].pose.basis[e] += e % 3 == 1 ? good.pose.basis[e + 1] / 50 : 0;
+        count++;
+        for (int e = 0; e < 9; e++)                 /* a mirror, */
+            bad[count].pose.basis[e] *= e % 3 == 1 ? -1 : 1;
+        count++;
+        memset(bad[count++].pose.basis, 0, sizeof bad->pose.basis);
         for (int i = 0; i < count; i++) {
             smear_frame f = { .camera = &bad[i] };
             if (!CHECK_EQ(smear_error_kind(smear_begin(r.ctx, &f)), SMEAR_ERR_ARG))

@@ -712,6 +712,36 @@ static void test_every_kind_of_damage_has_its_reason(void)
     close_file(&file);
 }
 
+/* Records of textures that all have the same texels, as many as there is room for: a small blob that would take a look at
+ * 128 kB of texels for each. With a picture of its own for each record it is a good one. */
+static void test_arrays_that_many_records_share_do_not_cost_time(void)
+{
+    enum { RECORDS = 400, TEXELS = 256 * 512, HEAD = (int)sizeof(struct smear_blob_head), OWN = 300 };
+    const size_t records = RECORDS * sizeof(struct smear_blob_texture), size = HEAD + records + 4 + TEXELS;
+    for (int shared = 0; shared < 2; shared++) {
+        uint8_t *blob = calloc(size, 1);
+        if (!CHECK(blob != NULL))
+            return;
+        struct smear_blob_head *head = (struct smear_blob_head *)(void *)blob;
+        *head = (struct smear_blob_head){ .magic = SMEAR_BLOB_MAGIC, .format = SMEAR_MODEL_FORMAT, .size = (uint32_t)size,
+                                          .transform_count = 1 };
+        for (int i = 0; i < BLOB_TABLES; i++)
+            head->table[i].at = HEAD;
+        head->table[BLOB_TEXTURE].count = RECORDS;
+        struct smear_blob_texture *texture = (struct smear_blob_texture *)(void *)(blob + HEAD);
+        for (int i = 0; i < RECORDS; i++)
+            texture[i] = (struct smear_blob_texture){
+                .palette = (uint32_t)(HEAD + records), .palette_count = 1, .format = SMEAR_TEXEL_PALETTE8,
+                .texels = (uint32_t)(HEAD + records + 4) + (shared ? 0u : (uint32_t)(i * OWN)),
+                .width = shared ? 256 : OWN, .height = shared ? 512 : 1
+            };
+        set_crc(blob, size);
+        CHECK_EQ(smear_mesh_check(blob, size), shared ? SMEAR_MODEL_ERR_SHARED : (int)SMEAR_OK);
+        CHECK(strstr(smear_mesh_reason(SMEAR_MODEL_ERR_SHARED), "share") != NULL);
+        free(blob);
+    }
+}
+
 /* ------------------------------------------------------------------ options */
 
 static void test_scale_and_up_axis_reach_the_vertices(void)
@@ -1061,6 +1091,7 @@ void suite_convert_tool(void)
     RUN(test_fewer_keys_for_a_larger_error);
     RUN(test_what_cannot_be_converted_is_refused_with_a_reason);
     RUN(test_every_kind_of_damage_has_its_reason);
+    RUN(test_arrays_that_many_records_share_do_not_cost_time);
     RUN(test_a_blob_with_a_wrong_byte_anywhere_is_refused_or_harmless);
     RUN(test_headers_compile_as_c99_and_as_cxx);
     RUN(test_what_is_played_looks_like_the_file);

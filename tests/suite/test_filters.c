@@ -3,6 +3,7 @@
  * direct taps, half size; on scenes of the suite. */
 #include "tests/ref/accuracy.h"
 
+#include "ports/pingpong.h"
 #include "tests/test.h"
 
 #include <math.h>
@@ -11,6 +12,29 @@
 #include <string.h>
 
 void suite_filters(void);
+
+/* ------------------------------------------------------------------ taps of passes */
+
+/* In 2^-20 of the reach. */
+static void test_no_tap_of_a_pass_lies_beyond_the_reach(void)
+{
+    for (int passes = 1; passes <= 3; passes++)
+        for (int taps = 2; taps <= 64; taps++)
+            for (int base = 2; base <= 64; base++)
+                for (int jitter = 0; jitter <= 128; jitter += jitter == 0 ? 1 : 127) {
+                    const smear_pingpong options = { .passes = (uint8_t)passes, .taps = (uint8_t)taps, .base = (uint8_t)base,
+                                                     .jitter = (uint8_t)jitter };
+                    struct smear_pass pass[PINGPONG_PASSES_MAX];
+                    smear_pingpong_plan(pass, &options, 64);
+                    for (int i = 0; i < passes; i++) {
+                        const int64_t farthest = (taps - 1) * (int64_t)pass[i].spacing
+                                               + ((int64_t)pass[i].spacing * pass[i].jitter >> 8);
+                        if (!CHECK(farthest <= 1 << 20) || !CHECK(pass[i].reach <= 64))
+                            return;
+                        CHECK(base > taps || jitter == 128 || pass[i].jitter == 2 * jitter);
+                    }
+                }
+}
 
 /* ------------------------------------------------------------------ velocity from depth */
 
@@ -471,6 +495,7 @@ static void test_scatter_goes_with_filters_alone(void)
 
 void suite_filters(void)
 {
+    RUN(test_no_tap_of_a_pass_lies_beyond_the_reach);
     RUN(test_scatter_goes_with_filters_alone);
     RUN(test_even_passes_are_a_box_and_the_original_is_a_comb);
     RUN(test_the_depth_mask_keeps_what_is_in_front_from_bleeding);
