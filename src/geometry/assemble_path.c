@@ -291,6 +291,9 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     struct smear_path_bounds bounds;
     if (!find_bounds(&bounds, b->a, b->d, corner))
         return true;
+    /* Rounding may turn over a sliver of the fan: at instants that is seen, among what is static it is not. */
+    if (is_static(&bounds) && area_of(&corner[0][MIDDLE], &corner[1][MIDDLE], &corner[2][MIDDLE]) <= 0)
+        return true;
     if (!has_room(b))
         return false;
     bounds.interval = p->interval;

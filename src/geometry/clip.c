@@ -92,10 +92,16 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
 {
     const int count = polygon->count;
     uint32_t outside = 0;       /* a bit per corner */
-    for (int i = 0; i < count; i++)
-        outside |= (uint32_t)is_outside(clip_corner(polygon, i), p, plane) << i;
+    int kept = count;
+    for (int i = 0; i < count; i++) {
+        const bool is_out = is_outside(clip_corner(polygon, i), p, plane);
+        outside |= (uint32_t)is_out << i;
+        kept -= is_out;
+    }
     if (outside == 0)
         return;
+    /* So many new corners at most: where edges were moved by rounding, or three poses left many, one may find no room. */
+    const int fresh_end = count + min_i32(SMEAR_CLIP_MAX - kept, SMEAR_CLIP_ROOM - count);
     uint8_t order[SMEAR_CLIP_ROOM];
     int result = 0, unused = SMEAR_CLIP_ROOM, fresh = count;
     for (int i = 0; i < count; i++) {
@@ -105,7 +111,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
             order[--unused] = polygon->order[i];
         else
             order[result++] = polygon->order[i];
-        if (is_out == (outside >> next & 1u) || result == SMEAR_CLIP_MAX || fresh == SMEAR_CLIP_ROOM)
+        if (is_out == (outside >> next & 1u) || fresh == fresh_end)
             continue;
         const uint8_t corner = polygon->order[fresh++];
         cut(polygon, &polygon->vertex[corner], clip_corner(polygon, is_out ? next : i),
@@ -116,6 +122,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
         order[--unused] = polygon->order[fresh++];
     for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
         polygon->order[i] = order[i];
+    SMEAR_ASSERT(result <= SMEAR_CLIP_MAX);
     polygon->count = result < 3 ? 0 : result;
 }
 

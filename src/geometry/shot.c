@@ -103,7 +103,7 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
                                               * f->scale.translation >> 8));
 }
 
-static bool same_kind(const smear_camera *a, const smear_camera *b)
+bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b)
 {
     return !SMEAR_WITH_ORTHOGRAPHIC || (a->half_height > 0) == (b->half_height > 0);
 }
@@ -124,7 +124,7 @@ void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const sme
         open = last;
     else
         shot->camera_moves = frame->shutter.poses && frame->close != NULL;
-    if (!same_kind(open, now) || !same_kind(close, now)) {
+    if (!smear_camera_is_of_kind(open, now) || !smear_camera_is_of_kind(close, now)) {
         shot->camera_moves = false;
         open = close = now;
     }

@@ -37,6 +37,9 @@ struct smear_instant smear_instant_middle(const struct smear_shot *shot);
 /* Fills in the exposure of a frame whose defaults are filled in, and brings its shutter.degrees up to date. */
 void smear_shot_expose(struct smear_shot *shot, smear_frame *frame);
 
+/* Whether there is a path from one camera to the other: both have a perspective, or none has. */
+bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b);
+
 /* Fills in the cameras of a frame. `last`: the camera of the frame before, or null. */
 void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last);
 

@@ -355,8 +355,33 @@ static void test_a_cut_keeps_the_order_of_the_corners(void)
     }
 }
 
+/* A polygon that has as many corners as there is room for, in and out by turns as no convex one is: no plane leaves more,
+ * and every vertex stays in one place. */
+static void test_a_full_polygon_never_outgrows_its_room(void)
+{
+    random_state = 17;
+    for (int n = 0; n < 4000; n++) {
+        const struct smear_projection p = lens(false);
+        struct smear_clip_polygon polygon;
+        smear_clip_start(&polygon, CLIP_POSES, true, true);
+        polygon.count = between(3, SMEAR_CLIP_MAX);
+        for (int i = 0; i < polygon.count; i++)
+            polygon.vertex[i] = vertex_within(chance(3) ? NEAR_AT - between(1, 1000) : between(NEAR_AT, FAR_AT), 1, false);
+        smear_clip_polygon(&polygon, &p, OUT_NEAR);
+        uint32_t seen = 0;
+        for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
+            seen |= 1u << polygon.order[i];
+        if (!CHECK(polygon.count <= SMEAR_CLIP_MAX) || !CHECK_EQ(seen, (1u << SMEAR_CLIP_ROOM) - 1))
+            return;
+        for (int i = 0; i < polygon.count; i++)
+            if (!CHECK(clip_corner(&polygon, i)->now.distance >= NEAR_AT))
+                return;
+    }
+}
+
 void suite_clip(void)
 {
+    RUN(test_a_full_polygon_never_outgrows_its_room);
     RUN(test_what_lies_inside_is_left_alone);
     RUN(test_only_the_planes_named_by_the_codes_cut);
     RUN(test_what_lies_outside_is_gone);
