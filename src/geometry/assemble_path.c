@@ -86,6 +86,9 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
     int32_t margin = curvature >> 3;
     struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
                        (y1 + margin + 128 + 127) >> 8 };
+    /* Of the whole frame, so that it is the same in every part. */
+    const bool large = min_i32(box.x1, a->viewport.width) - max_i32(box.x0, 0) > PATH_LARGE_PX
+                    || min_i32(box.y1, a->viewport.height) - max_i32(box.y0, 0) > PATH_LARGE_PX;
     box_cut(&box, a);
     if (box_is_empty(&box))
         return false;
@@ -94,7 +97,8 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         .travel = sixteenths(travel), .curvature = sixteenths(curvature),
         .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
         .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
-                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0))
+                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0)
+                            | (large ? PATH_LARGE : 0))
     };
     return true;
 }

@@ -46,8 +46,11 @@ enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
     PATH_INTERVAL = 4,      /* it is there for an interval of the exposure only */
-    PATH_FLAT = 8           /* vertices have (nearly) one colour, which is the triangle's `color` */
+    PATH_FLAT = 8,          /* vertices have (nearly) one colour, which is the triangle's `color` */
+    PATH_LARGE = 16         /* its path is seen in more than PATH_LARGE_PX pixels of the frame along x or y */
 };
+
+enum { PATH_LARGE_PX = 24 };        /* smaller ones lie in few tiles */
 
 enum { PATH_INTERVALS = 16 };
 

@@ -210,6 +210,12 @@ static void count_tiles(const struct smear_filtered *f, const struct smear_rows 
         smear_row_count(rows, around[i].kind, (smear_method)f->method);
 }
 
+/* Whether two tiles beside each other write into one byte: then one core finishes them. */
+static bool tiles_share_bytes(const smear_desc *d)
+{
+    return SMEAR_WITH_GREY && d->format == SMEAR_L1 && d->tile < 8;
+}
+
 /* Finishes tile row `row`; rows up to `known` are in the window. */
 static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row, int known)
 {
@@ -230,7 +236,11 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
     int result = SMEAR_OK;
     while (result == SMEAR_OK && smear_band_next(&job.row)) {
         const uint32_t start = stage_start(rows);
-        smear_jobs_run(&rows->jobs, tile_job, &job, w->columns);
+        if (tiles_share_bytes(rows->desc))
+            for (int column = 0; column < w->columns; column++)
+                tile_job(&job, column, 0);
+        else
+            smear_jobs_run(&rows->jobs, tile_job, &job, w->columns);
         stage_end(rows, &rows->stats->time.blur, start);
         result = smear_band_flush(&job.row);
     }

@@ -22,7 +22,6 @@ struct displacements {
 };
 
 enum {
-    LARGE_PX = 24,                  /* smaller triangles lie in few tiles */
     ALIKE = 8 * 16,                 /* displacements need not be told apart */
     WEIGHT_BITS = 14,
     MEAN_MAX = 512 * 16             /* longer displacements count as this one in a mean */
@@ -55,7 +54,7 @@ static struct displacements displacements_of(const struct smear_bins *g, uint32_
         w.y0 = min_i32(w.y0, y);
         w.y1 = max_i32(w.y1, y);
     }
-    w.large = (b->x1 - b->x0 > LARGE_PX || b->y1 - b->y0 > LARGE_PX)
+    w.large = (b->flags & PATH_LARGE) != 0
            && (w.x1 - w.x0 > ALIKE || w.y1 - w.y0 > ALIKE);
     for (int i = 0; w.large && i < 3; i++) {
         w.x[i] = v[i][VERTEX_X] >> 8;
