@@ -340,10 +340,11 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
                          const struct smear_instant *instant)
 {
     const uint32_t start = stage_start(&c->rows);
+    bool drop = false;
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     for (;;) {
         const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        const bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, last);
+        const bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, drop);
         note_fills(c);
         if (done && !static_is_disturbed(c))
             break;
@@ -351,6 +352,10 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
         c->assembler.triangles_dropped = dropped;
         if (done) {
             damage_forget(c->damage);
+            continue;
+        }
+        if (last) {
+            drop = true;
             continue;
         }
         if (end - first > 1)

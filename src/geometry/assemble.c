@@ -6,9 +6,9 @@
  * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
-#include "geometry/clip.h"
-#include "base/fixmath.h"
+#include "geometry/batch.h"
 #include "geometry/tiny.h"
+#include "kernels/triangles.h"
 
 static void forget_all(struct smear_assembler *a)
 {
@@ -23,182 +23,6 @@ void smear_assembler_reset(struct smear_assembler *a)
     a->path_count = 0;
     if (a->serial == 0)         /* after that, serial numbers tell old vertices from new ones */
         forget_all(a);
-}
-
-static uint32_t index_of(const struct smear_cached_vertex *v)
-{
-    return v->tag & 0xffffu;
-}
-
-/* Returns where the vertex is now, before the division: from the cache, or transformed again into *found. */
-static const struct smear_homogeneous *now_of(struct smear_homogeneous *found, const struct smear_assembly *d,
-                                              const struct smear_cached_vertex *v)
-{
-#if SMEAR_FAST_STACK
-    placement_transform(found, &d->at, index_of(v));
-    return found;
-#else
-    (void)found;
-    (void)d;
-    return &v->now;
-#endif
-}
-
-static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
-{
-    const int64_t far_out = (1 << 27) - 1;
-    int64_t d = there - ((int64_t)ratio * now >> 20);
-    return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
-}
-
-/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
-static void store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
-                         const struct smear_homogeneous *h, const struct smear_homogeneous *now,
-                         const struct smear_screen *screen, const struct smear_viewport *viewport)
-{
-    /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
-    int scale = d->at.now.scale - d->pose[pose].scale;
-    int zeros = count_leading_zeros((uint32_t)now->w);
-    int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
-    /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
-    int up = count_leading_zeros((uint32_t)(abs_i32(h->x) | abs_i32(h->y) | abs_i32(h->w) | 1)) - 1;
-    int shift = zeros - 29 + scale - up;
-    int32_t x = scale_sat(mulh_i32(shl_wrap(h->x, up), r), clamp_i32(shift + 8, -31, 31));
-    int32_t y = scale_sat(mulh_i32(shl_wrap(h->y, up), r), clamp_i32(shift + 8, -31, 31));
-    int32_t ratio = scale_sat(mulh_i32(shl_wrap(h->w, up), r), clamp_i32(shift + 20, -31, 31));
-    out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
-    out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
-    out[MOTION_RATIO] = (uint32_t)ratio;
-}
-
-/* Whether the display lacks one of the tiles that the box reaches into; notes where triangles are seen. */
-static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
-{
-    if (!assembler_has_damage(a))
-        return true;
-    const struct smear_tile_box tiles = tile_box_of(a->damaged, box->x0, box->x1, box->y0, box->y1);
-    if (a->damaged->seen != NULL)
-        tile_box_add(a->damaged->seen, tiles);
-    return !a->damaged->only || tile_box_is_damaged(a->damaged, tiles);
-}
-
-/* What the loop over a draw's triangles needs for each of them. */
-struct batch {
-    struct smear_assembler *a;
-    const struct smear_assembly *d;
-    struct smear_segment *segment;      /* the newest */
-    bool shares;                        /* all faces of a vertex share its record */
-    bool partial;                       /* only a part of the frame is being filled */
-    bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
-    bool double_sided;
-    const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
-    const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
-};
-
-/* ------------------------------------------------------------------ clipped triangles */
-
-/* What clipping leaves of a triangle. */
-struct clipped {
-    struct smear_clip_polygon polygon;
-    struct smear_screen screen[SMEAR_CLIP_MAX];
-    struct smear_face face;
-    int64_t area;               /* twice the polygon's area, positive when it is clockwise on the screen */
-};
-
-/* Clips the triangle, its vertices shaded as those of c->face, and projects what is left. */
-static void clip_and_project(struct clipped *c, const struct batch *b,
-                             const struct smear_cached_vertex *const corner[3])
-{
-    const struct smear_assembly *d = b->d;
-    const struct smear_segment *s = b->segment;
-    const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
-    for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &c->polygon.vertex[i];
-        const uint32_t index = index_of(corner[i]);
-        v->now = *now_of(&v->now, d, corner[i]);
-        for (int pose = 0; pose < poses; pose++)
-            pose_transform(&v->pose[pose], d, pose, index);
-        smear_vertex_for_clipping(v, d, s, index, &c->face);
-    }
-    smear_clip_start(&c->polygon, poses, segment_textured(s), segment_colored(s));
-    smear_clip_polygon(&c->polygon, &d->at.now, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
-    c->area = 0;
-    for (int i = 0; i < c->polygon.count; i++) {
-        smear_project(&c->screen[i], &d->at.now, &clip_corner(&c->polygon, i)->now, &b->a->viewport);
-        if (i >= 2)
-            c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
-    }
-    for (int i = 0; i < c->polygon.count; i++)
-        screen_clamp(&c->screen[i], &b->a->viewport);
-}
-
-/* Stores corner i of the polygon; returns the offset of its record in the segment. */
-static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
-{
-    const struct smear_segment *s = b->segment;
-    const struct smear_clip_vertex *v = clip_corner(&c->polygon, i);
-    struct smear_bins *g = b->a->bins;
-    const uint32_t word = g->vertex_words;
-    uint32_t *record = g->pool + word;
-    g->vertex_words = word + s->stride;
-    store_place(record, &c->screen[i]);
-    smear_vertex_store_clipped(record, s, v);
-    for (int pose = 0; pose < segment_moves(s); pose++)
-        store_motion(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i],
-                     &b->a->viewport);
-    return (uint16_t)(word - s->base);
-}
-
-/* Adds the triangle of corners 0, i - 1 and i. Returns false where there is no room. */
-static bool add_fan(struct batch *b, struct clipped *c, int i)
-{
-    const struct smear_screen *place[3] = { &c->screen[0], &c->screen[i - 1], &c->screen[i] };
-    const int64_t area = area_of(place[0], place[1], place[2]);
-    /* Rounding may turn over a sliver of the fan, which then covers nothing that its neighbours do not. */
-    if (area == 0 || (area > 0) != (c->area > 0))
-        return true;
-    struct box box = box_of(place[0], place[1], place[2]);
-    box_cut(&box, b->a);
-    if (box_is_empty(&box) || !is_damaged(b->a, &box))
-        return true;
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, 1);
-    if (s == NULL)
-        return false;
-    b->segment = s;
-    const uint16_t first = store_corner(b, c, 0), second = store_corner(b, c, i - 1), third = store_corner(b, c, i);
-    struct smear_bins *g = b->a->bins;
-    struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
-    b->a->triangles_drawn++;
-    t->segment = (uint16_t)(s - g->segment);
-    t->color = smear_face_color(b->d, s, &c->face);
-    t->vertex[0] = first;
-    t->vertex[1] = c->area > 0 ? second : third;
-    t->vertex[2] = c->area > 0 ? third : second;
-    return true;
-}
-
-/* Adds what is left of a triangle that has to be clipped, as a fan. Returns false where there is no room. */
-static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3],
-                                       uint32_t triangle)
-{
-    struct clipped c;
-    const bool colored = segment_colored(b->segment);
-    if (colored)
-        c.face = smear_face_of(b->d, triangle, false);
-    clip_and_project(&c, b, corner);
-    const bool back = (c.area > 0) != b->d->mirrored;
-    if (c.area == 0 || (back && !b->double_sided))
-        return true;
-    /* Which side is seen decides the light of vertices, and only the clipped polygon tells: the back is shaded and
-     * clipped again. */
-    if (!colored || back)
-        c.face = smear_face_of(b->d, triangle, back);
-    if (colored && back)
-        clip_and_project(&c, b, corner);
-    for (int i = 2; i < c.polygon.count; i++)
-        if (!add_fan(b, &c, i))
-            return false;
-    return true;
 }
 
 /* ------------------------------------------------------------------ whole triangles */
@@ -253,18 +77,18 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
     return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }
 
-/* Stores a vertex; returns the first word of its record. */
-static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct smear_cached_vertex *v,
-                                            uint32_t triangle, bool back)
+/* Stores a vertex; returns the first word of its record. `known`: where it is now, before the division, or null. */
+static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen,
+                                            const struct smear_homogeneous *known, uint32_t triangle, bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
     const smear_mesh *mesh = d->mesh;
     struct smear_bins *g = b->a->bins;
-    uint32_t word = g->vertex_words, index = index_of(v);
+    uint32_t word = g->vertex_words;
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
-    store_place(record, &v->screen);
+    store_place(record, screen);
     if (segment_textured(s))
         store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
     if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
@@ -277,52 +101,69 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, const struct 
     for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h, now;
         pose_transform(&h, d, pose, index);
-        store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, now_of(&now, d, v), &v->screen,
-                     &b->a->viewport);
+        if (known == NULL)
+            placement_transform(&now, &d->at, index);
+        smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, known != NULL ? known : &now, screen,
+                                 &b->a->viewport);
     }
     return word;
+}
+
+/* Whether the triangle's vertices are stored once for all faces around them. */
+static inline bool batch_shares(const struct batch *b, bool back)
+{
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    return b->shares && (!back || !segment_by_vertices(b->segment));
 }
 
 /* Returns the first word of the vertex's record, which it stores where that has not been done. */
 static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
                                      bool back)
 {
-    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    bool shares = b->shares && (!back || !segment_by_vertices(b->segment));
+    const bool shares = batch_shares(b, back);
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
-    uint32_t word = store_vertex(b, v, triangle, back);
+    uint32_t word = store_vertex(b, index_of(v), &v->screen, cached_now(v), triangle, back);
     if (shares)
         v->stored = word + 1;
     return word;
 }
 
-static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
-                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+/* Stores covered pixels of a triangle. `record`: words of its vertices, where colours come from them. */
+static inline void store_points(const struct batch *b, uint32_t triangle, bool back, const struct covered covered[POINTS_MAX],
+                                int count, int32_t area, const int32_t depth[3], const uint32_t record[3])
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *s = b->segment;
-    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    const struct tiny_scale scale = tiny_scale_make(area);
     uint32_t color = 0;
     if (!segment_colored(s))
         color = color_of_face(b, triangle, back);
-    if (segment_by_vertices(s))
-        for (int i = 0; i < 3; i++)
-            channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
-    struct tiny_scale scale = tiny_scale_make(area);
-    int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
     for (int i = 0; i < count; i++) {
         const struct covered *p = &covered[i];
-        uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
+        const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
         struct smear_triangle *t = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
         t->vertex[POINT_X] = (uint16_t)p->x;
         t->vertex[POINT_Y] = (uint16_t)p->y;
-        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(depth[0], depth[1], depth[2], w1, w2);
         t->segment = SMEAR_POINT;
-        t->color = !segment_colored(s) ? color
-                                       : tiny_color(channels[0], channels[1], channels[2], w1, w2,
-                                                    shading_is_linear(&b->d->shading));
+        t->color = color;
+        if (segment_colored(s)) {
+            const uint32_t *c = g->pool + s->color;
+            t->color = tiny_color(c + record[0], c + record[1], c + record[2], w1, w2, shading_is_linear(&b->d->shading));
+        }
     }
+}
+
+static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
+                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+{
+    uint32_t record[3] = { 0, 0, 0 };
+    if (segment_by_vertices(b->segment))
+        for (int i = 0; i < 3; i++)
+            record[i] = stored_vertex(b, v[i], triangle, back);
+    const int32_t depth[3] = { v[0]->screen.depth, v[1]->screen.depth, v[2]->screen.depth };
+    store_points(b, triangle, back, covered, count, area, depth, record);
 }
 
 /* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach beyond the
@@ -390,7 +231,7 @@ static inline void find_vertex(const struct smear_assembler *a, const struct sme
     v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
 }
 
-#ifndef __OPTIMIZE_SIZE__
+#if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
 /* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
 static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
                                     uint32_t tag)
@@ -456,7 +297,7 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     if ((any & OUT_CLIP) != 0) {
         const bool mirrored = b->d->mirrored;       /* clipping takes the mesh's own order */
         const struct smear_cached_vertex *corner[3] = { v0, mirrored ? v1 : v2, mirrored ? v2 : v1 };
-        return add_clipped(b, corner, triangle);
+        return smear_batch_add_clipped(b, corner, triangle);
     }
     const int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
     if (area > 0)
@@ -464,31 +305,30 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     return area == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
 }
 
-bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+/* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room for one that is not
+ * dropped. */
+static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end, bool drop)
 {
-    const smear_mesh *mesh = d->mesh;
-    struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
-    if (b.segment == NULL) {
-        if (drop)
-            a->triangles_dropped += mesh->triangle_count;
-        return drop;
+    struct smear_assembler *a = b->a;
+    const struct smear_assembly *d = b->d;
+    if (b->tag == 0) {
+        if (a->serial == 0xffffu || a->cache_has_paths)
+            forget_all(a);
+        b->tag = ++a->serial << 16;
+#if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
+        if (d->mesh->vertex_count <= a->cache_mask + 1u)
+            find_all(a, d, b->tag);
+#endif
     }
-    batch_start(&b);
-    if (a->serial == 0xffffu || a->cache_has_paths)
-        forget_all(a);
-    uint32_t tag = ++a->serial << 16;
+    const uint32_t tag = b->tag;
     struct smear_cached_vertex spare[3];
     struct smear_cached_vertex *const cache = a->cache;
     const uint32_t mask = a->cache_mask;
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
     const int second = d->mirrored ? 1 : 2, third = 3 - second;
-    const uint16_t *index = mesh->index;
-#ifndef __OPTIMIZE_SIZE__
-    if (mesh->vertex_count <= mask + 1u)
-        find_all(a, d, tag);
-#endif
+    const uint16_t *index = d->mesh->index + 3 * first;
 
-    for (uint32_t i = 0; i < mesh->triangle_count; i++, index += 3) {
+    for (uint32_t i = first; i < end; i++, index += 3) {
         uint32_t tag0 = tag | index[0], tag1 = tag | index[second], tag2 = tag | index[third];
         struct smear_cached_vertex *v0 = cache + (tag0 & mask), *v1 = cache + (tag1 & mask);
         struct smear_cached_vertex *v2 = cache + (tag2 & mask);
@@ -498,11 +338,328 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
             v1 = miss(a, d, tag1, v0, NULL, &spare[1]);
         if (v2->tag != tag2)
             v2 = miss(a, d, tag2, v0, v1, &spare[2]);
-        if (!add_triangle(&b, v0, v1, v2, i)) {
+        if (!add_triangle(b, v0, v1, v2, i)) {
             if (!drop)
                 return false;
             a->triangles_dropped++;
         }
     }
     return true;
+}
+
+/* ------------------------------------------------------------------ triangles by fours */
+
+#if SMEAR_PLACES
+/* Vertices first .. first + count - 1 of the mesh on the screen. They lie in the pool between its vertices and its
+ * triangles, which must not grow beyond `bottom` and `top`. */
+struct places {
+    struct smear_place *place;
+    uint32_t *stored;               /* as in struct smear_cached_vertex */
+    uint32_t first, count;
+    uint32_t bottom, top;           /* pool words */
+    struct triangles_setup setup;
+};
+
+/* A place that no vertex has stands for those before the near plane, and one for those behind the far plane: triangles
+ * of which all are there have no area, and the edges of others are too long. */
+enum { PLACE_NEAR = -(1 << 29), PLACE_FAR = 1 << 29 };
+
+enum {
+    PLACE_WORDS = sizeof(struct smear_place) / 4 + 1,
+    PLACES_BLOCK = 64,              /* triangles whose vertices are in `places` or not */
+    PLACES_MARGIN = 512             /* words that a group of triangles, or a clipped one, may take at either side */
+};
+
+static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_homogeneous h;
+    const int code = placement_project(&p->screen, &h, &d->at, index, &b->a->viewport);
+    if ((code & (OUT_NEAR | OUT_FAR)) != 0)
+        p->screen.x = p->screen.y = (code & OUT_NEAR) != 0 ? PLACE_NEAR : PLACE_FAR;
+    p->first = place_first(p->screen.x, p->screen.y);
+}
+
+static SMEAR_NOINLINE void find_places(const struct batch *b, const struct places *r)
+{
+    const struct smear_placement *at = &b->d->at;
+    const struct smear_projection *p = &at->now;
+    const struct place_setup setup = {
+        p->m, p->near_distance, p->far_distance, p->depth_mantissa, p->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
+        b->a->viewport.width << 7, b->a->viewport.height << 7
+    };
+    const bool by_fours = !is_orthographic(p) && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
+    struct place_rows rows;
+    uint32_t i = 0;
+    if (by_fours)
+        place_rows_make(&rows, &setup);
+    while (i < r->count) {
+        const uint32_t end = min_u32(i + 4, r->count);
+        if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * (r->first + i), &rows)) {
+            i = end;
+            continue;
+        }
+        for (; i < end; i++)
+            find_place(r->place + i, b, r->first + i);
+    }
+    __builtin_memset(r->stored, 0, r->count * sizeof *r->stored);
+}
+
+/* Returns the words that places of vertices take, and what most triangles of a mesh add to the pool: backs are not
+ * seen. */
+static inline uint32_t words_of(uint32_t vertices, uint32_t triangles, uint32_t stride)
+{
+    return vertices * PLACE_WORDS + (min_u32(vertices, 3 * triangles) * stride + triangles * 4) / 4 * 3 + 2 * PLACES_MARGIN;
+}
+
+/* Takes as many triangles of [first, end) as name vertices that there is room for, and finds these. Returns the end of
+ * them; `first` where there is no room, or an index that the mesh does not have. */
+static uint32_t open_places(struct places *r, const struct batch *b, uint32_t first, uint32_t end)
+{
+    const smear_mesh *mesh = b->d->mesh;
+    const struct smear_bins *g = b->a->bins;
+    const uint32_t stride = b->segment->stride, begin = g->vertex_words;
+    const uint32_t free = g->pool_words - begin - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+    struct index_range all = { UINT16_MAX, 0 };
+    uint32_t last = first;
+    while (last < end) {
+        const uint32_t next = min_u32(last + PLACES_BLOCK, end);
+        const struct index_range range = indices_range(mesh->index + 3 * last, (int32_t)(3 * (next - last)));
+        const struct index_range more = { min_u32(all.least, range.least), max_u32(all.most, range.most) };
+        if (more.most >= mesh->vertex_count || words_of(more.most - more.least + 1, next - first, stride) > free)
+            break;
+        all = more;
+        last = next;
+    }
+    if (last == first)
+        return first;
+    r->first = all.least;
+    r->count = all.most - all.least + 1;
+    const uint32_t words = r->count * PLACE_WORDS, rest = free - words;
+    r->bottom = begin + (uint32_t)((uint64_t)rest * stride / (stride + 8u));
+    r->top = r->bottom + words;
+    r->place = (struct smear_place *)(void *)(g->pool + r->bottom);
+    r->stored = g->pool + r->bottom + r->count * (PLACE_WORDS - 1);
+    find_places(b, r);
+    return last;
+}
+
+static inline bool places_have_room(const struct places *r, const struct smear_bins *g)
+{
+    return g->vertex_words + PLACES_MARGIN <= r->bottom
+        && r->top + PLACES_MARGIN <= g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+}
+
+/* Triangle k of four. */
+struct seen {
+    const struct places *places;
+    const struct smear_triangles *four;
+    int k;
+    uint32_t index[3];              /* clockwise on the screen */
+    uint32_t triangle;
+    bool back;
+};
+
+static inline uint32_t stored_place(const struct batch *b, const struct seen *t, int i, bool shares)
+{
+    const struct places *r = t->places;
+    const uint32_t at = t->index[i] - r->first;
+    if (shares && r->stored[at] > b->segment->base)
+        return r->stored[at] - 1;
+    const uint32_t word = store_vertex(b, t->index[i], &r->place[at].screen, NULL, t->triangle, t->back);
+    if (shares)
+        r->stored[at] = word + 1;
+    return word;
+}
+
+/* Adds a triangle that is not finished here. */
+static inline void add_listed(const struct batch *b, const struct seen *t)
+{
+    struct smear_bins *g = b->a->bins;
+    const bool shares = batch_shares(b, t->back);
+    const uint32_t base = b->segment->base;
+    const uint16_t offset0 = (uint16_t)(stored_place(b, t, 0, shares) - base);
+    const uint16_t offset1 = (uint16_t)(stored_place(b, t, 1, shares) - base);
+    const uint16_t offset2 = (uint16_t)(stored_place(b, t, 2, shares) - base);
+    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, pair_y(t->four->low[t->k]))));
+    out->vertex[0] = offset0;
+    out->vertex[1] = offset1;
+    out->vertex[2] = offset2;
+    out->segment = (uint16_t)(b->segment - g->segment);
+    out->color = color_of_face(b, t->triangle, t->back);
+}
+
+/* Adds a tiny triangle's pixels as points. */
+static inline bool has_few_bits(uint32_t four_bits) { return (0x177fu >> four_bits & 1u) != 0; }
+
+static inline void add_seen_points(const struct batch *b, const struct seen *t, const struct smear_screen *const corner[3])
+{
+    const struct smear_triangles *four = t->four;
+    const int k = t->k;
+    const int32_t x1 = pair_x(four->edge1[k]), y1 = pair_y(four->edge1[k]);
+    const int32_t x2 = pair_x(four->edge2[k]), y2 = pair_y(four->edge2[k]);
+    struct covered covered[POINTS_MAX];
+    int count = 0;
+    for (uint32_t i = 0, bits = four->covered[k]; bits != 0; i++, bits >>= 1) {
+        if ((bits & 1u) == 0)
+            continue;
+        const int32_t right = (int32_t)(i & 1u) * 256, down = (int32_t)(i >> 1) * 256;
+        covered[count++] = (struct covered){
+            pair_x(four->low[k]) + (int32_t)(i & 1u), pair_y(four->low[k]) + (int32_t)(i >> 1),
+            four->e1[k] + right * y2 - down * x2, four->e2[k] - right * y1 + down * x1
+        };
+    }
+    uint32_t record[3];
+    if (segment_by_vertices(b->segment)) {
+        const bool shares = batch_shares(b, t->back);
+        for (int i = 0; i < 3; i++)
+            record[i] = stored_place(b, t, i, shares);
+    }
+    const int32_t depth[3] = { corner[0]->depth, corner[1]->depth, corner[2]->depth };
+    store_points(b, t->triangle, t->back, covered, count, four->area[k], depth, record);
+}
+
+/* Adds triangle k of the four. Returns false where there is no room. */
+static inline bool add_seen(struct batch *b, struct seen *t)
+{
+    const struct smear_triangles *four = t->four;
+    const int k = t->k;
+    if (assembler_has_damage(b->a)) {
+        const struct box box = { pair_x(four->low[k]), pair_y(four->low[k]), pair_x(four->high[k]), pair_y(four->high[k]) };
+        if (!is_damaged(b->a, &box))
+            return true;
+    }
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
+    if (s == NULL)
+        return false;
+    b->segment = s;
+    b->a->triangles_drawn++;
+    if (b->points && (four->tiny >> k & 1u) != 0 && has_few_bits(four->covered[k])) {
+        const struct smear_place *place = t->places->place;
+        const uint32_t first = t->places->first;
+        const struct smear_screen *const corner[3] = { &place[t->index[0] - first].screen, &place[t->index[1] - first].screen,
+                                                       &place[t->index[2] - first].screen };
+        if (!segment_by_vertices(s) || segment_flat_depth(s)
+            || tiny_is_even(corner[0]->depth, corner[1]->depth, corner[2]->depth)) {
+            add_seen_points(b, t, corner);
+            return true;
+        }
+    }
+    add_listed(b, t);
+    return true;
+}
+
+static inline bool place_is_clipped(const struct smear_screen *s, const struct smear_viewport *viewport)
+{
+    return s->x == PLACE_NEAR || s->x == PLACE_FAR || (outcode_sides(s, viewport) & OUT_GUARD) != 0;
+}
+
+/* Adds a triangle of long edges, or one that has to be clipped, vertex by vertex. */
+static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
+{
+    const struct places *r = t->places;
+    const struct smear_viewport *viewport = &b->a->viewport;
+    struct smear_cached_vertex v[3];
+    bool clipped = segment_moves(b->segment) != 0;
+    for (int i = 0; i < 3; i++)
+        clipped = clipped || place_is_clipped(&r->place[t->index[i] - r->first].screen, viewport);
+    for (int i = 0; i < 3; i++) {
+        if (clipped) {
+            find_vertex(b->a, b->d, &v[i], t->index[i]);
+        } else {
+            v[i].screen = r->place[t->index[i] - r->first].screen;
+            v[i].outcode = outcode_sides(&v[i].screen, viewport);
+            v[i].tag = t->index[i];
+        }
+        v[i].stored = r->stored[t->index[i] - r->first];
+    }
+    const bool added = add_triangle(b, &v[0], &v[1], &v[2], t->triangle);
+    for (int i = 0; i < 3; i++)
+        r->stored[t->index[i] - r->first] = v[i].stored;
+    return added;
+}
+
+/* Adds those of four triangles that may be seen. Returns false where there is no room. */
+static inline bool add_four(struct batch *b, const struct places *r, const struct smear_triangles *four,
+                            const uint16_t *index, uint32_t triangle)
+{
+    const uint32_t all = four->seen | four->far;
+    for (int k = 0; all >> k != 0; k++, index += 3) {
+        if ((all >> k & 1u) == 0)
+            continue;
+        const bool back = (four->seen & four->back) >> k & 1u;
+        struct seen t = { r, four, k, { index[0], index[back ? r->setup.third : r->setup.second],
+                                        index[back ? r->setup.second : r->setup.third] }, triangle + (uint32_t)k, back };
+        if (!((four->far >> k & 1u) != 0 ? add_far(b, &t) : add_seen(b, &t)))
+            return false;
+    }
+    return true;
+}
+
+/* Adds triangles from `first` to where places end, or are in the way. Returns where that is; UINT32_MAX where there is no
+ * room. */
+static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
+{
+    const uint16_t *index = b->d->mesh->index + 3 * first;
+    const struct smear_place *const place = r->place - r->first;
+    struct smear_triangles four;
+    for (uint32_t i = first; i < end; i += 4, index += 12) {
+        uint16_t rest[12];
+        const uint16_t *these = index;
+        if (end - i < 4) {          /* corners of one vertex make the others */
+            for (uint32_t k = 0; k < 12; k++)
+                rest[k] = index[k < 3 * (end - i) ? k : 0];
+            these = rest;
+        }
+        triangles_look(&four, place, these, &r->setup);
+        if ((four.seen | four.far) == 0)
+            continue;
+        if (!places_have_room(r, b->a->bins))
+            return i;
+        if (!add_four(b, r, &four, these, i))
+            return UINT32_MAX;
+    }
+    return end;
+}
+
+/* Adds all triangles: by fours where the pool has room for where vertices are. */
+static bool assemble_places(struct batch *b)
+{
+    const struct smear_assembler *a = b->a;
+    const struct smear_bins *g = a->bins;
+    const uint32_t end = b->d->mesh->triangle_count;
+    const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
+    struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided,
+                                   b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
+    for (uint32_t i = 0; i < end;) {
+        const uint32_t last = open_places(&r, b, i, end);
+        uint32_t reached = last != i ? add_by_fours(b, &r, i, last) : i;
+        if (reached == UINT32_MAX)
+            return false;
+        if (reached < last || last == i) {
+            const uint32_t next = min_u32(reached + PLACES_BLOCK, end);
+            if (!assemble_cached(b, reached, next, false))
+                return false;
+            reached = next;
+        }
+        i = reached;
+    }
+    return true;
+}
+#endif
+
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+{
+    struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
+    if (b.segment == NULL) {
+        if (drop)
+            a->triangles_dropped += d->mesh->triangle_count;
+        return drop;
+    }
+    batch_start(&b);
+#if SMEAR_PLACES
+    if (!drop)          /* else the cache decides what finds room, as it does on every machine */
+        return assemble_places(&b);
+#endif
+    return assemble_cached(&b, 0, d->mesh->triangle_count, drop);
 }

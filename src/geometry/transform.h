@@ -5,6 +5,7 @@
 
 #include "base/fixmath.h"
 #include "geometry/matrix.h"
+#include "kernels/places.h"
 
 /* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges
  * are then at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */
@@ -38,12 +39,6 @@ static inline void homogeneous_add(struct smear_homogeneous *sum, const struct s
     sum->w += term->w;
     sum->distance += term->distance;
 }
-
-struct smear_screen {
-    i32q8 x;                /* from the top left corner of the frame */
-    i32q11 depth;           /* units: proportional to 1/w for perspective */
-    i32q8 y;
-};
 
 struct smear_viewport {
     int32_t width, height;  /* pixels */
@@ -87,8 +82,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
 {
     SMEAR_ASSERT(in->w > 0);
     int zeros = count_leading_zeros((uint32_t)in->w);
-    const int down = 21 - zeros, depth_down = min_i32(-p->depth_shift - zeros, 31);   /* all bits are gone by then */
-    if (down <= 0 || depth_down <= 0 || is_orthographic(p)) {
+    const int down = 21 - zeros;
+    if (down <= 0 || is_orthographic(p)) {
         smear_project(out, p, in, viewport);
         return;
     }
@@ -97,7 +92,7 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
     const int32_t half = 1 << (down - 1);
     out->x = (viewport->width << 7) + ((mulh_i32(in->x, r) + half) >> down);
     out->y = (viewport->height << 7) + ((mulh_i32(in->y, r) + half) >> down);
-    const int32_t depth = (mulh_i32(p->depth_mantissa, r) + (1 << (depth_down - 1))) >> depth_down;
+    const int32_t depth = scale_sat(mulh_i32(p->depth_mantissa, r), clamp_i32(p->depth_shift + zeros, -31, 31));
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 

@@ -153,6 +153,136 @@ static inline smear_v4u v4u_mulh16(smear_v4u a, smear_v4u b)
     return low | high;
 #endif
 }
+
+static inline smear_v4u v4u_all(uint32_t a)
+{
+    return (smear_v4u){ a, a, a, a };
+}
+
+static inline smear_v4i v4i_all(int32_t a)
+{
+    return (smear_v4i){ a, a, a, a };
+}
+
+static inline smear_v4i v4i_min(smear_v4i a, smear_v4i b)
+{
+    return (smear_v4i)v4u_choose(a < b, (smear_v4u)a, (smear_v4u)b);
+}
+
+static inline smear_v4i v4i_max(smear_v4i a, smear_v4i b)
+{
+    return (smear_v4i)v4u_choose(a < b, (smear_v4u)b, (smear_v4u)a);
+}
+
+/* Takes the highest bit of each element: that of element 0 is bit 0. */
+static inline uint32_t v4i_signs(smear_v4i a)
+{
+#ifdef __SSE2__
+    return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps((__m128i)a));
+#else
+    const smear_v4u sign = (smear_v4u)a >> 31;
+    return sign[0] | sign[1] << 1 | sign[2] << 2 | sign[3] << 3;
+#endif
+}
+
+/* Loads pairs of halves, each from an address of its own. */
+static inline smear_v8i v8i_of_pairs(const int16_t *a, const int16_t *b, const int16_t *c, const int16_t *d)
+{
+    uint32_t pair[4];
+    __builtin_memcpy(&pair[0], a, 4);
+    __builtin_memcpy(&pair[1], b, 4);
+    __builtin_memcpy(&pair[2], c, 4);
+    __builtin_memcpy(&pair[3], d, 4);
+    return (smear_v8i)(smear_v4u){ pair[0], pair[1], pair[2], pair[3] };
+}
+
+/* Multiplies halves and adds the products of each pair: exact unless all four are -2^15. */
+static inline smear_v4i v8i_dot(smear_v8i a, smear_v8i b)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_madd_epi16((__m128i)a, (__m128i)b);
+#else
+    const smear_v4i x = (smear_v4i)a, y = (smear_v4i)b;
+    return (x << 16 >> 16) * (y << 16 >> 16) + (x >> 16) * (y >> 16);
+#endif
+}
+
+/* Returns floor(a b / 2^32) for b >= 0. */
+static inline smear_v4i v4i_mulh(smear_v4i a, smear_v4i b)
+{
+#ifdef __SSE2__
+    const __m128i x = (__m128i)a, y = (__m128i)b;
+    const __m128i even = _mm_srli_epi64(_mm_mul_epu32(x, y), 32);
+    const __m128i odd = _mm_mul_epu32(_mm_srli_epi64(x, 32), _mm_srli_epi64(y, 32));
+    const __m128i high = _mm_or_si128(even, _mm_and_si128(odd, _mm_set_epi32(-1, 0, -1, 0)));
+    return (smear_v4i)_mm_sub_epi32(high, _mm_and_si128(_mm_srai_epi32(x, 31), y));
+#else
+    smear_v4i high;
+    for (int i = 0; i < 4; i++)
+        high[i] = (int32_t)((int64_t)a[i] * b[i] >> 32);
+    return high;
+#endif
+}
+
+/* Narrows words to halves that saturate: those of a, then those of b. */
+static inline smear_v8i v4i_narrow(smear_v4i a, smear_v4i b)
+{
+#ifdef __SSE2__
+    return (smear_v8i)_mm_packs_epi32((__m128i)a, (__m128i)b);
+#else
+    const smear_v4i least = v4i_all(INT16_MIN), most = v4i_all(INT16_MAX);
+    const smear_v8i x = (smear_v8i)v4i_max(v4i_min(a, most), least), y = (smear_v8i)v4i_max(v4i_min(b, most), least);
+    return (smear_v8i){ x[0], x[2], x[4], x[6], y[0], y[2], y[4], y[6] };
+#endif
+}
+
+/* Makes words of elements 0 and 4, 1 and 5, 2 and 6, 3 and 7: the first of them in the lower half. */
+static inline smear_v4u v8i_pairs(smear_v8i a)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_unpacklo_epi16((__m128i)a, _mm_srli_si128((__m128i)a, 8));
+#else
+    return (smear_v4u)(smear_v8i){ a[0], a[4], a[1], a[5], a[2], a[6], a[3], a[7] };
+#endif
+}
+
+/* Stores element i of each of four vectors one after the other, for i = 0 .. 3. */
+static inline void v4i_store_columns(int32_t out[16], smear_v4i a, smear_v4i b, smear_v4i c, smear_v4i d)
+{
+#ifdef __SSE2__
+    const __m128i ab = _mm_unpacklo_epi32((__m128i)a, (__m128i)b), cd = _mm_unpacklo_epi32((__m128i)c, (__m128i)d);
+    const __m128i AB = _mm_unpackhi_epi32((__m128i)a, (__m128i)b), CD = _mm_unpackhi_epi32((__m128i)c, (__m128i)d);
+    v4u_store((uint32_t *)out, (smear_v4u)_mm_unpacklo_epi64(ab, cd));
+    v4u_store((uint32_t *)out + 4, (smear_v4u)_mm_unpackhi_epi64(ab, cd));
+    v4u_store((uint32_t *)out + 8, (smear_v4u)_mm_unpacklo_epi64(AB, CD));
+    v4u_store((uint32_t *)out + 12, (smear_v4u)_mm_unpackhi_epi64(AB, CD));
+#else
+    for (int i = 0; i < 4; i++, out += 4)
+        v4u_store((uint32_t *)out, (smear_v4u){ (uint32_t)a[i], (uint32_t)b[i], (uint32_t)c[i], (uint32_t)d[i] });
+#endif
+}
+
+typedef uint16_t smear_v8u __attribute__((vector_size(16)));
+
+/* Takes elements 0 and 1 of a, then of b. */
+static inline smear_v4i v4i_low_pairs(smear_v4i a, smear_v4i b)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_unpacklo_epi64((__m128i)a, (__m128i)b);
+#else
+    return (smear_v4i){ a[0], a[1], b[0], b[1] };
+#endif
+}
+
+/* Takes element 3 of each. */
+static inline smear_v4i v4i_lasts(smear_v4i a, smear_v4i b, smear_v4i c, smear_v4i d)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_unpackhi_epi64(_mm_unpackhi_epi32((__m128i)a, (__m128i)b), _mm_unpackhi_epi32((__m128i)c, (__m128i)d));
+#else
+    return (smear_v4i){ a[3], b[3], c[3], d[3] };
+#endif
+}
 #endif
 
 #endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* batch.h - what the loops over a draw's triangles share (assemble.c, batch_clip.c). */
+#ifndef SMEAR_BATCH_H
+#define SMEAR_BATCH_H
+
+#include "geometry/vertex.h"
+
+/* Triangles are looked at by fours, whose vertices lie in an array, where the machine has vectors. */
+#ifndef SMEAR_PLACES
+#define SMEAR_PLACES (SMEAR_VECTORS && !SMEAR_FAST_STACK)
+#endif
+
+static inline uint32_t index_of(const struct smear_cached_vertex *v)
+{
+    return v->tag & 0xffffu;
+}
+
+/* Returns where a vertex is now, before the division; null where the cache has no room for that. */
+static inline const struct smear_homogeneous *cached_now(const struct smear_cached_vertex *v)
+{
+#if SMEAR_FAST_STACK
+    (void)v;
+    return NULL;
+#else
+    return &v->now;
+#endif
+}
+
+/* Whether the display lacks one of the tiles that the box reaches into; notes where triangles are seen. */
+static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
+{
+    if (!assembler_has_damage(a))
+        return true;
+    const struct smear_tile_box tiles = tile_box_of(a->damaged, box->x0, box->x1, box->y0, box->y1);
+    if (a->damaged->seen != NULL)
+        tile_box_add(a->damaged->seen, tiles);
+    return !a->damaged->only || tile_box_is_damaged(a->damaged, tiles);
+}
+
+/* What the loop over a draw's triangles needs for each of them. */
+struct batch {
+    struct smear_assembler *a;
+    const struct smear_assembly *d;
+    struct smear_segment *segment;      /* the newest */
+    uint32_t tag;                       /* of its vertices in the cache; 0: none is there */
+    bool shares;                        /* all faces of a vertex share its record */
+    bool partial;                       /* only a part of the frame is being filled */
+    bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
+    bool double_sided;
+    const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
+    const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
+};
+
+/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
+void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
+                              const struct smear_homogeneous *h, const struct smear_homogeneous *now,
+                              const struct smear_screen *screen, const struct smear_viewport *viewport);
+
+/* Adds what is left of a triangle that has to be clipped, as a fan. Its corners are in the mesh's order. Returns false where
+ * there is no room. */
+bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle);
+
+#endif

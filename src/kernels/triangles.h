@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: MIT */
+/* triangles.h - which triangles may be seen, four at once: those that face the viewer and whose box has pixel centres.
+ * Of those in a box of 2 x 2 pixels, which centres they cover. */
+#ifndef SMEAR_KERNELS_TRIANGLES_H
+#define SMEAR_KERNELS_TRIANGLES_H
+
+#include "kernels/places.h"
+
+/* Pairs of halves are x in the lower one and y in the upper one. */
+struct smear_triangles {
+    uint32_t seen;                      /* bit k: triangle k may be seen */
+    uint32_t far;                       /* bit k: its edges are too long for halves, nothing else is known of it */
+    uint32_t tiny;                      /* bit k: its box has at most 2 x 2 pixels; e1, e2 and `covered` are known */
+    uint32_t back;                      /* bit k: it is seen from behind, and its edges change places */
+    int32_t area[4];                    /* twice the area, q16 px */
+    uint32_t low[4], high[4];           /* the box: first pixel, and one beyond the last one, of its columns and rows */
+    uint32_t edge1[4], edge2[4];        /* q8 px, to the second and the third corner */
+    int32_t e1[4], e2[4];               /* edge functions at the box's first centre (struct tiny_edges) */
+    uint32_t covered[4];                /* bit 0: that centre is covered; 1: that to the right; 2: below; 3: right below */
+};
+
+struct triangles_setup {
+    uint32_t low, high;                 /* what of the frame is filled, as a box: coordinates below 2^15 */
+    bool both_sides;                    /* those that face away are seen from behind */
+    int second, third;                  /* places in an index triple of the corners that follow clockwise: 1 and 2 or 2
+                                         * and 1 */
+};
+
+/* Looks at four triangles of three indices each, which name places of which all are there. Coordinates are below 2^29
+ * in magnitude. Elements of triangles that are not seen are undefined; where none is seen, all are. */
+typedef void triangles_fn(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
+                          const struct triangles_setup *s);
+
+enum { TRIANGLES_EDGE_MOST = 32766 };           /* q8 px */
+
+static inline int32_t pair_x(uint32_t pair) { return (int16_t)(pair & 0xffffu); }
+static inline int32_t pair_y(uint32_t pair) { return (int16_t)(pair >> 16); }
+static inline uint32_t pair_of(int32_t x, int32_t y) { return ((uint32_t)x & 0xffffu) | (uint32_t)y << 16; }
+
+static inline int32_t triangle_bias(int32_t dx, int32_t dy) { return ~(dy * 65536 - dx) >> 31; }
+
+/* Finds which centres of a tiny box are covered. */
+static inline void triangle_cover(struct smear_triangles *out, int k, const struct smear_place *first)
+{
+    const int32_t x1 = pair_x(out->edge1[k]), y1 = pair_y(out->edge1[k]);
+    const int32_t x2 = pair_x(out->edge2[k]), y2 = pair_y(out->edge2[k]);
+    const int32_t cx = (int16_t)(pair_x(out->low[k]) * 256 + 128 - first->screen.x);
+    const int32_t cy = (int16_t)(pair_y(out->low[k]) * 256 + 128 - first->screen.y);
+    int32_t e2 = x1 * cy - y1 * cx, e1 = y2 * cx - x2 * cy;
+    int32_t e0 = out->area[k] - e1 - e2 + triangle_bias(x2 - x1, y2 - y1);
+    e1 += triangle_bias(-x2, -y2);
+    e2 += triangle_bias(x1, y1);
+    out->e1[k] = e1;
+    out->e2[k] = e2;
+    out->covered[k] = 0;
+    for (int i = 0; i < 4; i++) {
+        const int32_t right = (i & 1) * 256, down = (i >> 1) * 256;
+        const int32_t all = (e0 + right * (y1 - y2) + down * (x2 - x1)) | (e1 + right * y2 - down * x2)
+                          | (e2 - right * y1 + down * x1);
+        if (all >= 0 && pair_x(out->low[k]) + (i & 1) < pair_x(out->high[k])
+            && pair_y(out->low[k]) + (i >> 1) < pair_y(out->high[k]))
+            out->covered[k] |= 1u << i;
+    }
+}
+
+static inline bool edge_is_far(int32_t d) { return d > TRIANGLES_EDGE_MOST || d <= -TRIANGLES_EDGE_MOST - 1; }
+
+/* Looks at triangle k; false where it is not seen. */
+static inline bool triangle_look(struct smear_triangles *out, int k, const struct smear_place *const p[3],
+                                 const struct triangles_setup *s)
+{
+    int32_t x[2], y[2], low[2] = { INT16_MAX, INT16_MAX }, high[2] = { INT16_MIN, INT16_MIN };
+    for (int i = 0; i < 2; i++) {
+        x[i] = p[i + 1]->screen.x - p[0]->screen.x;
+        y[i] = p[i + 1]->screen.y - p[0]->screen.y;
+        if (edge_is_far(x[i]) || edge_is_far(y[i])) {
+            out->far |= 1u << k;
+            return false;
+        }
+    }
+    int32_t area = x[0] * y[1] - x[1] * y[0];
+    const bool back = s->both_sides && area < 0;
+    for (int i = 0; i < 3; i++) {
+        low[0] = min_i32(low[0], pair_x(p[i]->first));
+        low[1] = min_i32(low[1], pair_y(p[i]->first));
+        high[0] = max_i32(high[0], pair_x(p[i]->first));
+        high[1] = max_i32(high[1], pair_y(p[i]->first));
+    }
+    const bool tiny = (int16_t)(high[0] - low[0]) <= 2 && (int16_t)(high[1] - low[1]) <= 2;
+    low[0] = max_i32(low[0], pair_x(s->low));
+    low[1] = max_i32(low[1], pair_y(s->low));
+    high[0] = min_i32(high[0], pair_x(s->high));
+    high[1] = min_i32(high[1], pair_y(s->high));
+    area = back ? -area : area;
+    if (area <= 0 || low[0] >= high[0] || low[1] >= high[1])
+        return false;
+    out->area[k] = area;
+    out->low[k] = pair_of(low[0], low[1]);
+    out->high[k] = pair_of(high[0], high[1]);
+    out->edge1[k] = pair_of(x[back], y[back]);
+    out->edge2[k] = pair_of(x[!back], y[!back]);
+    out->back |= (uint32_t)back << k;
+    if (!tiny)
+        return true;
+    out->tiny |= 1u << k;
+    triangle_cover(out, k, p[0]);
+    return out->covered[k] != 0;
+}
+
+static inline void triangles_reference(struct smear_triangles *out, const struct smear_place *place,
+                                       const uint16_t index[12], const struct triangles_setup *s)
+{
+    out->seen = out->far = out->tiny = out->back = 0;
+    for (int k = 0; k < 4; k++) {
+        const uint16_t *i = index + 3 * k;
+        const struct smear_place *const p[3] = { place + i[0], place + i[s->second], place + i[s->third] };
+        out->seen |= (uint32_t)triangle_look(out, k, p, s) << k;
+    }
+}
+
+#if SMEAR_VECTORS
+/* The same corner of four triangles: places of two in each vector of four numbers, and pairs of `first`. */
+struct triangles_corner {
+    smear_v4i place01, place23;
+    smear_v8i first;
+};
+
+static inline smear_v4i place_load(const struct smear_place *p)
+{
+    return (smear_v4i)v4u_load((const uint32_t *)(const void *)p);
+}
+
+static inline void triangles_corner_load(struct triangles_corner *c, const struct smear_place *place, const uint16_t *index)
+{
+    const smear_v4i a = place_load(place + index[0]), b = place_load(place + index[3]);
+    const smear_v4i d = place_load(place + index[6]), e = place_load(place + index[9]);
+    c->place01 = v4i_low_pairs(a, b);
+    c->place23 = v4i_low_pairs(d, e);
+    c->first = (smear_v8i)v4i_lasts(a, b, d, e);
+}
+
+/* Turns pairs (x, y) into (y, -x). */
+static inline smear_v8i pairs_turned(smear_v8i a)
+{
+    const smear_v4u swapped = (smear_v4u)a >> 16 | (smear_v4u)a << 16, upper = v4u_all(0xffff0000u);
+    return (smear_v8i)(swapped ^ upper) - (smear_v8i)upper;
+}
+
+/* Returns dy 2^16 - dx for pairs (dx, dy). */
+static inline smear_v4i pairs_slope(smear_v8i a)
+{
+    return (smear_v4i)((smear_v4u)a & 0xffff0000u) - ((smear_v4i)((smear_v4u)a << 16) >> 16);
+}
+
+static inline smear_v4i pairs_x256(smear_v8i a) { return (smear_v4i)((smear_v4u)a << 16) >> 8; }
+static inline smear_v4i pairs_y256(smear_v8i a) { return ((smear_v4i)a >> 16) * 256; }
+
+static inline smear_v4u centre_bit(smear_v4i e0, smear_v4i e1, smear_v4i e2, uint32_t bit)
+{
+    return (smear_v4u)((e0 | e1 | e2) >= 0) & bit;
+}
+
+/* Finds which centres of tiny boxes are covered, as triangle_cover does. Pairs fit halves there; what others give is
+ * not used. */
+static inline smear_v4u triangles_cover(struct smear_triangles *out, const struct triangles_corner *corner,
+                                        smear_v8i edge1, smear_v8i edge2, smear_v4i area, smear_v8i low, smear_v8i high)
+{
+    const smear_v8i at = v4i_narrow((smear_v4i)((smear_v4u)corner->place01 << 16) >> 16,
+                                    (smear_v4i)((smear_v4u)corner->place23 << 16) >> 16);
+    const smear_v8i centre = (smear_v8i)((smear_v8u)low << 8) + v8i_all(128) - at, turned = pairs_turned(centre);
+    const smear_v4i slope1 = pairs_slope(edge1), slope2 = pairs_slope(edge2);
+    smear_v4i e2 = v8i_dot(edge1, turned), e1 = -v8i_dot(edge2, turned), e0 = area - e1 - e2;
+    e0 += (smear_v4i)(slope2 - slope1 >= 0);
+    e1 += (smear_v4i)(slope2 <= 0);
+    e2 += (smear_v4i)(slope1 >= 0);
+    v4u_store((uint32_t *)out->e1, (smear_v4u)e1);
+    v4u_store((uint32_t *)out->e2, (smear_v4u)e2);
+    const smear_v4i x1 = pairs_x256(edge1), y1 = pairs_y256(edge1), x2 = pairs_x256(edge2), y2 = pairs_y256(edge2);
+    smear_v4u bits = centre_bit(e0, e1, e2, 1u) | centre_bit(e0 + (y1 - y2), e1 + y2, e2 - y1, 2u);
+    e0 += x2 - x1;
+    e1 -= x2;
+    e2 += x1;
+    bits |= centre_bit(e0, e1, e2, 4u) | centre_bit(e0 + (y1 - y2), e1 + y2, e2 - y1, 8u);
+    const smear_v4u two = (smear_v4u)((smear_v8i)(high - low) > v8i_all(1));
+    const smear_v4u wide = (smear_v4u)((smear_v4i)(two << 16) >> 16), tall = (smear_v4u)((smear_v4i)two >> 16);
+    bits &= 1u | (wide & 2u) | (tall & 4u) | (wide & tall & 8u);
+    v4u_store(out->covered, bits);
+    return bits;
+}
+
+SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
+                                   const struct triangles_setup *s)
+{
+    struct triangles_corner c0, c1, c2;
+    triangles_corner_load(&c0, place, index);
+    triangles_corner_load(&c1, place, index + s->second);
+    triangles_corner_load(&c2, place, index + s->third);
+    smear_v8i edge1 = v4i_narrow(c1.place01 - c0.place01, c1.place23 - c0.place23);
+    smear_v8i edge2 = v4i_narrow(c2.place01 - c0.place01, c2.place23 - c0.place23);
+    const smear_v8i end = ((edge1 ^ (edge1 >> 15)) == v8i_all(INT16_MAX)) | ((edge2 ^ (edge2 >> 15)) == v8i_all(INT16_MAX));
+    const smear_v4i far = (smear_v4i)end != 0;
+    smear_v4i area = v8i_dot(edge1, pairs_turned(edge2));
+    out->back = 0;
+    if (s->both_sides) {
+        const smear_v4i back = area < 0;
+        const smear_v4u first = v4u_choose(back, (smear_v4u)edge2, (smear_v4u)edge1);
+        edge2 = (smear_v8i)v4u_choose(back, (smear_v4u)edge1, (smear_v4u)edge2);
+        edge1 = (smear_v8i)first;
+        area = (area ^ back) - back;
+        out->back = v4i_signs(back);
+    }
+    smear_v8i low = v8i_min(c0.first, v8i_min(c1.first, c2.first)), high = v8i_max(c0.first, v8i_max(c1.first, c2.first));
+    const smear_v4i large = (smear_v4i)((smear_v8i)(high - low) > v8i_all(2)) != 0;
+    low = v8i_max(low, (smear_v8i)v4u_all(s->low));
+    high = v8i_min(high, (smear_v8i)v4u_all(s->high));
+    const smear_v4i is_full = (smear_v4i)(smear_v8i)(high > low) == -1;
+    smear_v4i seen = (area > 0) & is_full & ~far;
+    out->far = v4i_signs(far);
+    out->tiny = 0;
+    out->seen = v4i_signs(seen);
+    if (out->seen == 0)
+        return;
+    v4u_store((uint32_t *)out->area, (smear_v4u)area);
+    v4u_store(out->low, (smear_v4u)low);
+    v4u_store(out->high, (smear_v4u)high);
+    v4u_store(out->edge1, (smear_v4u)edge1);
+    v4u_store(out->edge2, (smear_v4u)edge2);
+    out->tiny = out->seen & ~v4i_signs(large);
+    if (out->tiny == 0)
+        return;
+    const smear_v4u covered = triangles_cover(out, &c0, edge1, edge2, area, low, high);
+    seen &= large | (smear_v4i)(covered != 0);
+    out->seen = v4i_signs(seen);
+}
+#endif
+
+SMEAR_INLINE void triangles_look(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
+                                 const struct triangles_setup *s)
+{
+#if SMEAR_VECTORS
+    triangles_vector(out, place, index, s);
+#else
+    triangles_reference(out, place, index, s);
+#endif
+}
+
+/* ------------------------------------------------------------------ indices */
+
+struct index_range {
+    uint32_t least, most;
+};
+
+/* The range of n indices; of none it is 65535 .. 0. */
+static inline struct index_range indices_range_reference(const uint16_t *index, int32_t n)
+{
+    struct index_range r = { UINT16_MAX, 0 };
+    for (int32_t i = 0; i < n; i++) {
+        r.least = min_u32(r.least, index[i]);
+        r.most = max_u32(r.most, index[i]);
+    }
+    return r;
+}
+
+#if SMEAR_VECTORS
+/* Eight at once, in the order of signed numbers: SSE2 has no unsigned minimum of 16 bits. */
+static inline struct index_range indices_range_vector(const uint16_t *index, int32_t n)
+{
+    const smear_v8i sign = v8i_all(INT16_MIN);
+    smear_v8i least = v8i_all(INT16_MAX), most = sign;
+    int32_t i = 0;
+    for (; i + 8 <= n; i += 8) {
+        const smear_v8i a = v8i_load(index + i) ^ sign;
+        least = v8i_min(least, a);
+        most = v8i_max(most, a);
+    }
+    struct index_range r = indices_range_reference(index + i, n - i);
+    for (int k = 0; k < 8; k++) {
+        r.least = min_u32(r.least, (uint16_t)least[k] ^ 0x8000u);
+        r.most = max_u32(r.most, (uint16_t)most[k] ^ 0x8000u);
+    }
+    return r;
+}
+#endif
+
+static inline struct index_range indices_range(const uint16_t *index, int32_t n)
+{
+#if SMEAR_VECTORS
+    return indices_range_vector(index, n);
+#else
+    return indices_range_reference(index, n);
+#endif
+}
+
+#endif
