@@ -129,41 +129,32 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     return word;
 }
 
-/* Stores covered pixels of a triangle. `record`: words of its vertices, where colours come from them. */
-static inline void store_points(const struct batch *b, uint32_t triangle, bool back, const struct covered covered[POINTS_MAX],
-                                int count, int32_t area, const int32_t depth[3], const uint32_t record[3])
-{
-    struct smear_bins *g = b->a->bins;
-    const struct smear_segment *s = b->segment;
-    const struct tiny_scale scale = tiny_scale_make(area);
-    uint32_t color = 0;
-    if (!segment_colored(s))
-        color = color_of_face(b, triangle, back);
-    for (int i = 0; i < count; i++) {
-        const struct covered *p = &covered[i];
-        const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
-        struct smear_triangle *t = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
-        t->vertex[POINT_X] = (uint16_t)p->x;
-        t->vertex[POINT_Y] = (uint16_t)p->y;
-        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(depth[0], depth[1], depth[2], w1, w2);
-        t->segment = SMEAR_POINT;
-        t->color = color;
-        if (segment_colored(s)) {
-            const uint32_t *c = g->pool + s->color;
-            t->color = tiny_color(c + record[0], c + record[1], c + record[2], w1, w2, shading_is_linear(&b->d->shading));
-        }
-    }
-}
-
 static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
                                   bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
 {
-    uint32_t record[3] = { 0, 0, 0 };
-    if (segment_by_vertices(b->segment))
+    struct smear_bins *g = b->a->bins;
+    const struct smear_segment *s = b->segment;
+    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    uint32_t color = 0;
+    if (!segment_colored(s))
+        color = color_of_face(b, triangle, back);
+    if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
-            record[i] = stored_vertex(b, v[i], triangle, back);
-    const int32_t depth[3] = { v[0]->screen.depth, v[1]->screen.depth, v[2]->screen.depth };
-    store_points(b, triangle, back, covered, count, area, depth, record);
+            channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+    struct tiny_scale scale = tiny_scale_make(area);
+    int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
+    for (int i = 0; i < count; i++) {
+        const struct covered *p = &covered[i];
+        uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
+        struct smear_triangle *t = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
+        t->vertex[POINT_X] = (uint16_t)p->x;
+        t->vertex[POINT_Y] = (uint16_t)p->y;
+        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        t->segment = SMEAR_POINT;
+        t->color = !segment_colored(s) ? color
+                                       : tiny_color(channels[0], channels[1], channels[2], w1, w2,
+                                                    shading_is_linear(&b->d->shading));
+    }
 }
 
 /* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach beyond the
@@ -350,12 +341,12 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end, bool 
 /* ------------------------------------------------------------------ triangles by fours */
 
 #if SMEAR_PLACES
-/* Vertices first .. first + count - 1 of the mesh on the screen. They lie in the pool between its vertices and its
+/* Vertices [first, end) of the mesh on the screen, by their index. They lie in the pool between its vertices and its
  * triangles, which must not grow beyond `bottom` and `top`. */
 struct places {
     struct smear_place *place;
     uint32_t *stored;               /* as in struct smear_cached_vertex */
-    uint32_t first, count;
+    uint32_t first, end;
     uint32_t bottom, top;           /* pool words */
     struct triangles_setup setup;
 };
@@ -390,19 +381,19 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
     };
     const bool by_fours = !is_orthographic(p) && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
     struct place_rows rows;
-    uint32_t i = 0;
+    uint32_t i = r->first;
     if (by_fours)
         place_rows_make(&rows, &setup);
-    while (i < r->count) {
-        const uint32_t end = min_u32(i + 4, r->count);
-        if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * (r->first + i), &rows)) {
+    while (i < r->end) {
+        const uint32_t end = min_u32(i + 4, r->end);
+        if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * i, &rows)) {
             i = end;
             continue;
         }
         for (; i < end; i++)
-            find_place(r->place + i, b, r->first + i);
+            find_place(r->place + i, b, i);
     }
-    __builtin_memset(r->stored, 0, r->count * sizeof *r->stored);
+    __builtin_memset(r->stored + r->first, 0, (r->end - r->first) * sizeof *r->stored);
 }
 
 /* Returns the words that places of vertices take, and what most triangles of a mesh add to the pool: backs are not
@@ -434,12 +425,12 @@ static uint32_t open_places(struct places *r, const struct batch *b, uint32_t fi
     if (last == first)
         return first;
     r->first = all.least;
-    r->count = all.most - all.least + 1;
-    const uint32_t words = r->count * PLACE_WORDS, rest = free - words;
+    r->end = all.most + 1;
+    const uint32_t words = (r->end - r->first) * PLACE_WORDS, rest = free - words;
     r->bottom = begin + (uint32_t)((uint64_t)rest * stride / (stride + 8u));
     r->top = r->bottom + words;
-    r->place = (struct smear_place *)(void *)(g->pool + r->bottom);
-    r->stored = g->pool + r->bottom + r->count * (PLACE_WORDS - 1);
+    r->place = (struct smear_place *)(void *)(g->pool + r->bottom) - r->first;
+    r->stored = g->pool + r->bottom + words / PLACE_WORDS * (PLACE_WORDS - 1) - r->first;
     find_places(b, r);
     return last;
 }
@@ -454,7 +445,7 @@ static inline bool places_have_room(const struct places *r, const struct smear_b
 struct seen {
     const struct places *places;
     const struct smear_triangles *four;
-    int k;
+    uint32_t k;
     uint32_t index[3];              /* clockwise on the screen */
     uint32_t triangle;
     bool back;
@@ -463,12 +454,12 @@ struct seen {
 static inline uint32_t stored_place(const struct batch *b, const struct seen *t, int i, bool shares)
 {
     const struct places *r = t->places;
-    const uint32_t at = t->index[i] - r->first;
-    if (shares && r->stored[at] > b->segment->base)
-        return r->stored[at] - 1;
-    const uint32_t word = store_vertex(b, t->index[i], &r->place[at].screen, NULL, t->triangle, t->back);
+    const uint32_t index = t->index[i];
+    if (shares && r->stored[index] > b->segment->base)
+        return r->stored[index] - 1;
+    const uint32_t word = store_vertex(b, index, &r->place[index].screen, NULL, t->triangle, t->back);
     if (shares)
-        r->stored[at] = word + 1;
+        r->stored[index] = word + 1;
     return word;
 }
 
@@ -489,64 +480,77 @@ static inline void add_listed(const struct batch *b, const struct seen *t)
     out->color = color_of_face(b, t->triangle, t->back);
 }
 
-/* Adds a tiny triangle's pixels as points. */
-static inline bool has_few_bits(uint32_t four_bits) { return (0x177fu >> four_bits & 1u) != 0; }
+/* Whether four bits have no more than POINTS_MAX. */
+static inline bool has_few_bits(uint32_t bits) { return (0x177fu >> bits & 1u) != 0; }
 
-static inline void add_seen_points(const struct batch *b, const struct seen *t, const struct smear_screen *const corner[3])
+/* Whether a triangle may be kept as its pixels. */
+static inline bool seen_is_points(const struct batch *b, const struct seen *t)
+{
+    if (!b->points || (t->four->tiny >> t->k & 1u) == 0 || !has_few_bits(t->four->covered[t->k]))
+        return false;
+    const struct smear_place *place = t->places->place;
+    return !segment_by_vertices(b->segment) || segment_flat_depth(b->segment)
+        || tiny_is_even(place[t->index[0]].screen.depth, place[t->index[1]].screen.depth, place[t->index[2]].screen.depth);
+}
+
+/* Adds a tiny triangle's pixels as points. */
+static inline void add_seen_points(const struct batch *b, const struct seen *t)
 {
     const struct smear_triangles *four = t->four;
-    const int k = t->k;
-    const int32_t x1 = pair_x(four->edge1[k]), y1 = pair_y(four->edge1[k]);
-    const int32_t x2 = pair_x(four->edge2[k]), y2 = pair_y(four->edge2[k]);
-    struct covered covered[POINTS_MAX];
-    int count = 0;
-    for (uint32_t i = 0, bits = four->covered[k]; bits != 0; i++, bits >>= 1) {
-        if ((bits & 1u) == 0)
-            continue;
-        const int32_t right = (int32_t)(i & 1u) * 256, down = (int32_t)(i >> 1) * 256;
-        covered[count++] = (struct covered){
-            pair_x(four->low[k]) + (int32_t)(i & 1u), pair_y(four->low[k]) + (int32_t)(i >> 1),
-            four->e1[k] + right * y2 - down * x2, four->e2[k] - right * y1 + down * x1
-        };
-    }
-    uint32_t record[3];
+    const uint32_t k = t->k;
+    const struct smear_place *place = t->places->place;
+    struct smear_bins *g = b->a->bins;
+    const bool colored = segment_colored(b->segment);
+    const int32_t q0 = place[t->index[0]].screen.depth, q1 = place[t->index[1]].screen.depth;
+    const int32_t q2 = place[t->index[2]].screen.depth;
+    const struct tiny_scale scale = tiny_scale_make(four->area[k]);
+    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    uint32_t color = 0;
+    if (!colored)
+        color = color_of_face(b, t->triangle, t->back);
     if (segment_by_vertices(b->segment)) {
         const bool shares = batch_shares(b, t->back);
         for (int i = 0; i < 3; i++)
-            record[i] = stored_place(b, t, i, shares);
+            channels[i] = g->pool + stored_place(b, t, i, shares) + b->segment->color;
     }
-    const int32_t depth[3] = { corner[0]->depth, corner[1]->depth, corner[2]->depth };
-    store_points(b, t->triangle, t->back, covered, count, four->area[k], depth, record);
+    for (uint32_t bits = four->covered[k]; bits != 0; bits &= bits - 1) {
+        const int32_t i = __builtin_ctz(bits), x = i & 1, y = i >> 1;
+        int32_t e1 = four->e1[k], e2 = four->e2[k];
+        if (x != 0) {
+            e1 += pair_y(four->edge2[k]) * 256;
+            e2 -= pair_y(four->edge1[k]) * 256;
+        }
+        if (y != 0) {
+            e1 -= pair_x(four->edge2[k]) * 256;
+            e2 += pair_x(four->edge1[k]) * 256;
+        }
+        const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
+        const int32_t row = pair_y(four->low[k]) + y;
+        struct smear_triangle *p = bins_add(g, &g->opaque_last[bins_row(g, row)]);
+        p->vertex[POINT_X] = (uint16_t)(pair_x(four->low[k]) + x);
+        p->vertex[POINT_Y] = (uint16_t)row;
+        p->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        p->segment = SMEAR_POINT;
+        p->color = !colored ? color
+                            : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+    }
 }
 
-/* Adds triangle k of the four. Returns false where there is no room. */
-static inline bool add_seen(struct batch *b, struct seen *t)
+/* Adds a triangle that may be seen. There is room. */
+static inline void add_seen(struct batch *b, const struct seen *t)
 {
     const struct smear_triangles *four = t->four;
-    const int k = t->k;
     if (assembler_has_damage(b->a)) {
-        const struct box box = { pair_x(four->low[k]), pair_y(four->low[k]), pair_x(four->high[k]), pair_y(four->high[k]) };
+        const uint32_t low = four->low[t->k], high = four->high[t->k];
+        const struct box box = { pair_x(low), pair_y(low), pair_x(high), pair_y(high) };
         if (!is_damaged(b->a, &box))
-            return true;
+            return;
     }
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
-    if (s == NULL)
-        return false;
-    b->segment = s;
     b->a->triangles_drawn++;
-    if (b->points && (four->tiny >> k & 1u) != 0 && has_few_bits(four->covered[k])) {
-        const struct smear_place *place = t->places->place;
-        const uint32_t first = t->places->first;
-        const struct smear_screen *const corner[3] = { &place[t->index[0] - first].screen, &place[t->index[1] - first].screen,
-                                                       &place[t->index[2] - first].screen };
-        if (!segment_by_vertices(s) || segment_flat_depth(s)
-            || tiny_is_even(corner[0]->depth, corner[1]->depth, corner[2]->depth)) {
-            add_seen_points(b, t, corner);
-            return true;
-        }
-    }
-    add_listed(b, t);
-    return true;
+    if (seen_is_points(b, t))
+        add_seen_points(b, t);
+    else
+        add_listed(b, t);
 }
 
 static inline bool place_is_clipped(const struct smear_screen *s, const struct smear_viewport *viewport)
@@ -562,36 +566,55 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
     struct smear_cached_vertex v[3];
     bool clipped = segment_moves(b->segment) != 0;
     for (int i = 0; i < 3; i++)
-        clipped = clipped || place_is_clipped(&r->place[t->index[i] - r->first].screen, viewport);
+        clipped = clipped || place_is_clipped(&r->place[t->index[i]].screen, viewport);
     for (int i = 0; i < 3; i++) {
         if (clipped) {
             find_vertex(b->a, b->d, &v[i], t->index[i]);
         } else {
-            v[i].screen = r->place[t->index[i] - r->first].screen;
+            v[i].screen = r->place[t->index[i]].screen;
             v[i].outcode = outcode_sides(&v[i].screen, viewport);
             v[i].tag = t->index[i];
         }
-        v[i].stored = r->stored[t->index[i] - r->first];
+        v[i].stored = r->stored[t->index[i]];
     }
     const bool added = add_triangle(b, &v[0], &v[1], &v[2], t->triangle);
     for (int i = 0; i < 3; i++)
-        r->stored[t->index[i] - r->first] = v[i].stored;
+        r->stored[t->index[i]] = v[i].stored;
     return added;
+}
+
+/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none. */
+static inline bool segment_has_room(struct batch *b)
+{
+    if (b->a->bins->vertex_words + 12u * b->segment->stride - b->segment->base <= 65536u)
+        return true;
+    struct smear_segment *s = smear_vertex_segment(b->a, b->d);
+    if (s != NULL)
+        b->segment = s;
+    return s != NULL;
 }
 
 /* Adds those of four triangles that may be seen. Returns false where there is no room. */
 static inline bool add_four(struct batch *b, const struct places *r, const struct smear_triangles *four,
                             const uint16_t *index, uint32_t triangle)
 {
-    const uint32_t all = four->seen | four->far;
-    for (int k = 0; all >> k != 0; k++, index += 3) {
-        if ((all >> k & 1u) == 0)
+    if (!segment_has_room(b))
+        return false;
+    for (uint32_t all = four->seen | four->far; all != 0; all &= all - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(all);
+        const uint16_t *const corner = index + 3 * k;
+        struct seen t = { r, four, k, { corner[0], corner[r->setup.second], corner[r->setup.third] }, triangle + k, false };
+        if ((four->far >> k & 1u) != 0) {
+            if (!add_far(b, &t))
+                return false;
             continue;
-        const bool back = (four->seen & four->back) >> k & 1u;
-        struct seen t = { r, four, k, { index[0], index[back ? r->setup.third : r->setup.second],
-                                        index[back ? r->setup.second : r->setup.third] }, triangle + (uint32_t)k, back };
-        if (!((four->far >> k & 1u) != 0 ? add_far(b, &t) : add_seen(b, &t)))
-            return false;
+        }
+        if ((four->back >> k & 1u) != 0) {
+            t.back = true;
+            t.index[1] = corner[r->setup.third];
+            t.index[2] = corner[r->setup.second];
+        }
+        add_seen(b, &t);
     }
     return true;
 }
@@ -601,7 +624,6 @@ static inline bool add_four(struct batch *b, const struct places *r, const struc
 static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
-    const struct smear_place *const place = r->place - r->first;
     struct smear_triangles four;
     for (uint32_t i = first; i < end; i += 4, index += 12) {
         uint16_t rest[12];
@@ -611,7 +633,7 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
                 rest[k] = index[k < 3 * (end - i) ? k : 0];
             these = rest;
         }
-        triangles_look(&four, place, these, &r->setup);
+        triangles_look(&four, r->place, these, &r->setup);
         if ((four.seen | four.far) == 0)
             continue;
         if (!places_have_room(r, b->a->bins))

@@ -154,8 +154,9 @@ static inline bool places_vector(struct smear_place out[4], const int16_t v[12],
     const smear_v8i xy = v8i_of_pairs(v, v + 3, v + 6, v + 9), yz = v8i_of_pairs(v + 1, v + 4, v + 7, v + 10);
     const smear_v4i w = place_row_of(&rows->row[2], xy, yz);
     const int zeros = count_leading_zeros((uint32_t)w[0] | 1u), down = 21 - zeros;
-    if (v4u_any((smear_v4u)((w < s->near_distance) | (w > s->far_distance) | (w >> (31 - zeros) != 1))) || down <= 0
-        || s->depth_shift + zeros > PLACES_UP_MOST)
+    const smear_v4u beyond = ((smear_v4u)w - (uint32_t)s->near_distance) | ((uint32_t)s->far_distance - (smear_v4u)w);
+    const smear_v4u other = 0u - ((smear_v4u)(w >> (31 - zeros)) ^ 1u);     /* w of another length: positive before */
+    if (v4i_signs((smear_v4i)(beyond | other)) != 0 || down <= 0 || s->depth_shift + zeros > PLACES_UP_MOST)
         return false;
     const smear_v4i r = place_recip((smear_v4u)w << zeros);
     const smear_v4i x = ((v4i_mulh(place_row_of(&rows->row[0], xy, yz), r) + (1 << (down - 1))) >> down) + s->x;

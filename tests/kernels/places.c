@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+/* places.c - how check_kernels calls kernels/places.h: vertices in fours under a random projection, of which most lie
+ * before the camera and some do not. */
+#include "kernels/places.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { ROW = 0, SHIFT = 9, NEAR, FAR };
+
+static void prepare(struct kernel_call *c)
+{
+    const uint32_t bits = 8 + kernel_random() % 13u;
+    for (int i = 0; i < 9; i++)         /* sums of three products and an offset stay below 2^30 */
+        c->word[i] = (uint32_t)((int32_t)c->word[i] >> (i < 6 ? 3 : (int)(31 - bits)));
+    c->word[SHIFT] = c->word[SHIFT] % 32u;
+    c->word[NEAR] = 1 + c->word[NEAR] % 4096u;
+    c->word[FAR] = (c->word[FAR] & 1u) != 0 ? INT32_MAX : 1u << 21;
+    c->n &= ~3;
+    c->bytes[0] = c->n * 6;
+    c->bytes[1] = c->n * (int32_t)sizeof(struct smear_place);
+}
+
+/* Rows of factors and offsets, and what else a setup has. */
+static void make(struct place_setup *s, int32_t m[3][4], const struct kernel_call *c)
+{
+    for (int r = 0; r < 3; r++) {
+        for (int j = 0; j < 3; j++)
+            m[r][j] = (int32_t)c->word[ROW + 3 * r + j] & ~3;
+        m[r][3] = r < 2 ? m[r][0] >> 2 : (int32_t)(c->word[ROW + 6] >> 7 | 1u << 21);
+    }
+    *s = (struct place_setup){ (const int32_t(*)[4])m, (int32_t)c->word[NEAR], (int32_t)c->word[FAR], 0x2aaaaaaa,
+                               (int32_t)c->word[SHIFT] - 26, 4096, 1 << 27, 160 << 8, 120 << 8 };
+}
+
+static void none(struct smear_place *out)
+{
+    for (int i = 0; i < 4; i++)
+        out[i] = (struct smear_place){ { 0, 0, 0 }, 0 };
+}
+
+static void reference(struct kernel_call *c)
+{
+    struct place_setup s;
+    int32_t m[3][4];
+    struct smear_place *out = c->plane[1];
+    make(&s, m, c);
+    for (int32_t i = 0; i < c->n; i += 4)
+        if (!places_reference(out + i, (const int16_t *)c->plane[0] + 3 * i, &s))
+            none(out + i);
+}
+
+#if SMEAR_VECTORS
+static void vector(struct kernel_call *c)
+{
+    struct place_setup s;
+    struct place_rows rows;
+    int32_t m[3][4];
+    struct smear_place *out = c->plane[1];
+    make(&s, m, c);
+    place_rows_make(&rows, &s);
+    for (int32_t i = 0; i < c->n; i += 4)
+        if (!places_vector(out + i, (const int16_t *)c->plane[0] + 3 * i, &rows))
+            none(out + i);
+}
+#endif
+
+extern const struct kernel kernels_places[];
+const struct kernel kernels_places[] = {
+    { .name = "places (vertices)", .most = 40, .size = { 6, sizeof(struct smear_place) }, .align = { 2, 4 },
+      .prepare = prepare, .timed = 40,
+      .form = { { "reference", reference },
+#if SMEAR_VECTORS
+                { "vector", vector },
+#endif
+      } },
+    { .name = NULL }
+};

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/* triangles.c - how check_kernels calls kernels/triangles.h: fours of triangles among sixteen vertices, near one another or
+ * far apart, of which each call makes many from one number; and ranges of indices. */
+#include "kernels/triangles.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { VERTICES = 16, FOURS = 64, SEED = 0 };
+
+/* Four triangles, the part of the frame they are in, and how they are seen. */
+struct fours {
+    struct smear_place place[VERTICES];
+    uint16_t index[12];
+    struct triangles_setup setup;
+};
+
+static uint32_t next(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 8 ^ *seed << 24;
+}
+
+static void make(struct fours *f, uint32_t *seed)
+{
+    const uint32_t bits = 7 + next(seed) % 14u, flags = next(seed) >> 8;
+    const int32_t x = (int32_t)(next(seed) % 5000u) * 16, y = (int32_t)(next(seed) % 5000u) * 16;
+    for (int i = 0; i < VERTICES; i++) {
+        struct smear_screen *s = &f->place[i].screen;
+        const uint32_t mask = (1u << bits) - 1u;
+        const uint32_t coarse = (flags & 8u) != 0 ? 127u : 0u;       /* edges go through centres of pixels */
+        *s = (struct smear_screen){ x + (int32_t)(next(seed) & mask & ~coarse), y + (int32_t)(next(seed) & mask & ~coarse), 0 };
+        f->place[i].first = place_first(s->x, s->y);
+    }
+    for (int i = 0; i < 12; i++)
+        f->index[i] = (uint16_t)(next(seed) >> 8) % VERTICES;
+    const int second = (int)(flags & 1u) + 1;
+    const int32_t low = (flags & 4u) != 0 ? (x >> 8) + 1 : 0;
+    f->setup = (struct triangles_setup){ pair_of(low, low / 2), pair_of(low + 320, (y >> 8) + 2), (flags & 2u) != 0, second, 3 - second };
+}
+
+/* Keeps what is defined. */
+static uint32_t sum_up(uint32_t sum, const struct smear_triangles *t)
+{
+    sum = sum * 31u + (t->seen | t->far << 4 | (t->seen & t->tiny) << 8 | (t->seen & t->back) << 12);
+    for (int k = 0; k < 4; k++) {
+        if ((t->seen >> k & 1u) == 0)
+            continue;
+        sum = sum * 31u + (uint32_t)t->area[k];
+        sum = (sum * 31u + t->low[k]) * 31u + t->high[k];
+        sum = (sum * 31u + t->edge1[k]) * 31u + t->edge2[k];
+        if ((t->tiny >> k & 1u) != 0)
+            sum = ((sum * 31u + (uint32_t)t->e1[k]) * 31u + (uint32_t)t->e2[k]) * 31u + t->covered[k];
+    }
+    return sum;
+}
+
+static void many(struct kernel_call *c, triangles_fn *look)
+{
+    struct fours f;
+    struct smear_triangles t;
+    uint32_t seed = c->word[SEED], sum = 0;
+    for (int i = 0; i < FOURS; i++) {
+        make(&f, &seed);
+        look(&t, f.place, f.index, &f.setup);
+        sum = sum_up(sum, &t);
+    }
+    c->word[1] = sum;
+}
+
+static void reference(struct kernel_call *c)
+{
+    many(c, &triangles_reference);
+}
+
+static void range_reference(struct kernel_call *c)
+{
+    const struct index_range r = indices_range_reference(c->plane[0], c->n);
+    c->word[0] = r.least;
+    c->word[1] = r.most;
+}
+
+#if SMEAR_VECTORS
+static void look_by_vectors(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
+                            const struct triangles_setup *s)
+{
+    triangles_vector(out, place, index, s);
+}
+
+static void vector(struct kernel_call *c)
+{
+    many(c, &look_by_vectors);
+}
+
+static void range_vector(struct kernel_call *c)
+{
+    const struct index_range r = indices_range_vector(c->plane[0], c->n);
+    c->word[0] = r.least;
+    c->word[1] = r.most;
+}
+#endif
+
+extern const struct kernel kernels_triangles[];
+const struct kernel kernels_triangles[] = {
+    { .name = "triangles (made, looked at)", .least = 4 * FOURS, .most = 4 * FOURS, .size = { 1 }, .timed = 4 * FOURS,
+      .form = { { "reference", reference },
+#if SMEAR_VECTORS
+                { "vector", vector },
+#endif
+      } },
+    { .name = "indices_range", .most = 35, .size = { 2 }, .timed = 192,
+      .form = { { "reference", range_reference },
+#if SMEAR_VECTORS
+                { "vector", range_vector },
+#endif
+      } },
+    { .name = NULL }
+};
