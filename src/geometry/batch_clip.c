@@ -84,7 +84,7 @@ static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
     smear_vertex_store_clipped(record, s, v);
     for (int pose = 0; pose < segment_moves(s); pose++)
         smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i],
-                     &b->a->viewport);
+                                 &b->a->viewport);
     return (uint16_t)(word - s->base);
 }
 
