@@ -130,6 +130,14 @@ int main(void)
         t[i] = (uint32_t)floor(255 * srgb_encode((i + 0.5) / 4096) + 0.5);
     print_table("linear light >> 4 to sRGB code", "uint8_t", "smear_srgb_encode", t, 4096);
 
+    for (uint32_t i = 0; i < 256; i++) {        /* as light_sums.c has it: products of 16 bits */
+        const uint32_t high = (i * i * (((i << 8) * 2501 >> 16) + 5742) >> 16) + 23,
+                       low = (i << 8) * ((i * i * 21035 >> 16) + 607) >> 16;
+        t[i] = (low < high ? low : high) >> 1;
+    }
+    print_table("sRGB code to linear light, 4095 is one, by the lesser of two cubics", "uint16_t", "smear_srgb_light", t,
+                256);
+
     for (int i = 0; i < 1024; i++)
         t[i] = (uint32_t)fmin(255, floor(8 * sqrt((double)i) + 0.5));
     print_table("8 sqrt(i), at most 255", "uint8_t", "smear_sqrt_q3", t, 1024);

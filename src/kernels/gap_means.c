@@ -4,35 +4,25 @@
 
 static inline uint32_t weight_of(const struct gap_taps *taps, int32_t pair)
 {
-    return pair + 1 == taps->pairs ? taps->last : 1u << taps->unit_log2;
+    return pair + 1 == taps->at.pairs ? taps->last : 1u << taps->unit_log2;
 }
 
 /* The sum of one pixel's taps, as the contract says. */
 static inline struct packed_sum sum_seen(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
 {
     const struct packed_sum here = packed_sum_at(&p->sums, at);
-    const uint32_t depth = p->depth[at], times = here.gn >> 16, unit = 1u << taps->unit_log2;
+    const uint32_t unit = 1u << taps->unit_log2;
     struct packed_sum all = { here.rb << taps->unit_log2, here.gn << taps->unit_log2 };
-    bool hides = depth > p->nearest;
-    for (int32_t i = 0; i < taps->pairs && !hides; i++) {
-        struct packed_sum pair = { 0, 0 };
-        for (int side = 0; side < 2; side++) {
-            const int32_t tap = side ? at + taps->offset[i] : at - taps->offset[i];
-            const uint32_t depth_there = p->depth[tap];
-            struct packed_sum there = packed_sum_at(&p->sums, tap);
-            if (depth_there > depth && (depth_there > p->nearest || (there.gn >> 16) + 1 < times))
-                there = here;
-            else if (depth_there < depth && times + 1 < there.gn >> 16)
-                hides = true;
-            pair.rb += there.rb;
-            pair.gn += there.gn;
-        }
-        all.rb += pair.rb * weight_of(taps, i);
-        all.gn += pair.gn * weight_of(taps, i);
+    bool hides = p->depth[at] > p->nearest;
+    for (int32_t i = 0; i < taps->at.pairs && !hides; i++) {
+        const struct packed_sum a = gap_tap(p, at, at - taps->at.offset[i], 1, &hides),
+                                b = gap_tap(p, at, at + taps->at.offset[i], 1, &hides);
+        all.rb += (a.rb + b.rb) * weight_of(taps, i);
+        all.gn += (a.gn + b.gn) * weight_of(taps, i);
     }
     if (hides) {
-        const uint32_t whole = taps->pairs == 0 ? unit
-                                                : unit * (2 * (uint32_t)taps->pairs - 1) + 2 * taps->last;
+        const uint32_t whole = taps->at.pairs == 0 ? unit
+                                                   : unit * (2 * (uint32_t)taps->at.pairs - 1) + 2 * taps->last;
         all = (struct packed_sum){ here.rb * whole, here.gn * whole };
     }
     return all;
@@ -55,8 +45,8 @@ void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n
 static void sums_uncovered(struct packed_sum *out, const struct packed_sums *sums, int32_t at, int32_t n,
                            const struct gap_taps *taps)
 {
-    const int32_t *offset = taps->offset;
-    const int32_t pairs = taps->pairs;
+    const int32_t *offset = taps->at.offset;
+    const int32_t pairs = taps->at.pairs;
     const int unit_log2 = taps->unit_log2;
     if (pairs <= 1)
         for (int32_t i = 0; i < n; i++) {
@@ -124,87 +114,30 @@ static inline void mean4(uint32_t *color, smear_v4u rb, smear_v4u gn, const stru
 static inline void uncovered4(uint32_t *color, const uint32_t *rb, const uint32_t *gn, const struct gap_taps *taps)
 {
     smear_v4u a = v4u_load(rb), b = v4u_load(gn);
-    const int32_t *offset = taps->offset;
-    for (int32_t i = 1; i < taps->pairs; i++, offset++) {
+    const int32_t *offset = taps->at.offset;
+    for (int32_t i = 1; i < taps->at.pairs; i++, offset++) {
         a += v4u_load(rb + *offset) + v4u_load(rb - *offset);
         b += v4u_load(gn + *offset) + v4u_load(gn - *offset);
     }
     a <<= taps->unit_log2;
     b <<= taps->unit_log2;
-    if (taps->pairs > 0) {
+    if (taps->at.pairs > 0) {
         a += weighted4(v4u_load(rb + *offset) + v4u_load(rb - *offset), taps->last);
         b += weighted4(v4u_load(gn + *offset) + v4u_load(gn - *offset), taps->last);
     }
     mean4(color, a, b, taps->mean);
 }
 
-/* Whether the background is beyond `nearest` at one of four pixels or at their taps. */
-static inline bool is_hidden4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
-{
-    const uint16_t *depth = p->depth + at;
-    const smear_v8i sign = v8i_all(INT16_MIN), limit = v8i_all((int16_t)(p->nearest ^ 0x8000u));
-    smear_v8i most = v4_of_8i_load(depth) ^ sign;      /* in the order of signed numbers */
-    for (int32_t i = 0; i < taps->pairs; i++)
-        most = v8i_max(most, v8i_max(v4_of_8i_load(depth - taps->offset[i]) ^ sign,
-                                     v4_of_8i_load(depth + taps->offset[i]) ^ sign));
-    return v4u_any((smear_v4u)(v8i_max(most, limit) ^ limit));
-}
-
-/* How often what moves is seen at four pixels and at their taps. */
-enum seen {
-    SEEN_NOWHERE,
-    SEEN_EVENLY,
-    SEEN_UNEVENLY       /* somewhere at two instants more than elsewhere */
-};
-
-static inline enum seen seen4(const uint32_t *gn, const struct gap_taps *taps)
-{
-    smear_v8i least = (smear_v8i)v4u_load(gn), most = least;
-    for (int32_t i = 0; i < taps->pairs; i++) {
-        const smear_v8i a = (smear_v8i)v4u_load(gn - taps->offset[i]), b = (smear_v8i)v4u_load(gn + taps->offset[i]);
-        least = v8i_min(least, v8i_min(a, b));
-        most = v8i_max(most, v8i_max(a, b));
-    }
-    if (!v4u_any((smear_v4u)most >> 16))
-        return SEEN_NOWHERE;
-    return v4u_any((((smear_v4u)most >> 16) - ((smear_v4u)least >> 16)) & ~1u) ? SEEN_UNEVENLY : SEEN_EVENLY;
-}
-
-/* The sums that a tap of four pixels counts. */
-struct tap4 {
-    smear_v4u rb, gn;
-};
-
-/* Four pixels: their own sums, and which of them have found that the background hides what moves. */
-struct covered4 {
-    struct tap4 own;
-    smear_v4i depth, times, nearest;
-    smear_v4i hides;
-};
-
-static inline struct tap4 tap4_at(struct covered4 *c, const struct gap_planes *p, int32_t at)
-{
-    const struct tap4 there = { v4u_load(p->sums.rb + at), v4u_load(p->sums.gn + at) };
-    const smear_v4i depth = v4i_of_u16(p->depth + at), times = (smear_v4i)(there.gn >> 16);
-    const smear_v4i covers = (smear_v4i)(depth > c->depth)
-                           & ((smear_v4i)(depth > c->nearest) | (smear_v4i)(c->times > times + 1));
-    c->hides |= (smear_v4i)(c->depth > depth) & (smear_v4i)(times > c->times + 1);
-    return (struct tap4){ v4u_choose(covers, c->own.rb, there.rb), v4u_choose(covers, c->own.gn, there.gn) };
-}
-
 /* Pixels whose taps count as the contract says. */
 static void covered_means4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
 {
-    const smear_v4i zero = { 0, 0, 0, 0 };
-    struct covered4 c = { .own = { v4u_load(p->sums.rb + at), v4u_load(p->sums.gn + at) },
-                          .depth = v4i_of_u16(p->depth + at), .nearest = zero + (int32_t)p->nearest };
-    c.times = (smear_v4i)(c.own.gn >> 16);
-    c.hides = (smear_v4i)(c.depth > c.nearest);
+    struct gap_pixels4 c = gap_pixels4_at(p, at, 1);
     uint32_t all = 1u << taps->unit_log2;
     smear_v4u rb = weighted4(c.own.rb, all), gn = weighted4(c.own.gn, all);
-    for (int32_t i = 0; i < taps->pairs; i++) {
+    for (int32_t i = 0; i < taps->at.pairs; i++) {
         const uint32_t weight = weight_of(taps, i);
-        const struct tap4 before = tap4_at(&c, p, at - taps->offset[i]), after = tap4_at(&c, p, at + taps->offset[i]);
+        const struct gap_sums4 before = gap_tap4(&c, p, at - taps->at.offset[i]),
+                               after = gap_tap4(&c, p, at + taps->at.offset[i]);
         rb += weighted4(before.rb + after.rb, weight);
         gn += weighted4(before.gn + after.gn, weight);
         all += 2 * weight;
@@ -221,10 +154,10 @@ void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, c
     const int32_t end = at + n;
     for (; at + 4 <= end; at += 4) {
         if (cover != COVER_NONE) {
-            const enum seen seen = seen4(p->sums.gn + at, taps);
+            const enum gap_seen seen = gap_seen4(p->sums.gn + at, &taps->at);
             if (seen == SEEN_NOWHERE)
                 continue;
-            if (seen == SEEN_UNEVENLY || (cover == COVER_ALL && is_hidden4(p, at, taps))) {
+            if (seen == SEEN_UNEVENLY || (cover == COVER_ALL && gap_is_hidden4(p, at, &taps->at))) {
                 covered_means4(p, at, taps);
                 continue;
             }

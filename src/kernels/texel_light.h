@@ -26,25 +26,27 @@ struct texel_light {
     uint32_t index, pixel;              /* the order in which the assembly loads registers */
     uint32_t from_v, mask_v, from_u;    /* index = v >> from_v & mask_v | u >> from_u */
     uint32_t texel;
-    uint32_t red, green, blue;          /* of the light: codes */
+    uint32_t red, green, blue;          /* of the light: codes, or linear light, 65536 is one */
     const void *texels;
     const uint32_t *palette;
     int format;
     bool narrow;                        /* pixels are RGB565 */
+    bool linear;
 };
 
 /* White light. The texture's sizes are 2^log2_width and 2^log2_height, both at least 2. */
 static inline void texel_light_start(struct texel_light *l, const void *texels, const uint32_t *palette, int format,
-                                     int log2_width, int log2_height, bool narrow)
+                                     int log2_width, int log2_height, bool narrow, bool linear)
 {
     l->index = ~0u;
     l->texel = 0;
     l->pixel = 0;           /* that of black */
-    l->red = l->green = l->blue = 255;
+    l->red = l->green = l->blue = linear ? 65536 : 255;
     l->texels = texels;
     l->palette = palette;
     l->format = format;
     l->narrow = narrow;
+    l->linear = SMEAR_WITH_LINEAR && linear;
     l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
     l->mask_v = ((1u << log2_height) - 1u) << log2_width;
     l->from_u = 32u - (uint32_t)log2_width;

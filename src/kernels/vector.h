@@ -53,9 +53,13 @@ static inline smear_v8i v4_of_8i_load(const uint16_t *p)
 
 static inline bool v4u_any(smear_v4u a)
 {
+#ifdef __SSE2__
+    return _mm_movemask_epi8(_mm_cmpeq_epi8((__m128i)a, _mm_setzero_si128())) != 0xffff;
+#else
     typedef uint64_t v2u __attribute__((vector_size(16)));
     const v2u half = (v2u)a;
     return (half[0] | half[1]) != 0;
+#endif
 }
 
 static inline smear_v4i v4i_of_u16(const uint16_t *p)
@@ -281,6 +285,45 @@ static inline smear_v4i v4i_lasts(smear_v4i a, smear_v4i b, smear_v4i c, smear_v
     return (smear_v4i)_mm_unpackhi_epi64(_mm_unpackhi_epi32((__m128i)a, (__m128i)b), _mm_unpackhi_epi32((__m128i)c, (__m128i)d));
 #else
     return (smear_v4i){ a[3], b[3], c[3], d[3] };
+#endif
+}
+
+/* Whether all bits are set, of masks that are all ones or 0. */
+static inline bool v4u_all_set(smear_v4u a)
+{
+#ifdef __SSE2__
+    return _mm_movemask_epi8((__m128i)a) == 0xffff;
+#else
+    return !v4u_any(~a);
+#endif
+}
+
+/* Shifts 16-bit halves. */
+static inline smear_v4u v4u_right16(smear_v4u a, int bits)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_srl_epi16((__m128i)a, _mm_cvtsi32_si128(bits));
+#else
+    return a >> (uint32_t)bits & (0xffffu >> bits) * 0x10001u;
+#endif
+}
+
+static inline smear_v4u v4u_left16(smear_v4u a, int bits)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_sll_epi16((__m128i)a, _mm_cvtsi32_si128(bits));
+#else
+    return a << (uint32_t)bits & (0xffffu << bits & 0xffffu) * 0x10001u;
+#endif
+}
+
+/* Takes the means of 16-bit halves, rounded up. */
+static inline smear_v4u v4u_mean16(smear_v4u a, smear_v4u b)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_avg_epu16((__m128i)a, (__m128i)b);
+#else
+    return (a | b) - ((a ^ b) >> 1 & 0x7fff7fffu);
 #endif
 }
 #endif

@@ -11,20 +11,38 @@
 
 /* ------------------------------------------------------------------ runs */
 
-/* The light is even, and no linear one: see smear_rows_choose. */
+/* Linear light of which 65535 is one as struct texel_light has it, like code_times_linear. */
+static inline uint32_t whole_light(uint32_t light)
+{
+    return light + (light >> 15);
+}
+
+static inline uint32_t light_of_channel(const struct setup *s, int i)
+{
+    const uint32_t light = (uint32_t)s->channel[i].at;
+    return frame_is_linear(s->frame) ? whole_light(light >> 8 & 0xffffu) : light >> 16 & 255u;
+}
+
+static inline uint32_t light_of_color(const struct setup *s, int shift)
+{
+    const uint32_t code = s->color >> shift & 255u;
+    return frame_is_linear(s->frame) ? whole_light(smear_srgb_decode[code]) : code;
+}
+
+/* The light is even: see smear_rows_choose. */
 static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup *s)
 {
     const struct smear_sampler *m = &s->draw->sampler;
     texel_light_start(l, m->texels, m->palette, m->format, m->log2_width, m->log2_height,
-                      target_is_direct(s->target));
+                      target_is_direct(s->target), frame_is_linear(s->frame));
     if (segment_gouraud(s->segment)) {
-        l->red = (uint32_t)s->channel[0].at >> 16 & 255u;
-        l->green = (uint32_t)s->channel[1].at >> 16 & 255u;
-        l->blue = (uint32_t)s->channel[2].at >> 16 & 255u;
+        l->red = light_of_channel(s, 0);
+        l->green = light_of_channel(s, 1);
+        l->blue = light_of_channel(s, 2);
     } else if (s->segment->shade == SHADE_FLAT) {
-        l->red = pixel_red(s->color);
-        l->green = pixel_green(s->color);
-        l->blue = pixel_blue(s->color);
+        l->red = light_of_color(s, 16);
+        l->green = light_of_color(s, 8);
+        l->blue = light_of_color(s, 0);
     }
 }
 
@@ -503,7 +521,7 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
         || t->log2_height == 0)
         return NULL;
     if (s->segment->shade != SHADE_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
-        if (frame_is_linear(s->frame) || (segment_gouraud(s->segment) && !s->even_color))
+        if (segment_gouraud(s->segment) && !s->even_color)
             return NULL;
 #if SMEAR_DIRECT
         if (narrow)

@@ -1,38 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* subframe_sums.c - sums of some tiles over instants. Linear light and many instants take a word per channel. */
+/* subframe_sums.c - see subframe_sums.h. */
 #include "temporal/subframe_sums.h"
 
-#include "kernels/gap_means.h"
-
-static SMEAR_RARE void add_wide(const struct subframes *f, int32_t at, const uint32_t *background, int32_t n)
-{
-    const bool linear = frame_is_linear(f->t->frame);
-    const uint32_t all = f->blends;
-    uint32_t *p = f->work.color + at, *r = f->sum[0] + at, *g = f->sum[1] + at, *b = f->sum[2] + at;
-    uint32_t *times = f->times + at;
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t c = p[i], behind = background[i];
-        if (((c ^ behind) | all) != 0) {
-            r[i] += light_of_code(pixel_red(c), linear);
-            g[i] += light_of_code(pixel_green(c), linear);
-            b[i] += light_of_code(pixel_blue(c), linear);
-            times[i]++;
-            p[i] = behind;
-        }
-    }
-}
-
-static void clear_row(const struct subframes *f, int32_t at, int32_t n)
-{
-    if (is_packed(f)) {
-        packed_sums_clear(&f->sums, at, n);
-        return;
-    }
-    const size_t bytes = (size_t)n * sizeof *f->times;
-    for (int i = 0; i < 3; i++)
-        __builtin_memset(f->sum[i] + at, 0, bytes);
-    __builtin_memset(f->times + at, 0, bytes);
-}
+#include "kernels/light_sums.h"
 
 /* A gap's mean is taken up to GAP_PAIRS_MAX pixels beyond what was drawn, and reads as far beyond that. */
 SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set)
@@ -44,35 +14,54 @@ SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const s
     for (int32_t y = b.y0; y < b.y1; y++) {
         const int32_t at = work_row(f, &b, y);
         if (y < set->y0 || y >= set->y1) {
-            clear_row(f, at, b.x1 - b.x0);
+            packed_sums_clear(&f->sums, at, b.x1 - b.x0);
             continue;
         }
         if (set->x0 > b.x0)
-            clear_row(f, at, set->x0 - b.x0);
+            packed_sums_clear(&f->sums, at, set->x0 - b.x0);
         if (set->x1 < b.x1)
-            clear_row(f, at + set->x1 - b.x0, b.x1 - set->x1);
+            packed_sums_clear(&f->sums, at + set->x1 - b.x0, b.x1 - set->x1);
     }
 }
 
-void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *b, bool sets)
+/* Vectors take whole rounds: pixels beside a box look like the background and add nothing. */
+static struct subframe_box whole_rounds(const struct subframes *f, const struct subframe_box *box)
+{
+    enum { ROUND = 8 };
+    const struct smear_raster_target *s = &f->t->background;
+    struct subframe_box b = *box;
+    if (SMEAR_VECTORS && !f->blends) {
+        b.x0 -= (b.x0 - s->x0) & (ROUND - 1);
+        b.x1 = min_i32(b.x1 + ((s->x0 - b.x1) & (ROUND - 1)), s->x1);
+    }
+    return b;
+}
+
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets)
 {
     const struct smear_raster_target *s = &f->t->background;
+    const struct subframe_box bounds = whole_rounds(f, box), *b = &bounds;
     const int32_t n = b->x1 - b->x0;
+    struct light_instant light;
+    if (sums_light(f))
+        light = smear_light_instant(k, f->instants, frame_is_linear(f->t->frame));
     for (int32_t y = b->y0; y < b->y1; y++) {
         const uint32_t *background = s->color + target_row(&s->color_rows, s, y) + b->x0;
         const int32_t at = work_row(f, b, y);
         uint32_t *color = f->work.color + at;
+        const struct packed_sums sums = packed_sums_from(f->sums, at);
+        if (sums_light(f)) {
+            smear_light_add(color, background, sums, n, &light, f->blends);
+            continue;
+        }
 #if PACKED_SETS
         if (sets) {
-            smear_packed_set(color, background, packed_sums_from(f->sums, at), n);
+            smear_packed_set(color, background, sums, n);
             continue;
         }
 #else
         (void)sets;
 #endif
-        if (is_packed(f))
-            smear_packed_add(color, background, packed_sums_from(f->sums, at), n, f->blends);
-        else
-            add_wide(f, at, background, n);
+        smear_packed_add(color, background, sums, n, f->blends);
     }
 }

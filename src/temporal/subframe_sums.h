@@ -6,12 +6,12 @@
 #include "temporal/subframe_tile.h"
 
 /* The first instant sets the sums of its box, which need not be emptied. */
-static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS && is_packed(f) && !f->blends; }
+static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS && !sums_light(f) && !f->blends; }
 
 /* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
 void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
 
-/* Adds an instant's box to the sums, or sets them, and makes it background again. */
-void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *b, bool sets);
+/* Adds the box of instant k to the sums, or sets them, and makes it background again. */
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets);
 
 #endif

@@ -29,12 +29,7 @@ static inline bool subframe_box_is_empty(const struct subframe_box *b)
 struct subframes {
     const struct smear_tile_run *t;
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
-    /* Planes of sums of what is not background: red, green, blue and the number of instants; or packed sums in
-     * the memory of the first two. */
-    uint32_t *sum[3];
-    uint32_t *times;
-    struct packed_sums sums;
-    bool packed;
+    struct packed_sums sums;            /* of what is not background: of codes, or of light (light_sums.h) */
     bool blends;                /* blended draws change the background, too */
     uint32_t instants;
 
@@ -53,13 +48,10 @@ static inline int32_t work_row(const struct subframes *f, const struct subframe_
     return (y - f->t->background.y0) * f->t->pitch + (b->x0 - f->t->background.x0);
 }
 
-/* Without linear light all sums are packed. */
-static inline bool is_packed(const struct subframes *f) { return !SMEAR_WITH_LINEAR || f->packed; }
-
-/* A code as it is summed. */
-static inline uint32_t light_of_code(uint32_t code, bool linear)
+/* Light is summed in place of codes where it is linear, and of more instants than sums of codes have room for. */
+static inline bool sums_light(const struct subframes *f)
 {
-    return linear ? smear_srgb_decode[code] : code;
+    return SMEAR_WITH_LINEAR && (frame_is_linear(f->t->frame) || f->instants > PACKED_INSTANTS_MAX);
 }
 
 #endif

@@ -21,12 +21,12 @@
 
 enum {
     LISTED = 128,               /* triangles of the tiles that are remembered; others are looked for at each instant */
-    SUM_PLANES = SMEAR_WITH_LINEAR ? 4 : 2
+    SUM_WORDS = 2               /* of a packed sum */
 };
 
 size_t smear_subframes_work(int32_t width, int32_t height)
 {
-    return (size_t)(width * height) * (SUM_PLANES * sizeof(uint32_t) + sizeof(uint16_t))
+    return (size_t)(width * height) * (SUM_WORDS * sizeof(uint32_t) + sizeof(uint16_t))
          + LISTED * sizeof(uint32_t);
 }
 
@@ -196,7 +196,7 @@ static uint32_t draw_instants(const struct subframes *f, struct subframe_box *al
         const bool sets = samples == 0 && sums_are_set(f);
         if (samples == 0)
             smear_subframe_sums_clear(f, sets ? &box : &no_box);
-        smear_subframe_sums_add(f, &box, sets);
+        smear_subframe_sums_add(f, &box, (uint32_t)k, sets);
         smear_subframe_restore_depth(f, &box);
         samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
         box_add(all, &box);
@@ -209,21 +209,17 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
     struct subframes f = {
-        .t = t, .packed = !SMEAR_WITH_LINEAR || (!frame_is_linear(t->frame) && instants <= PACKED_INSTANTS_MAX),
-        .instants = (uint32_t)instants
+        .t = t, .instants = (uint32_t)instants
     };
     f.listed = (uint32_t *)t->work;
-    for (int i = 0; i < min_i32(SUM_PLANES, 3); i++)
-        f.sum[i] = f.listed + LISTED + i * pixels;
-    f.times = SMEAR_WITH_LINEAR ? f.sum[2] + pixels : NULL;
-    f.sums = packed_sums_in(f.sum[0], pixels);
+    f.sums = packed_sums_in(f.listed + LISTED, pixels);
     f.work = *s;
     f.work.velocity8 = NULL;
     f.work.velocity16 = NULL;
     f.work.inspect = NULL;
     f.work.moving = NULL;
     f.work.color = t->out;
-    f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_PLANES * pixels);
+    f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_WORDS * pixels);
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 
     struct subframe_box all;

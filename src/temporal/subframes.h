@@ -3,13 +3,13 @@
 #ifndef SMEAR_SUBFRAMES_H
 #define SMEAR_SUBFRAMES_H
 
-#include "kernels/packed_sums.h"
+#include "kernels/light_sums.h"
 #include "temporal/moving.h"
 
 /* Instants of which codes add up in 16 bits: without SMEAR_WITH_LINEAR there are no more. */
 enum {
     SMEAR_PACKED_INSTANTS = PACKED_INSTANTS_MAX,
-    SMEAR_SUBFRAMES_MOST = SMEAR_WITH_LINEAR ? 1024 : PACKED_INSTANTS_MAX
+    SMEAR_SUBFRAMES_MOST = SMEAR_WITH_LINEAR ? LIGHT_INSTANTS_MAX : PACKED_INSTANTS_MAX
 };
 
 /* How all moving triangles of a tile go on from one instant to the next, nearly, in 1/16 px. */

@@ -90,7 +90,7 @@ static void call(struct kernel_call *c, gap_means_fn *means)
     for (uint32_t i = 0; i < c->word[PAIRS]; i++)
         offset[i] = (int32_t)(((c->word[SHAPE] >> 2) + 3 * i) % (2 * REACH + 1)) - REACH;
     const struct gap_taps taps = {
-        offset, (int32_t)c->word[PAIRS], (int)c->word[UNIT_LOG2], c->word[LAST], &mean
+        { offset, (int32_t)c->word[PAIRS], 1 }, (int)c->word[UNIT_LOG2], c->word[LAST], &mean
     };
     means(&planes, REACH, c->n, &taps, (enum gap_cover)c->word[COVER]);
 }

@@ -33,13 +33,14 @@ static void prepare(struct kernel_call *c)
 SMEAR_INLINE void call(struct kernel_call *c, enum texel_kind kind, int log2_width, int log2_height,
                        void draw(struct texel_run *, int32_t, int, int, enum texel_kind))
 {
+    const bool is_linear = (c->word[LIGHT] >> 24 & 1u) != 0;
     struct texel_light light;
     struct texel_run run;
     texel_light_start(&light, c->plane[TEXTURE], palette, (int)c->word[FORMAT], log2_width, log2_height,
-                      texels_are_narrow(kind));
-    light.red = pixel_red(c->word[LIGHT]);
-    light.green = pixel_green(c->word[LIGHT]);
-    light.blue = pixel_blue(c->word[LIGHT]);
+                      texels_are_narrow(kind), is_linear);
+    light.red = pixel_red(c->word[LIGHT]) * (is_linear ? 257u : 1u);
+    light.green = pixel_green(c->word[LIGHT]) * (is_linear ? 257u : 1u);
+    light.blue = pixel_blue(c->word[LIGHT]) * (is_linear ? 257u : 1u);
     texel_run_start(&run, log2_width, log2_height);
 #if TEXELS_PACKED
     run.uv = packed_uv(c->word[U], c->word[V]);
