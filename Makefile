@@ -59,8 +59,8 @@ VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(MODEL_SRC) \
-    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c palette.c png_read.c \
-        png_write.c ppm.c) \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c output.c palette.c place.c \
+        png_read.c png_write.c ppm.c) \
     $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
         present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
@@ -238,7 +238,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
 SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs kernels light math math_error matrix motion path present raster \
-              still subframes texture tilemax timemask transform view,$(ALL_SUITES))
+              still subframes texture tilemax timemask transform view x11,$(ALL_SUITES))
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -248,14 +248,15 @@ endif
 # The chart without what measures.
 CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
-TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/unit/store.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
+TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
     $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
 TESTS    := $(BUILD)/run
 # What the suite of kernels calls: a family of kernels in each.
 KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
 TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c script.c surface.c tiles.c tty.c wire.c x11_auth.c)
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
+    x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'

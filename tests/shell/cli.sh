@@ -928,10 +928,11 @@ for args in "render builtin:suite/pan -o full.png" "render $plate -o full.pfm" "
     rm -rf "$base/full"
 done
 # A run that is ended leaves nothing. Those that last a minute are ended when they have begun to write.
-ended_by() { # SIGNAL FILE ARGUMENTS...
-    signal=$1 file=$2
+begun() { ls -A "$1" | grep -q '^\.smear-.*\.tmp$'; }
+ended_by() { # SIGNAL ARGUMENTS...
+    signal=$1
     rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
-    shift 2
+    shift
     # who starts this suite may have signals ignored (nohup does)
     default=
     ! env --default-signal="$signal" true 2>"$base/err" || default="env --default-signal=$signal"
@@ -939,16 +940,16 @@ ended_by() { # SIGNAL FILE ARGUMENTS...
     $default "$smear" "$@" >"$base/out" 2>"$base/err" </dev/null &
     process=$!
     cd "$base/work" || return 1
-    wait_for 30 [ -e "$base/empty/$file.tmp" ]
+    wait_for 30 begun "$base/empty"
     kill -s "$signal" "$process"
     wait "$process"
     [ $? -gt 128 ] || { echo "not ended: $(cat "$base/err")"; return 1; }
     equals "$(ls -A "$base/empty")" ""
 }
 for signal in TERM HUP PIPE; do
-    claim "an animation ended by $signal" ended_by $signal x.gif render builtin:demo/race --frames 0-2000 -o x.gif
+    claim "an animation ended by $signal" ended_by $signal render builtin:demo/race --frames 0-2000 -o x.gif
 done
-claim "statistics ended" ended_by TERM x.json render builtin:demo/race --frames 0-2000 --stats x.json
+claim "statistics ended" ended_by TERM render builtin:demo/race --frames 0-2000 --stats x.json
 claim "no failed run has touched what was there" [ -d "$base/in/there.png" ]
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$base/in/vertices.obj"
 run render "$base/in/vertices.obj" --size 16x16 -o empty.ppm
@@ -956,6 +957,6 @@ claim "nothing to draw is a picture of the background, or one line" [ "$rc" -le 
 cp out.ppm kept.ppm
 run render "$plate" --arena 10 -o kept.ppm
 claim "a failed run leaves the old picture" same kept.ppm out.ppm
-claim "and no unfinished files" equals "$(ls | grep -c '\.tmp$')" 0
+claim "and no unfinished files" equals "$(ls -A | grep -c '\.tmp$')" 0
 
 finish

@@ -83,6 +83,7 @@ static int compare(const struct compare_options *o, struct sink *sink, const cha
 {
     struct failure f = { "" };
     struct image_distance d;
+    outputs_hold();
     if (!image_compare(a, b, IMAGE_PIXELS_PER_DEGREE, &d, &f))
         return say_bad_input(second, &f);
     if (o->difference != NULL) {
@@ -96,7 +97,9 @@ static int compare(const struct compare_options *o, struct sink *sink, const cha
     else
         printf("psnr=%.6f\n", d.psnr);
     printf("ssim=%.6f\nflip=%.6f\n", d.ssim, d.flip);
-    return STATUS_OK;
+    if (!output_flush_standard(&f))
+        return say_bad_input("standard output", &f);
+    return outputs_publish(NULL, &f) ? STATUS_OK : say_bad_input(o->difference, &f);
 }
 
 int command_compare(int count, char **text)
@@ -120,6 +123,7 @@ int command_compare(int count, char **text)
         status = load(path[i], &image[i]);
     if (status == STATUS_OK)
         status = compare(&o, &sink, path[1], &image[0], &image[1]);
+    outputs_drop();
     image_free(&image[0]);
     image_free(&image[1]);
     return status;

@@ -3,6 +3,7 @@
 #include "tools/cli/commands.h"
 
 #include "tools/convert/convert.h"
+#include "tools/image/file.h"
 #include "tools/image/image.h"
 #include "tools/options/arguments.h"
 #include "tools/options/say.h"
@@ -17,6 +18,7 @@ struct convert_command {
     const char *output, *name;
     const char *clip[MAX_CHOICES], *keep[MAX_CHOICES];
     int clip_count, keep_count;
+    enum model_files files;
     long max_triangles, max_flash, max_ram;     /* 0: no limit */
     struct convert_options options;
 };
@@ -57,10 +59,17 @@ static const char *read_keep(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_outside(void *to, const char *value)
+{
+    (void)value;
+    ((struct convert_command *)to)->files = MODEL_FILES_ANYWHERE;
+    return NULL;
+}
+
 static const char *read_scale(void *to, const char *value)
 {
     struct convert_command *c = to;
-    return read_number(value, 1e-9, 1e9, &c->options.scale) ? NULL : "needs a factor above zero";
+    return read_number(value, 1e-9, 1e9, &c->options.scale) ? NULL : "needs a factor from 1e-9 to 1e9";
 }
 
 static const char *read_fit(void *to, const char *value)
@@ -137,7 +146,7 @@ static const char *read_clip_error(void *to, const char *value)
 static const char *read_distance(void *to, const char *value)
 {
     struct convert_command *c = to;
-    return read_number(value, 1e-6, 1e9, &c->options.distance) ? NULL : "needs units above zero";
+    return read_number(value, 1e-6, 1e9, &c->options.distance) ? NULL : "needs units from 1e-6 to 1e9";
 }
 
 static const char *read_rows(void *to, const char *value)
@@ -154,7 +163,7 @@ static const char *read_view_angle(void *to, const char *value)
 
 static const char *read_limit(const char *value, long *out)
 {
-    return read_integer(value, 1, 1L << 30, out) ? NULL : "needs a number above zero";
+    return read_integer(value, 1, 1L << 30, out) ? NULL : "needs a number from 1 to 1073741824";
 }
 
 static const char *read_max_triangles(void *to, const char *value)
@@ -181,6 +190,7 @@ static const struct option table[] = {
     { "--filter", true, read_texels },          { "--normals", true, read_normals },
     { "--influences", true, read_influences },  { "--clip-error", true, read_clip_error },
     { "--distance", true, read_distance },      { "--rows", true, read_rows },
+    { "--outside", false, read_outside },
     { "--fov", true, read_view_angle },         { "--max-triangles", true, read_max_triangles },
     { "--max-flash", true, read_max_flash },    { "--max-ram", true, read_max_ram },
     { NULL, false, NULL },
@@ -208,7 +218,7 @@ static int choose_clips(const struct convert_command *c, const struct model *mod
         if (found < 0 && strcmp(c->clip[i], "none") == 0 && c->clip_count == 1)
             return STATUS_OK;
         if (found < 0)
-            return say_bad_usage("--clip", "the file has no such clip (\"%s\")", c->clip[i]);
+            return source_say_no_clip(model, c->clip[i]);
         for (int k = 0; k < *count; k++)
             if (clip[k] == found)
                 return say_bad_usage("--clip", "given twice (\"%s\")", c->clip[i]);
@@ -229,7 +239,7 @@ static int choose_kept_nodes(const struct convert_command *c, const struct model
         if (found < 0 && read_integer(c->keep[i], 0, model->node_count - 1, &index))
             found = (int)index;
         if (found < 0)
-            return say_bad_usage("--keep", "the file has no such node (\"%s\")", c->keep[i]);
+            return source_say_no_node(model, "--keep", c->keep[i]);
         keep[found] = 1;
     }
     return STATUS_OK;
@@ -237,60 +247,60 @@ static int choose_kept_nodes(const struct convert_command *c, const struct model
 
 /* ------------------------------------------------------------------ what came out */
 
-static void print_quoted(const char *name)
+static void print_quoted(FILE *to, const char *name)
 {
-    putchar('"');
+    fputc('"', to);
     for (; *name != '\0'; name++)
-        putchar((unsigned char)*name < 32 || *name == 127 ? '?' : *name);
-    putchar('"');
+        fputc((unsigned char)*name < 32 || *name == 127 ? '?' : *name, to);
+    fputc('"', to);
 }
 
-static void print_textures(const struct conversion *c)
+static void print_textures(FILE *to, const struct conversion *c)
 {
     static const char *const format[] = { "rgb8888", "rgb565", "palette8" };
-    printf("textures: %d\n", c->texture_count);
+    fprintf(to, "textures: %d\n", c->texture_count);
     for (int i = 0; i < c->texture_count; i++) {
         const struct convert_texture_report *t = &c->texture_report[i];
-        printf("  %d %dx%d from %dx%d, %s", i, t->width, t->height, t->from_width, t->from_height,
+        fprintf(to, "  %d %dx%d from %dx%d, %s", i, t->width, t->height, t->from_width, t->from_height,
                format[c->texture[i].format]);
         if (t->colors > 0)
-            printf(", %d colours", t->colors);
+            fprintf(to, ", %d colours", t->colors);
         if (c->same_texels[i] != i)
-            printf(", texels of %d\n", c->same_texels[i]);
+            fprintf(to, ", texels of %d\n", c->same_texels[i]);
         else
-            printf(", rms error %.2f codes\n", t->rms);
+            fprintf(to, ", rms error %.2f codes\n", t->rms);
     }
 }
 
-static void print_result(const struct conversion *c, const struct convert_options *o)
+static void print_result(FILE *to, const struct conversion *c, const struct convert_options *o)
 {
     const smear_model *m = &c->model;
     size_t flash = c->bytes.meshes + c->bytes.textures + c->bytes.animation;
-    printf("triangles: %d", c->triangles);
+    fprintf(to, "triangles: %d", c->triangles);
     if (c->triangles != c->triangles_in_file)
-        printf(" of %d", c->triangles_in_file);
-    printf("\nvertices: %d of %d\n", c->vertices, c->vertices_in_file);
-    printf("draws: %u, materials: %u, nodes: %u\n", m->draw_count, m->material_count, m->node_count);
+        fprintf(to, " of %d", c->triangles_in_file);
+    fprintf(to, "\nvertices: %d of %d\n", c->vertices, c->vertices_in_file);
+    fprintf(to, "draws: %u, materials: %u, nodes: %u\n", m->draw_count, m->material_count, m->node_count);
     if (c->invisible > 0)
-        printf("left out: %d draws that let nothing be seen\n", c->invisible);
+        fprintf(to, "left out: %d draws that let nothing be seen\n", c->invisible);
     if (c->triangles > 0)
-        printf("vertices transformed per triangle: %.2f, in the file's order %.2f\n",
+        fprintf(to, "vertices transformed per triangle: %.2f, in the file's order %.2f\n",
                (double)c->transformed / c->triangles, (double)c->transformed_in_file / c->triangles_in_file);
-    print_textures(c);
-    printf("clips: %u\n", m->clip_count);
+    print_textures(to, c);
+    fprintf(to, "clips: %u\n", m->clip_count);
     for (int i = 0; i < m->clip_count; i++) {
         const struct convert_clip_report *r = &c->clip_report[i];
-        printf("  %d ", i);
-        print_quoted(m->text + m->clip[i].name);
-        printf(" %.6g s, %u channels, %d keys of %d, position error %.3f px at %.3f s\n",
+        fprintf(to, "  %d ", i);
+        print_quoted(to, m->text + m->clip[i].name);
+        fprintf(to, " %.6g s, %u channels, %d keys of %d, position error %.3f px at %.3f s\n",
                m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
                r->error_time);
     }
-    printf("flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash,
+    fprintf(to, "flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash,
            c->bytes.meshes, c->bytes.textures, c->bytes.animation);
-    printf("ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",
+    fprintf(to, "ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",
            c->bytes.actor[1], c->bytes.actor[0], c->bytes.actor[2], c->bytes.open);
-    printf("largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n",
+    fprintf(to, "largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n",
            c->error_px, c->rest_error_px, o->rows, o->fov_degrees, c->distance);
 }
 
@@ -335,25 +345,53 @@ static void name_from(const char *path, char out[64])
     out[length] = '\0';
 }
 
+static bool is_standard_output(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+static bool write_bytes(const char *path, const uint8_t *bytes, size_t size, struct failure *f)
+{
+    struct output o;
+    if (!is_standard_output(path))
+        return file_write(path, bytes, size, f);
+    if (!output_open_text(&o, path, f))
+        return false;
+    if (fwrite(bytes, 1, size, o.stream) == size)
+        return output_commit(&o, f);
+    output_discard(&o);
+    return fail(f, "out of memory");
+}
+
+/* The report goes where the header doesn't, and before the file has its name: neither is there without the other. */
 static int write_result(const struct convert_command *command, const char *path, const struct conversion *c)
 {
     struct failure f = { "" };
+    bool is_text = is_standard_output(command->output);
     char name[64];
     uint8_t *bytes;
     size_t size;
-    name_from(command->output, name);
+    name_from(is_text ? path : command->output, name);
     bool ok = ends_with(command->output, ".smr")
                 ? convert_to_blob(c, &bytes, &size, &f)
                 : convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), &bytes,
                                     &size, &f);
     if (!ok)
         return say_bad_input(path, &f);
-    ok = file_write(command->output, bytes, size, &f);
+    outputs_hold();
+    ok = write_bytes(command->output, bytes, size, &f);
     free(bytes);
     if (!ok)
-        return say_bad_input(command->output, &f);
-    print_result(c, &command->options);
-    printf("wrote %s\n", command->output);
+        return say_bad_input(is_text ? "standard output" : command->output, &f);
+    print_result(is_text ? stderr : stdout, c, &command->options);
+    if (!output_flush_standard(&f)) {
+        outputs_drop();
+        return say_bad_input("standard output", &f);
+    }
+    if (!outputs_publish(NULL, &f))
+        return say_bad_input(is_text ? "standard output" : command->output, &f);
+    if (!is_text)
+        printf("wrote %s\n", command->output);
     return STATUS_OK;
 }
 
@@ -404,13 +442,13 @@ int command_convert(int count, char **text)
         return say_bad_usage("convert", "needs a model (smear help convert)");
     if (command.output == NULL)
         return say_bad_usage("convert", "needs -o FILE.h or -o FILE.smr (smear help convert)");
-    if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr"))
-        return say_bad_usage("-o", "writes .h or .smr (\"%s\")", command.output);
+    if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr") && !is_standard_output(command.output))
+        return say_bad_usage("-o", "writes .h, .smr or - (\"%s\")", command.output);
     if (source_builtin_name(path) != NULL) {
         fail(&f, "built-in scenes are made by the program; only files of models are converted");
         return say_bad_input(path, &f);
     }
-    if (!model_load(path, &model, &f))
+    if (!model_load_from(path, command.files, &model, &f))
         return say_bad_input(path, &f);
     if (model.warning[0] != '\0')
         say_warning(path, model.warning);

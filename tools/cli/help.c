@@ -44,6 +44,8 @@ static const char *const render_help[] = {
     "  --clip NAME|INDEX|all|none\n"
     "                        what moves the model [0]; all: together, the later in the file wins\n"
     "  --loop                clips start again at the end of their longest channel [they stop]\n"
+    "  --outside             files that SCENE names (textures, buffers, .mtl) may lie outside of its\n"
+    "                        folder [only in it or below]\n"
     "  --camera NAME|INDEX   of the file [the first; without any, one that sees everything]\n"
     "  --eye X,Y,Z --look X,Y,Z [--fov DEG]\n"
     "                        another camera, its vertical field of view [45]\n"
@@ -129,12 +131,14 @@ static const char *const render_help[] = {
     "  --velocity FILE.pfm   x, y, 0: pixels per frame, right and down; from the pose a frame ago\n"
     "                        to now, or with --poses shutter from open to close, scaled\n"
     "                        Both belong to the sharp frame at its time, whatever the exposure.\n"
-    "  --stats FILE.json     times, counts and the CRC-32 of the pixels as the display gets them\n",
+    "  --stats FILE.json|-   times, counts and the CRC-32 of the pixels as the display gets them; - is\n"
+    "                        standard output\n"
+    "Files get their names when all are complete, at the end: all of them, or none.\n",
     NULL
 };
 
 static const char *const convert_help[] = {
-    "smear convert MODEL -o OUT.h|OUT.smr [options]\n"
+    "smear convert MODEL -o OUT.h|OUT.smr|- [options]\n"
     "\n"
     "Writes a .glb, .gltf or .obj file as constant data for firmware: int16 vertices in an order that\n"
     "suits the vertex cache, textures, materials, and clips for the optional animation module\n"
@@ -142,7 +146,7 @@ static const char *const convert_help[] = {
     "where it lies. The same model and options give the same bytes everywhere. Prints the flash and\n"
     "RAM it takes and how many pixels vertices are off, played by the code of the device.\n"
     "\n"
-    "  -o FILE.h|FILE.smr\n"
+    "  -o FILE.h|FILE.smr|-  - is a header on standard output; the report goes to standard error\n"
     "  --name NAME           prefix of the header's names [from the file's]\n"
     "  --clip NAME|INDEX|all|none\n"
     "                        clips to keep; may be repeated [all]\n"
@@ -152,6 +156,8 @@ static const char *const convert_help[] = {
     "  --fit UNITS           instead: the largest extent at rest becomes so many units\n"
     "  --up y|z              the file's axis that points up; it becomes +Y [y]\n"
     "\n",
+    "  --outside             files that MODEL names (textures, buffers, .mtl) may lie outside of its\n"
+    "                        folder [only in it or below]\n"
     "  --texture palette8|rgb565|rgb8888|baked|none\n"
     "                        baked: no texture, its mean colour goes to each vertex, or to each face\n"
     "                        of flat meshes. rgb565 has no alpha: pictures that need it stay\n"
@@ -185,14 +191,15 @@ static const char *const compare_help[] = {
 };
 
 static const char *const info_help[] = {
-    "smear info SCENE\n"
+    "smear info SCENE [--outside]\n"
     "\n"
     "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
     "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
     "start (t = 0; of built-in scenes, at the time that stands for them), by method: with the\n"
     "smallest list of triangles that draws it in one part.\n"
     "\n"
-    "smear info builtin: lists the built-in scenes.\n",
+    "smear info builtin: lists the built-in scenes.\n"
+    "--outside: files that SCENE names may lie outside of its folder.\n",
     NULL
 };
 

@@ -11,7 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct option table[] = { { NULL, false, NULL } };
+static const char *read_outside(void *to, const char *value)
+{
+    (void)value;
+    ((struct source_view *)to)->files = MODEL_FILES_ANYWHERE;
+    return NULL;
+}
+
+static const struct option table[] = { { "--outside", false, read_outside }, { NULL, false, NULL } };
 
 /* ------------------------------------------------------------------ a model's parts */
 
@@ -223,10 +230,10 @@ static int list_builtin(void)
 int command_info(int count, char **text)
 {
     static struct source source;        /* large */
-    const struct source_view view = { .aspect = 4.0 / 3.0, .fov_degrees = 45.0 };
+    struct source_view view = { .aspect = 4.0 / 3.0, .fov_degrees = 45.0 };
     const char *name;
     bool wants_help;
-    int status = arguments_read(count, text, table, NULL, &name, 1, &wants_help);
+    int status = arguments_read(count, text, table, &view, &name, 1, &wants_help);
     if (status == STATUS_OK && wants_help)
         return help_print("info");
     if (status == STATUS_OK && name == NULL)

@@ -7,7 +7,6 @@
 #include "tools/options/say.h"
 #include "smear.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,14 +39,10 @@ static int run_command(const char *name, int count, char **text)
 
 int main(int argc, char **argv)
 {
-    if (argc < 2)
-        return say_bad_usage("no command", "render, view, convert, compare, info or help (smear help)");
     output_catch_signals();
-    int status = run_command(argv[1], argc - 2, argv + 2);
-    if (fflush(stdout) != 0 && status == STATUS_OK) {
-        struct failure f = { "" };
-        fail(&f, "cannot be written (%s)", strerror(errno));
+    int status = argc < 2 ? help_print(NULL) : run_command(argv[1], argc - 2, argv + 2);
+    struct failure f = { "" };
+    if (!output_flush_standard(&f) && status == STATUS_OK)
         status = say_bad_input("standard output", &f);
-    }
     return status;
 }

@@ -2,6 +2,7 @@
 /* render.c - `smear render`: frames of a scene through the library into files and statistics. */
 #include "tools/cli/commands.h"
 
+#include "tools/image/file.h"
 #include "tools/player/device.h"
 #include "tools/player/exact.h"
 #include "tools/options/options.h"
@@ -150,7 +151,7 @@ static int render_frame(struct render *r, long frame, double time)
     int status = write_planes(r, &shot);
     if (status != STATUS_OK)
         return status;
-    if (r->stats.stream != NULL)
+    if (r->stats.file.stream != NULL)
         stats_add(&r->stats, &report);
     else if (o->repeat > 0)
         print_times(&report);
@@ -183,6 +184,11 @@ static int finish(struct render *r)
         return say_bad_input(o->picture_sink.name, &f);
     if (!stats_end(&r->stats, &f))
         return say_bad_input(o->stats, &f);
+    if (o->output != o->default_output && !output_flush_standard(&f))
+        return say_bad_input("standard output", &f);
+    const char *failed = NULL;
+    if (!outputs_publish(&failed, &f))
+        return say_bad_input(failed, &f);
     if (o->output == o->default_output)
         printf("wrote %s\n", o->output);
     return STATUS_OK;
@@ -199,6 +205,7 @@ static int render_scene(struct render *r)
         return say_bad_input(r->source.name, &f);
     if (r->options.stats != NULL && !stats_open(&r->stats, r->options.stats, &f))
         return say_bad_input(r->options.stats, &f);
+    outputs_hold();
     status = render_frames(r);
     return status == STATUS_OK ? finish(r) : status;
 }
@@ -207,6 +214,7 @@ static void release(struct render *r)
 {
     sink_cancel(&r->options.picture_sink);
     stats_cancel(&r->stats);
+    outputs_drop();
     presenter_free(r->presenter);
     planes_close(&r->planes);
     exact_close(&r->exact);

@@ -26,8 +26,12 @@ static const char *read_out(void *to, const char *value)
 
 static const char *read_board(void *to, const char *value)
 {
+    static char wrong[200];
+    int used = snprintf(wrong, sizeof wrong, "is no board; there is");
     (void)to;                   /* its options have been put before all others */
-    return board_find(value) != NULL ? NULL : "is no board (smear help view lists them)";
+    for (const struct board *b = board_list; b->name != NULL && used < (int)sizeof wrong; b++)
+        used += snprintf(wrong + used, sizeof wrong - (size_t)used, " %s%s", b->name, b[1].name != NULL ? "," : "");
+    return board_find(value) != NULL ? NULL : wrong;
 }
 
 static const char *read_zoom(void *to, const char *value)

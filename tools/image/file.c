@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file.c - whole files in, complete files out. */
+/* file.c - whole files in. */
 #include "tools/image/file.h"
 #include "tools/image/image.h"
 
@@ -8,47 +8,84 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size, struct failure *f)
+/* Bytes as they come. */
+struct reading {
+    FILE *stream;
+    uint8_t *data;
+    size_t used, capacity, max_bytes;
+};
+
+static bool make_room(struct reading *r, size_t capacity, struct failure *f)
 {
+    uint8_t *moved = realloc(r->data, capacity);
+    if (moved == NULL)
+        return fail(f, "out of memory (%zu bytes read)", r->used);
+    r->data = moved;
+    r->capacity = capacity;
+    return true;
+}
+
+/* Up to `limit` bytes in all; *ended at the end of the file. */
+static bool read_to(struct reading *r, size_t limit, bool *ended, struct failure *f)
+{
+    while (r->used < limit && !*ended) {
+        if (r->capacity - r->used < 2) {
+            size_t larger = r->capacity < r->max_bytes / 2 ? r->capacity * 2 : r->max_bytes + 2;
+            if (!make_room(r, larger, f))
+                return false;
+        }
+        size_t room = r->capacity - r->used - 1, wanted = room < limit - r->used ? room : limit - r->used;
+        errno = 0;
+        r->used += fread(r->data + r->used, 1, wanted, r->stream);
+        if (r->used > r->max_bytes)
+            return fail(f, "file is too large (more than %zu bytes)", r->max_bytes);
+        if (ferror(r->stream) != 0)
+            return fail(f, "cannot be read (%s)", errno != 0 ? strerror(errno) : "read error");
+        *ended = feof(r->stream) != 0;
+    }
+    return true;
+}
+
+static bool read_all(struct reading *r, file_head_fn *look, const void *user, struct failure *f)
+{
+    long long left = file_left(r->stream);
+    bool ended = false;
+    if (left > 0 && (unsigned long long)left > r->max_bytes)
+        return fail(f, "file is too large (%lld bytes, at most %zu)", left, r->max_bytes);
+    if (!make_room(r, FILE_HEAD + 2, f) || !read_to(r, FILE_HEAD, &ended, f) ||
+        (look != NULL && !look(user, r->data, r->used, f)))
+        return false;
+    if (left > FILE_HEAD && !make_room(r, (size_t)left + 2, f))
+        return false;
+    return read_to(r, SIZE_MAX, &ended, f);
+}
+
+bool file_read_stream(FILE *stream, size_t max_bytes, file_head_fn *look, const void *user, uint8_t **bytes,
+                      size_t *size, struct failure *f)
+{
+    struct reading r = { .stream = stream, .max_bytes = max_bytes };
+    bool ok = read_all(&r, look, user, f);
+    fclose(stream);
     *bytes = NULL;
     *size = 0;
-    FILE *stream = fopen(path, "rb");
-    if (stream == NULL)
-        return fail(f, "cannot be opened (%s)", strerror(errno));
-
-    /* Read until the end instead of asking for the length, so that pipes work too. */
-    size_t used = 0, capacity = 0;
-    uint8_t *data = NULL;
-    bool ok = true, ended = false;
-    while (ok && !ended) {
-        if (capacity - used < 2) {
-            size_t larger = capacity == 0 ? (size_t)1 << 16 : capacity * 2;
-            uint8_t *moved = larger > capacity ? realloc(data, larger) : NULL;
-            if (moved == NULL) {
-                ok = fail(f, "out of memory (%zu bytes read)", used);
-                break;
-            }
-            data = moved;
-            capacity = larger;
-        }
-        size_t got = fread(data + used, 1, capacity - used - 1, stream);
-        used += got;
-        if (used > max_bytes)
-            ok = fail(f, "file is too large (more than %zu bytes)", max_bytes);
-        else if (ferror(stream) != 0)
-            ok = fail(f, "cannot be read (%s)", strerror(errno));
-        else
-            ended = feof(stream) != 0;
-    }
-    fclose(stream);
     if (!ok) {
-        free(data);
+        free(r.data);
         return false;
     }
-    data[used] = 0;
-    *bytes = data;
-    *size = used;
+    r.data[r.used] = 0;
+    *bytes = r.data;
+    *size = r.used;
     return true;
+}
+
+bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size, struct failure *f)
+{
+    FILE *stream = fopen(path, "rb");
+    *bytes = NULL;
+    *size = 0;
+    if (stream == NULL)
+        return fail(f, "cannot be opened (%s)", strerror(errno));
+    return file_read_stream(stream, max_bytes, NULL, NULL, bytes, size, f);
 }
 
 /* Files that have been read, whatever they are called. */
@@ -93,85 +130,14 @@ bool file_is_replaceable(const char *path, struct failure *f)
     return !file_is_kept(path) || fail(f, "cannot be written (it has been read, and would be lost)");
 }
 
-char *volatile output_unfinished[OUTPUTS_MAX];
-
-static void note_unfinished(char *path, char *instead)
-{
-    for (int i = 0; i < OUTPUTS_MAX; i++)
-        if (output_unfinished[i] == path) {
-            output_unfinished[i] = instead;
-            break;
-        }
-}
-
-bool output_open(struct output *o, const char *path, struct failure *f)
-{
-    static const char suffix[] = ".tmp";
-    size_t length = strlen(path);
-    *o = (struct output){0};
-    if (!file_is_replaceable(path, f))
-        return false;
-    o->path = malloc(length + 1);
-    o->temporary = malloc(length + sizeof suffix);
-    if (o->path == NULL || o->temporary == NULL) {
-        output_discard(o);
-        return fail(f, "out of memory (file name)");
-    }
-    memcpy(o->path, path, length + 1);
-    memcpy(o->temporary, path, length);
-    memcpy(o->temporary + length, suffix, sizeof suffix);
-    o->stream = fopen(o->temporary, "wb");
-    if (o->stream == NULL) {
-        int reason = errno;
-        output_discard(o);
-        return fail(f, "cannot be written (%s)", strerror(reason));
-    }
-    note_unfinished(NULL, o->temporary);
-    return true;
-}
-
-bool output_commit(struct output *o, struct failure *f)
-{
-    errno = 0;
-    bool ok = fflush(o->stream) == 0 && ferror(o->stream) == 0;
-    int reason = errno;
-    if (fclose(o->stream) != 0 && ok) {
-        ok = false;
-        reason = errno;
-    }
-    o->stream = NULL;
-    if (ok && rename(o->temporary, o->path) != 0) {
-        ok = false;
-        reason = errno;
-    }
-    if (!ok) {
-        remove(o->temporary);
-        fail(f, "cannot be written (%s)", reason != 0 ? strerror(reason) : "write error");
-    }
-    output_discard(o);
-    return ok;
-}
-
-void output_discard(struct output *o)
-{
-    if (o->stream != NULL) {
-        fclose(o->stream);
-        remove(o->temporary);
-    }
-    if (o->temporary != NULL)
-        note_unfinished(o->temporary, NULL);
-    free(o->path);
-    free(o->temporary);
-    *o = (struct output){0};
-}
-
 bool file_write(const char *path, const uint8_t *bytes, size_t size, struct failure *f)
 {
     struct output o;
     if (!output_open(&o, path, f))
         return false;
+    errno = 0;
     if (size != 0 && fwrite(bytes, 1, size, o.stream) != size) {
-        fail(f, "cannot be written (%s)", strerror(errno));
+        fail(f, "cannot be written (%s)", errno != 0 ? strerror(errno) : "write error");
         output_discard(&o);
         return false;
     }

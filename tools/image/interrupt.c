@@ -3,14 +3,9 @@
 #include "tools/image/file.h"
 
 #include <signal.h>
-#include <unistd.h>
 
-void output_remove_all(void)
-{
-    for (int i = 0; i < OUTPUTS_MAX; i++)
-        if (output_unfinished[i] != NULL)
-            unlink(output_unfinished[i]);
-}
+static const int ending[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ };
+enum { ENDINGS = sizeof ending / sizeof *ending };
 
 static void end(int signal_number)
 {
@@ -21,11 +16,23 @@ static void end(int signal_number)
 
 void output_catch_signals(void)
 {
-    static const int ending[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ };
-    for (size_t i = 0; i < sizeof ending / sizeof *ending; i++) {
+    for (int i = 0; i < ENDINGS; i++) {
         struct sigaction action = { .sa_handler = end }, before;
         sigemptyset(&action.sa_mask);
         if (sigaction(ending[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(ending[i], &action, NULL);
     }
+}
+
+void output_block_signals(bool blocked)
+{
+    static sigset_t before;
+    sigset_t those;
+    sigemptyset(&those);
+    for (int i = 0; i < ENDINGS; i++)
+        sigaddset(&those, ending[i]);
+    if (blocked)
+        sigprocmask(SIG_BLOCK, &those, &before);
+    else
+        sigprocmask(SIG_SETMASK, &before, NULL);
 }

@@ -15,8 +15,44 @@ static bool has_scheme(const char *name)
     return n > 0 && name[n] == ':' && strchr("0123456789+-.", name[0]) == NULL;
 }
 
-bool external_read(const char *folder, const char *name, uint8_t **bytes, size_t *size,
-                   struct failure *f)
+static char *join(const char *folder, const char *name)
+{
+    size_t at = strlen(folder), length = strlen(name);
+    char *path = malloc(at + length + 2);
+    if (path == NULL)
+        return NULL;
+    memcpy(path, folder, at);
+    if (at > 0 && path[at - 1] != '/')
+        path[at++] = '/';
+    memcpy(path + at, name, length + 1);
+    return path;
+}
+
+static bool read_path(struct external *e, const char *path, uint8_t **bytes, size_t *size, struct failure *f)
+{
+    if (e->files++ == MODEL_MAX_FILES)
+        return fail(f, "more than %d files for one model", MODEL_MAX_FILES);
+    if (!e->anywhere && !file_lies_in(path, e->folder, f))
+        return false;
+    FILE *stream = file_open_regular(path, f);
+    if (stream == NULL)
+        return false;
+    if (!file_keep(path, f)) {
+        fclose(stream);
+        return false;
+    }
+    if (!file_read_stream(stream, MODEL_MAX_BYTES, NULL, NULL, bytes, size, f))
+        return false;
+    e->bytes += *size;
+    if (e->bytes <= MODEL_MAX_BYTES)
+        return true;
+    free(*bytes);
+    *bytes = NULL;
+    *size = 0;
+    return fail(f, "the model's files need more than %zu MB", MODEL_MAX_BYTES >> 20);
+}
+
+bool external_read(struct external *e, const char *name, uint8_t **bytes, size_t *size, struct failure *f)
 {
     *bytes = NULL;
     *size = 0;
@@ -24,19 +60,13 @@ bool external_read(const char *folder, const char *name, uint8_t **bytes, size_t
         return fail(f, "a file name is empty");
     if (name[0] == '/' || name[0] == '\\' || has_scheme(name))
         return fail(f, "%.80s is no relative path", name);
-    if (folder == NULL)
+    if (e->folder == NULL)
         return fail(f, "needs the file %.80s, which cannot be looked up from here", name);
-    size_t folder_length = strlen(folder), name_length = strlen(name);
-    char *path = malloc(folder_length + name_length + 2);
+    char *path = join(e->folder, name);
     if (path == NULL)
         return fail(f, "out of memory (a path)");
-    memcpy(path, folder, folder_length);
-    size_t at = folder_length;
-    if (at > 0 && path[at - 1] != '/')
-        path[at++] = '/';
-    memcpy(path + at, name, name_length + 1);
     struct failure why = { 0 };
-    bool ok = file_keep(path, &why) && file_read(path, MODEL_MAX_BYTES, bytes, size, &why);
+    bool ok = read_path(e, path, bytes, size, &why);
     free(path);
     return ok || fail(f, "%.80s: %s", name, why.text);
 }

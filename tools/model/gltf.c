@@ -152,10 +152,9 @@ static bool read_all(struct gltf *g)
            gltf_read_cameras(g) && gltf_read_animations(g) && gltf_read_pictures(g);
 }
 
-bool gltf_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
-                struct failure *f)
+bool gltf_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f)
 {
-    struct gltf g = { .model = model, .f = f, .folder = folder };
+    struct gltf g = { .model = model, .f = f, .files = files };
     const uint8_t *text = NULL;
     size_t text_size = 0;
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0) {

@@ -63,7 +63,7 @@ struct gltf {
     struct json json;
     struct model *model;
     struct failure *f;
-    const char *folder;         /* null: nothing external */
+    struct external *files;
     const uint8_t *bin;         /* the GLB's BIN chunk or null */
     size_t bin_size;
     size_t source_bytes;        /* of the JSON and all buffers: lying counts are held against it */
@@ -81,8 +81,7 @@ struct gltf {
     int *max_joint;             /* per mesh: largest joint with a weight, -1 when not skinned */
 };
 
-bool gltf_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
-                struct failure *f);
+bool gltf_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f);
 
 /* Zeroed memory for count x size bytes, counted against MODEL_MAX_BYTES. */
 void *gltf_alloc(struct gltf *g, size_t count, size_t size);

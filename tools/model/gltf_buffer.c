@@ -110,17 +110,10 @@ bool gltf_read_uri(struct gltf *g, int object, const char *uri, uint8_t **owned,
     if (name == NULL)
         return json_fail(&g->json, object, "uri", g->f, "bad file name");
     struct failure why = { 0 };
-    bool ok = external_read(g->folder, name, owned, size, &why);
+    bool ok = external_read(g->files, name, owned, size, &why);
     free(name);
     if (!ok)
         return json_fail(&g->json, object, "uri", g->f, "%s", why.text);
-    /* Many names for one large file must not take memory without end. */
-    if (*size > MODEL_MAX_BYTES - g->decoded_bytes) {
-        free(*owned);
-        *owned = NULL;
-        return fail(g->f, "its files need more than %zu MB", MODEL_MAX_BYTES >> 20);
-    }
-    g->decoded_bytes += *size;
     return true;
 }
 

@@ -3,10 +3,12 @@
 #include "tools/model/model.h"
 
 #include "tools/image/file.h"
+#include "tools/model/external.h"
 #include "tools/model/gltf.h"
 #include "tools/model/obj.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +16,7 @@
 /* More draws, more to add up per pose (vertices times their morph targets and joints), or more
  * memory for what deforms, than any scene for small machines needs; a short file can ask for each
  * without end by using one mesh in many nodes. */
-enum { MAX_DRAWS = 1 << 20, MAX_TERMS = 1 << 30 };
+enum { MAX_DRAWS = 1 << 20, MAX_TERMS = 1 << 26 };
 
 static void free_primitive(struct model_primitive *p)
 {
@@ -125,16 +127,14 @@ static bool is_gltf(const uint8_t *bytes, size_t size)
     return at < size && bytes[at] == '{';
 }
 
-bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *out,
-                 struct failure *f)
+static bool parse(const uint8_t *bytes, size_t size, struct external *files, struct model *out, struct failure *f)
 {
     *out = (struct model){ 0 };
     if (size == 0)
         return fail(f, "the file is empty");
     if (size >= 4 && memcmp(bytes, "SMR1", 4) == 0)
         return fail(f, "a converted model, for firmware only: give the file it was made from");
-    bool ok = is_gltf(bytes, size) ? gltf_parse(bytes, size, folder, out, f) :
-                                     obj_parse(bytes, size, folder, out, f);
+    bool ok = is_gltf(bytes, size) ? gltf_parse(bytes, size, files, out, f) : obj_parse(bytes, size, files, out, f);
     if (ok && check_instances(out, f)) {
         if (out->skipped_primitives > 0 && out->warning[0] == '\0')
             snprintf(out->warning, sizeof out->warning,
@@ -143,6 +143,13 @@ bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct m
     }
     model_free(out);
     return false;
+}
+
+bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *out,
+                 struct failure *f)
+{
+    struct external files = { .folder = folder };
+    return parse(bytes, size, &files, out, f);
 }
 
 static bool has_suffix(const char *path, const char *suffix)
@@ -157,30 +164,46 @@ static bool has_suffix(const char *path, const char *suffix)
     return true;
 }
 
-bool model_load(const char *path, struct model *out, struct failure *f)
+/* By the first bytes of a file: whether it can be what its name says. */
+static bool look_at_head(const void *path, const uint8_t *head, size_t size, struct failure *f)
+{
+    if (size > 0 && !is_gltf(head, size) && (has_suffix(path, ".glb") || has_suffix(path, ".gltf")))
+        return fail(f, "not glTF: begins neither like a GLB nor like JSON");
+    if (size > 0 && !is_gltf(head, size) && memchr(head, '\0', size) != NULL && (size < 4 || memcmp(head, "SMR1", 4) != 0))
+        return fail(f, "neither glTF nor text");
+    return true;
+}
+
+bool model_load_from(const char *path, enum model_files files, struct model *out, struct failure *f)
 {
     uint8_t *bytes;
     size_t size;
     *out = (struct model){ 0 };
-    if (!file_keep(path, f) || !file_read(path, MODEL_MAX_BYTES, &bytes, &size, f))
+    if (!file_keep(path, f))
+        return false;
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        return fail(f, "cannot be opened (%s)", strerror(errno));
+    if (!file_read_stream(stream, MODEL_MAX_BYTES, look_at_head, path, &bytes, &size, f))
         return false;
     const char *slash = strrchr(path, '/');
     size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
     char *folder = malloc(length + 1);
-    bool ok;
-    if (folder == NULL) {
-        ok = fail(f, "out of memory (a path)");
-    } else if (size > 0 && !is_gltf(bytes, size) &&
-               (has_suffix(path, ".glb") || has_suffix(path, ".gltf"))) {
-        ok = fail(f, "not glTF: begins neither like a GLB nor like JSON");
-    } else {
+    bool ok = folder != NULL || fail(f, "out of memory (a path)");
+    if (ok) {
         memcpy(folder, path, length);
         folder[length] = '\0';
-        ok = model_parse(bytes, size, folder, out, f);
+        struct external external = { .folder = folder, .anywhere = files == MODEL_FILES_ANYWHERE };
+        ok = parse(bytes, size, &external, out, f);
     }
     free(folder);
     free(bytes);
     return ok;
+}
+
+bool model_load(const char *path, struct model *out, struct failure *f)
+{
+    return model_load_from(path, MODEL_FILES_BESIDE, out, f);
 }
 
 /* The whole text as a decimal index below count, else -1. */

@@ -125,10 +125,17 @@ struct model {
     char warning[200];              /* what was left out or not found, one line; or empty */
 };
 
-/* Loads .glb, .gltf or .obj, told by content first, name second; external buffers, images and .mtl
- * files are looked up beside it (relative paths only; a path that leaves the folder through .. is
- * allowed, absolute paths and URLs are refused). An OBJ whose .mtl or picture is missing is loaded
+/* Where the files lie that a model names. */
+enum model_files {
+    MODEL_FILES_BESIDE,             /* in its folder or below, whatever links there are */
+    MODEL_FILES_ANYWHERE            /* .. may lead out of it; absolute paths and URLs are refused still */
+};
+
+/* Loads .glb, .gltf or .obj, told by content first, name second, with the buffers, images and .mtl
+ * files that it names, which must be regular files. An OBJ whose .mtl or picture is missing is loaded
  * without, with a warning. On failure *out is empty. */
+bool model_load_from(const char *path, enum model_files files, struct model *out, struct failure *f);
+/* The same, with files beside it. */
 bool model_load(const char *path, struct model *out, struct failure *f);
 /* The same from memory; `folder` may be null, then nothing external can be read. */
 bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *out,

@@ -7,7 +7,6 @@
  * triangles. */
 #include "tools/model/obj.h"
 
-#include "tools/model/external.h"
 #include "tools/model/obj_text.h"
 
 #include <limits.h>
@@ -27,7 +26,7 @@ enum { HAS_UV = 1, HAS_NORMAL = 2 };
 
 struct reader {
     struct obj_text text;
-    const char *folder;
+    struct external *files;
     struct model *model;
     struct failure *f;
     struct floats v, vt, vn, color;     /* colour: one per v as soon as one has it */
@@ -246,7 +245,7 @@ static bool read_library(struct reader *r, const char *name, struct failure *why
 {
     uint8_t *bytes;
     size_t size;
-    *found = external_read(r->folder, name, &bytes, &size, why);
+    *found = external_read(r->files, name, &bytes, &size, why);
     if (!*found)
         return true;
     struct failure inner = { 0 };
@@ -284,7 +283,7 @@ static bool use_material(struct reader *r, const char *name)
 {
     int known = r->library.names.count;
     r->material = mtl_find(&r->library, r->model, name);
-    if (r->material >= known && r->folder != NULL) {
+    if (r->material >= known && r->files->folder != NULL) {
         char text[120];
         snprintf(text, sizeof text, "material %.60s is not defined (line %d)", name, r->text.line);
         warn(r, text);
@@ -529,7 +528,7 @@ static bool load_picture(struct reader *r, const char *name, struct text_table *
         return true;
     }
     image_of_name[number] = *out = -1;
-    if (!external_read(r->folder, name, &bytes, &size, &why)) {
+    if (!external_read(r->files, name, &bytes, &size, &why)) {
         warn(r, why.text);
         return true;
     }
@@ -564,10 +563,9 @@ static bool load_pictures(struct reader *r)
     return ok;
 }
 
-bool obj_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
-               struct failure *f)
+bool obj_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f)
 {
-    struct reader r = { .folder = folder, .model = model, .f = f, .material = -1,
+    struct reader r = { .files = files, .model = model, .f = f, .material = -1,
                         .v.width = 3, .vt.width = 2, .vn.width = 3, .color.width = 4 };
     char *word, *rest;
     bool ok = obj_text_open(bytes, size, &r.text, f) && name_in_force(&r, "", &r.object);

@@ -3,11 +3,11 @@
 #ifndef SMEAR_TOOLS_OBJ_H
 #define SMEAR_TOOLS_OBJ_H
 
+#include "tools/model/external.h"
 #include "tools/model/intern.h"
 #include "tools/model/model.h"
 
-bool obj_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *model,
-               struct failure *f);
+bool obj_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f);
 
 /* What a material needs besides struct model_material while pictures are not loaded yet. */
 struct mtl_material {

@@ -40,7 +40,7 @@ static const char *read_time(void *to, const char *value)
 {
     struct render_options *o = to;
     o->has_time = read_number(value, 0.0, 1e9, &o->time);
-    return o->has_time ? NULL : "needs seconds from 0 on";
+    return o->has_time ? NULL : "needs seconds from 0 to 1e9";
 }
 
 static const char *read_clip(void *to, const char *value)
@@ -56,6 +56,13 @@ static const char *read_loop(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_outside(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->view.files = MODEL_FILES_ANYWHERE;
+    return NULL;
+}
+
 static const char *read_camera(void *to, const char *value)
 {
     ((struct render_options *)to)->view.camera = value;
@@ -66,14 +73,14 @@ static const char *read_eye(void *to, const char *value)
 {
     struct render_options *o = to;
     o->view.has_eye = read_vector(value, o->view.eye);
-    return o->view.has_eye ? NULL : "needs X,Y,Z";
+    return o->view.has_eye ? NULL : "needs X,Y,Z, each from -1e9 to 1e9";
 }
 
 static const char *read_look(void *to, const char *value)
 {
     struct render_options *o = to;
     o->has_look = read_vector(value, o->view.look);
-    return o->has_look ? NULL : "needs X,Y,Z";
+    return o->has_look ? NULL : "needs X,Y,Z, each from -1e9 to 1e9";
 }
 
 static const char *read_fov(void *to, const char *value)
@@ -201,7 +208,7 @@ static const char *read_target(void *to, const char *value)
     struct render_options *o = to;
     double codes;
     if (!read_number(value, 1e-6, 255.0, &codes))
-        return "needs codes above 0, up to 255";
+        return "needs codes from 1e-6 to 255";
     o->has_target = true;
     o->target = codes * 64 < 1.0 ? 1 : (int)(codes * 64 + 0.5);
     return NULL;
@@ -258,7 +265,7 @@ static const char *read_cut(void *to, const char *value)
     if (o->cut_count == OPTIONS_MAX_CUTS)
         return "too many of them";
     return read_integer(value, 0, 999999999, &o->cut[o->cut_count++]) ? NULL
-                                                                      : "needs a frame number";
+                                                                      : "needs a frame number from 0 to 999999999";
 }
 
 static const char *read_light(void *to, const char *value)
@@ -359,6 +366,7 @@ static const struct option table[] = {
     { "--time", true, read_time },
     { "--clip", true, read_clip },
     { "--loop", false, read_loop },
+    { "--outside", false, read_outside },
     { "--camera", true, read_camera },
     { "--eye", true, read_eye },
     { "--look", true, read_look },
@@ -428,7 +436,7 @@ static int check_builtin(const struct render_options *o)
         { "--clip", o->view.clip != NULL }, { "--loop", o->view.loop },
         { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
         { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
-        { "--mask", o->mask != NULL },
+        { "--mask", o->mask != NULL }, { "--outside", o->view.files == MODEL_FILES_ANYWHERE },
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)

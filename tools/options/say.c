@@ -2,6 +2,7 @@
 /* say.c - see say.h. */
 #include "tools/options/say.h"
 
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -61,4 +62,26 @@ void say_progress_end(void)
     if (progress_shown)
         fprintf(stderr, "\r%40s\r", "");
     progress_shown = false;
+}
+
+enum { ROOM_FOR_MORE = 24 };
+
+void say_list_add(struct say_list *list, const char *name)
+{
+    size_t used = strlen(list->text), room = sizeof list->text - ROOM_FOR_MORE - used;
+    int length = list->left_out > 0 ? -1 : snprintf(list->text + used, room, "%s\"%s\"", used > 0 ? ", " : "", name);
+    list->count++;
+    if (length < 0 || (size_t)length >= room) {
+        list->text[used] = '\0';
+        list->left_out++;
+    }
+}
+
+const char *say_list_end(struct say_list *list)
+{
+    size_t used = strlen(list->text);
+    if (list->left_out > 0)
+        snprintf(list->text + used, sizeof list->text - used, "%s%d%s", used > 0 ? " and " : "", list->left_out,
+                 used > 0 ? " more" : " with long names");
+    return list->count > 0 ? list->text : "none";
 }

@@ -28,4 +28,13 @@ void say_warning(const char *what, const char *text);
 void say_progress(long done, long all, const char *unit);
 void say_progress_end(void);
 
+/* What there is instead of what was asked for: names in quotes, as many as fit, and how many more there are. Begins
+ * zeroed. */
+struct say_list {
+    char text[220];
+    int count, left_out;
+};
+void say_list_add(struct say_list *list, const char *name);
+const char *say_list_end(struct say_list *list);
+
 #endif

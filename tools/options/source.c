@@ -33,6 +33,35 @@ static bool choose_clip(const struct model *model, const char *name, int *clip)
     return true;
 }
 
+static int say_none(const char *option, const char *kind, const char *name, struct say_list *list)
+{
+    return say_bad_usage(option, "the file has no %s \"%.80s\"; there is %s", kind, name, say_list_end(list));
+}
+
+int source_say_no_clip(const struct model *model, const char *name)
+{
+    struct say_list list = { .count = 0 };
+    for (int i = 0; i < model->clip_count; i++)
+        say_list_add(&list, model->clip[i].name);
+    return say_none("--clip", "clip", name, &list);
+}
+
+int source_say_no_node(const struct model *model, const char *option, const char *name)
+{
+    struct say_list list = { .count = 0 };
+    for (int i = 0; i < model->node_count; i++)
+        say_list_add(&list, model->node[i].name);
+    return say_none(option, "node", name, &list);
+}
+
+static int say_no_camera(const struct model *model, const char *name)
+{
+    struct say_list list = { .count = 0 };
+    for (int i = 0; i < model->camera_count; i++)
+        say_list_add(&list, model->camera[i].name);
+    return say_none("--camera", "camera", name, &list);
+}
+
 static int open_file(const struct source_view *view, struct source *out)
 {
     struct failure f = { "" };
@@ -41,19 +70,18 @@ static int open_file(const struct source_view *view, struct source *out)
                                      .aspect = view->aspect };
     memcpy(scene_view.eye, view->eye, sizeof scene_view.eye);
     memcpy(scene_view.look, view->look, sizeof scene_view.look);
-    if (!model_load(out->name, &out->model, &f))
+    if (!model_load_from(out->name, view->files, &out->model, &f))
         return say_bad_input(out->name, &f);
     if (out->model.warning[0] != '\0')
         say_warning(out->name, out->model.warning);
 
     int status = STATUS_OK;
     if (!choose_clip(&out->model, view->clip, &scene_view.clip))
-        status = say_bad_usage("--clip", "the file has no such clip (\"%s\")", view->clip);
+        status = source_say_no_clip(&out->model, view->clip);
     else if (view->camera != NULL) {
         scene_view.camera = model_find_camera(&out->model, view->camera);
         if (scene_view.camera < 0)
-            status = say_bad_usage("--camera", "the file has no such camera (\"%s\")",
-                                   view->camera);
+            status = say_no_camera(&out->model, view->camera);
     } else if (!view->has_eye && out->model.camera_count > 0) {
         scene_view.camera = 0;
     }
@@ -97,7 +125,7 @@ static int find_node(const struct model *model, const char *option, const char *
     if (*node < 0 && read_integer(name, 0, model->node_count - 1, &index))
         *node = (int)index;
     if (*node < 0)
-        return say_bad_usage(option, "the file has no such node (\"%s\")", name);
+        return source_say_no_node(model, option, name);
     return STATUS_OK;
 }
 

@@ -13,6 +13,7 @@ struct source_view {
     const char *clip;           /* --clip; null: the first, if there is one */
     const char *camera;         /* --camera; null: the first, if there is one */
     bool loop, has_eye, bilinear;
+    enum model_files files;     /* --outside: anywhere */
     double eye[3], look[3], fov_degrees;
     double aspect;
 };
@@ -46,6 +47,10 @@ int source_motion(const struct source *source, const char *const *setting, int s
 enum { SOURCE_UNMASKED = 1, SOURCE_MASKED = 2 };
 int source_mask(const struct source *source, const char *nodes, const struct scene_instant *instant,
                 uint8_t *layers);
+
+/* `FILE has no such KIND`, and what there is; a status. */
+int source_say_no_clip(const struct model *model, const char *name);
+int source_say_no_node(const struct model *model, const char *option, const char *name);
 
 /* "demo-race" of builtin:demo/race, "fox" of models/fox.glb; false when it does not fit. */
 bool source_stem(const char *name, char *out, size_t size);

@@ -4,11 +4,9 @@
 
 #include "tools/scenes/methods.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static int compare_doubles(const void *a, const void *b)
 {
@@ -38,18 +36,10 @@ struct device_times stats_median(const struct device_times *times, double *spare
 
 bool stats_open(struct stats_file *s, const char *path, struct failure *f)
 {
-    struct stat there;
-    *s = (struct stats_file){ .stream = NULL };
-    if (lstat(path, &there) == 0 && !S_ISREG(there.st_mode) && !file_is_kept(path)) {
-        s->stream = fopen(path, "w");
-        if (s->stream == NULL)
-            return fail(f, "cannot be written (%s)", strerror(errno));
-    } else {
-        if (!output_open(&s->file, path, f))
-            return false;
-        s->stream = s->file.stream;
-    }
-    fputs("{\"frames\":[", s->stream);
+    *s = (struct stats_file){ .frames = 0 };
+    if (!output_open_text(&s->file, path, f))
+        return false;
+    fputs("{\"frames\":[", s->file.stream);
     return true;
 }
 
@@ -62,56 +52,42 @@ void stats_add(struct stats_file *s, const struct frame_report *r)
 {
     const smear_stats *c = &r->counts;
     const struct device_times *t = &r->times;
-    fprintf(s->stream, "%s\n{\"frame\":%ld,\"time_s\":%.9g,\n", s->frames > 0 ? "," : "", r->frame,
+    fprintf(s->file.stream, "%s\n{\"frame\":%ld,\"time_s\":%.9g,\n", s->frames > 0 ? "," : "", r->frame,
             r->time);
     /* The library classifies while it reduces, and has no layers to merge. */
-    fprintf(s->stream, " \"us\":{\"submit\":%.1f,\"raster\":%.1f,\"reduce\":%.1f,\"class\":0,"
+    fprintf(s->file.stream, " \"us\":{\"submit\":%.1f,\"raster\":%.1f,\"reduce\":%.1f,\"class\":0,"
             "\"blur\":%.1f,\"merge\":0,\"convert\":%.1f,\"total\":%.1f},\n",
             us(t->submit), us(t->raster), us(t->reduce), us(t->blur), us(t->convert), us(t->total));
-    fprintf(s->stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32
+    fprintf(s->file.stream, " \"triangles\":{\"in\":%" PRIu32 ",\"drawn\":%" PRIu32
             ",\"dropped\":%" PRIu32 ",\"split\":%" PRIu32 "},\n",
             c->triangles_in, c->triangles_drawn, c->triangles_dropped, c->parts_added);
-    fprintf(s->stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
-    fprintf(s->stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
+    fprintf(s->file.stream, " \"pixels\":%" PRIu32 ",\"samples\":%" PRIu32 ",\n", c->pixels, c->samples);
+    fprintf(s->file.stream, " \"tiles\":{\"still\":%" PRIu32 ",\"uniform\":%" PRIu32
             ",\"complex\":%" PRIu32 ",\"kept\":%" PRIu32 "},\n",
             c->tiles_static, c->tiles_uniform, c->tiles_complex, c->tiles_kept);
     for (int i = 0; i < method_count; i++)
         if (method_list[i].method != SMEAR_AUTO)        /* its tiles get other methods */
-            fprintf(s->stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].name,
+            fprintf(s->file.stream, "%s\"%s\":%" PRIu32, i == 0 ? " \"methods\":{" : ",", method_list[i].name,
                     c->tiles[method_list[i].method]);
-    fputs("},\n", s->stream);
-    fprintf(s->stream,
+    fputs("},\n", s->file.stream);
+    fprintf(s->file.stream,
             " \"draws\":{\"moved\":%" PRIu32 ",\"beside\":%" PRIu32 "},\n \"static_cached\":%" PRIu32
             ",\n \"target\":%.4g,\"work\":%" PRIu32 ",\n",
             c->draws_moved, c->draws_beside, c->static_cached, c->target / 64.0, c->work);
-    fprintf(s->stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
+    fprintf(s->file.stream, " \"arena_bytes\":%" PRIu32 ",\"crc32\":\"%08" PRIx32 "\"}", c->arena_bytes,
             c->crc32);
     s->frames++;
 }
 
 bool stats_end(struct stats_file *s, struct failure *f)
 {
-    bool ok;
-    if (s->stream == NULL)
+    if (s->file.stream == NULL)
         return true;
-    fputs("\n]}\n", s->stream);
-    if (s->file.stream != NULL) {
-        ok = output_commit(&s->file, f);
-    } else {
-        ok = ferror(s->stream) == 0;
-        ok = fclose(s->stream) == 0 && ok;
-        if (!ok)
-            fail(f, "cannot be written (write error)");
-    }
-    *s = (struct stats_file){ .stream = NULL };
-    return ok;
+    fputs("\n]}\n", s->file.stream);
+    return output_commit(&s->file, f);
 }
 
 void stats_cancel(struct stats_file *s)
 {
-    if (s->file.stream != NULL)
-        output_discard(&s->file);
-    else if (s->stream != NULL)
-        fclose(s->stream);
-    *s = (struct stats_file){ .stream = NULL };
+    output_discard(&s->file);
 }

@@ -22,13 +22,11 @@ struct frame_report {
 struct device_times stats_median(const struct device_times *times, double *spare, int count);
 
 struct stats_file {
-    FILE *stream;               /* null: nobody wants statistics */
-    struct output file;         /* behind it, unless it is a device or pipe */
+    struct output file;         /* stream null: nobody wants statistics */
     long frames;
 };
 
-/* What is there and no regular file (a terminal, a pipe, a link such as /dev/stdout) is written to
- * as it is. */
+/* `-` is standard output. */
 bool stats_open(struct stats_file *s, const char *path, struct failure *f);
 void stats_add(struct stats_file *s, const struct frame_report *report);
 bool stats_end(struct stats_file *s, struct failure *f);

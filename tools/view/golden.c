@@ -141,7 +141,7 @@ static void print_lines(const struct golden *g, FILE *to)
 static bool write_lines(const struct golden *g, struct failure *f)
 {
     struct output out = { 0 };
-    if (!output_open(&out, g->path, f))
+    if (!output_open_text(&out, g->path, f))
         return false;
     print_lines(g, out.stream);
     return output_commit(&out, f);

@@ -24,7 +24,7 @@ enum {
 enum { SHIFT = 1, LOCK = 2 };
 enum { ATOM_ATOM = 4, ATOM_STRING = 31, ATOM_WM_NAME = 39, ATOM_WM_NORMAL_HINTS = 40,
        ATOM_WM_SIZE_HINTS = 41, ATOM_WM_CLASS = 67 };
-enum { Z_PIXMAP = 2, MAX_EDGE = 16384 };
+enum { Z_PIXMAP = 2, MAX_EDGE = 16384, PUT_IMAGE_HEAD = 24 };
 
 struct window {
     struct screen screen;
@@ -230,7 +230,11 @@ static bool fit_buffers(struct window *w, struct failure *f)
     w->stride = (width * (size_t)w->x.layout.bytes * 8 + pad - 1) / pad * pad / 8;
     if (!w->has_shm || !attach_segment(w, w->stride * rows * 2)) {
         w->has_shm = false;
-        w->bytes = malloc(w->stride * rows);
+        if (w->stride > w->x.max_request - PUT_IMAGE_HEAD - 4) {
+            free_buffers(w);
+            return fail(f, "a window %zu pixels wide is too wide for the X server's requests", width);
+        }
+        w->bytes = malloc(w->stride * rows + 4);        /* the last strip is sent in whole words */
     }
     w->is_direct = layout_is_native(&w->x.layout);
     if (!w->is_direct)
@@ -289,11 +293,10 @@ static void put_shared(struct window *w)
  * of a slow server. */
 static void put_strips(struct window *w)
 {
-    int rows = (int)((w->x.max_request - 24) / w->stride);
-    rows = rows > 0 ? rows : 1;
+    int rows = (int)((w->x.max_request - PUT_IMAGE_HEAD - 4) / w->stride);
     for (int y = 0; y < w->height; y += rows) {
         int n = w->height - y < rows ? w->height - y : rows;
-        size_t bytes = (size_t)n * w->stride;
+        size_t bytes = ((size_t)n * w->stride + 3) & ~(size_t)3;
         struct {
             uint8_t code, format;
             uint16_t length;

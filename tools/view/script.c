@@ -91,7 +91,7 @@ bool script_play(struct script *s, const char *path, struct failure *f)
 
 bool script_record(struct script *s, const char *path, struct failure *f)
 {
-    return output_open(&s->out, path, f);
+    return output_open_text(&s->out, path, f);
 }
 
 bool script_event(struct script *s, long tick, struct event *out)

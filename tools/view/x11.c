@@ -330,9 +330,20 @@ static bool find_visual(struct x11 *x, const uint8_t *screen, const uint8_t *end
 static size_t screen_size(const uint8_t *screen, const uint8_t *end)
 {
     const uint8_t *at = screen + 40;
-    for (int depth = 0; depth < screen[39] && end - at >= 8; depth++)
-        at += 8 + 24 * (size_t)x11_get16(at + 2);
+    for (int depth = 0; depth < screen[39] && end - at >= 8; depth++) {
+        size_t visuals = 8 + 24 * (size_t)x11_get16(at + 2), left = (size_t)(end - at);
+        at += visuals < left ? visuals : left;
+    }
     return (size_t)(at - screen);
+}
+
+/* What a server must offer; one that is none may promise anything. */
+static bool check_setup(const struct x11 *x, struct failure *f)
+{
+    if (x->scanline_pad != 8 && x->scanline_pad != 16 && x->scanline_pad != 32)
+        return fail(f, "the server's rows end at multiples of %d bits", x->scanline_pad);
+    return x->max_request >= X11_LEAST_REQUEST ||
+           fail(f, "the server takes requests of %zu bytes only", x->max_request);
 }
 
 static bool read_setup(struct x11 *x, const uint8_t *setup, size_t size, int screen_number,
@@ -346,17 +357,20 @@ static bool read_setup(struct x11 *x, const uint8_t *setup, size_t size, int scr
     x->max_request = (size_t)x11_get16(setup + 18) * 4;
     x->min_key = setup[26];
     x->max_key = setup[27];
-    const uint8_t *formats = setup + 32 + ((x11_get16(setup + 16) + 3u) & ~3u);
-    const uint8_t *screen = formats + 8 * (size_t)setup[21];
+    size_t vendor = (x11_get16(setup + 16) + 3u) & ~3u, lists = vendor + 8 * (size_t)setup[21];
+    if (size - 32 < lists)
+        return fail(f, "the server's greeting is too short");
+    const uint8_t *formats = setup + 32 + vendor, *screen = setup + 32 + lists;
     for (int i = 0; i < screen_number && end - screen >= 40; i++)
         screen += screen_size(screen, end);
-    if (screen_number >= setup[20] || end - screen < 40)
+    if (screen_number < 0 || screen_number >= setup[20] || end - screen < 40)
         return fail(f, "the server has no screen %d", screen_number);
     x->root = x11_get32(screen);
     x->visual = x11_get32(screen + 32);
     x->depth = screen[38];
-    return find_visual(x, screen, end, formats, setup[21], setup[22] != 0) ||
-           fail(f, "the screen has no 16, 24 or 32 bits of true colour");
+    if (!find_visual(x, screen, end, formats, setup[21], setup[22] != 0))
+        return fail(f, "the screen has no 16, 24 or 32 bits of true colour");
+    return check_setup(x, f);
 }
 
 static bool hear_greeting(struct x11 *x, const struct display *d, struct failure *f)

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { X11_PACKET = 32, X11_KEPT_EVENTS = 256 };
+enum { X11_PACKET = 32, X11_KEPT_EVENTS = 256, X11_LEAST_REQUEST = 4096 * 4 };
 
 struct x11 {
     int file;
