@@ -32,6 +32,8 @@ else
 fi
 needs python3 "python3" || true        # cli.sh reads statistics with it
 suite command-line sh tests/shell/cli.sh build/smear
+suite outputs sh tests/shell/outputs.sh build/smear
+suite strangers sh tests/shell/strangers.sh build/smear
 suite view sh tests/shell/view.sh build/smear
 suite build-demo-screen $make -s build/host/demo-screen
 suite view-display sh tests/shell/view_display.sh build/host/demo-screen

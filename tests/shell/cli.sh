@@ -664,7 +664,6 @@ done
 claim "the version" works --version
 claim "is that of the packages" out_has "^smear $(cd "$here" && sh tools/dist/version.sh)\$"
 usage more --version more
-usage "no command"
 usage frobnicate frobnicate
 usage --frob chart --frob
 usage nosuch chart --scenes nosuch

@@ -1370,8 +1370,8 @@ static void test_one_mesh_in_very_many_nodes_is_refused(void)
         at += sprintf(at, "%s{\"mesh\":0}", i == 0 ? "" : ",");
     at += sprintf(at, "]}");
     CHECK(!model_parse((const uint8_t *)text, (size_t)(at - text), NULL, &m, &f));
-    CHECK(same_text(f.text, "too many nodes use its meshes: above 1048576 draws, 1024 MB or "
-                    "1073741824 terms a pose"));
+    CHECK(same_text(f.text, "too many nodes use its meshes: above 65535 draws, 256 MB or "
+                    "67108864 terms a pose"));
     free(text);
 }
 

@@ -18,9 +18,7 @@ struct compare_options {
 };
 
 /* Differences are small; this much shows a code as a step one can see. */
-enum { DEFAULT_GAIN = 8 };
-
-static const size_t max_file = (size_t)1 << 30;
+enum { DEFAULT_GAIN = 8, MAX_PIXELS = 1 << 23 };
 
 static const char *read_diff(void *to, const char *value)
 {
@@ -55,7 +53,7 @@ static int load(const char *path, struct image *out)
     struct failure f = { "" };
     uint8_t *bytes;
     size_t size;
-    if (!file_keep(path, &f) || !file_read(path, max_file, &bytes, &size, &f))
+    if (!file_keep(path, &f) || !image_read(path, &bytes, &size, &f))
         return say_bad_input(path, &f);
     bool is_pfm = size > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f');
     bool is_pnm = size > 2 && bytes[0] == 'P' && bytes[1] >= '0' && bytes[1] <= '9';
@@ -63,6 +61,8 @@ static int load(const char *path, struct image *out)
             : is_pnm ? ppm_decode(bytes, size, out, &f)
                      : png_decode(bytes, size, out, &f);
     free(bytes);
+    if (ok && out->width * out->height > MAX_PIXELS)
+        ok = fail(&f, "picture has more than %d pixels (%d x %d), which takes too long", MAX_PIXELS, out->width, out->height);
     return ok ? STATUS_OK : say_bad_input(path, &f);
 }
 

@@ -262,7 +262,7 @@ static void print_textures(FILE *to, const struct conversion *c)
     for (int i = 0; i < c->texture_count; i++) {
         const struct convert_texture_report *t = &c->texture_report[i];
         fprintf(to, "  %d %dx%d from %dx%d, %s", i, t->width, t->height, t->from_width, t->from_height,
-               format[c->texture[i].format]);
+                format[c->texture[i].format]);
         if (t->colors > 0)
             fprintf(to, ", %d colours", t->colors);
         if (c->same_texels[i] != i)
@@ -285,7 +285,7 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
         fprintf(to, "left out: %d draws that let nothing be seen\n", c->invisible);
     if (c->triangles > 0)
         fprintf(to, "vertices transformed per triangle: %.2f, in the file's order %.2f\n",
-               (double)c->transformed / c->triangles, (double)c->transformed_in_file / c->triangles_in_file);
+                (double)c->transformed / c->triangles, (double)c->transformed_in_file / c->triangles_in_file);
     print_textures(to, c);
     fprintf(to, "clips: %u\n", m->clip_count);
     for (int i = 0; i < m->clip_count; i++) {
@@ -293,15 +293,15 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
         fprintf(to, "  %d ", i);
         print_quoted(to, m->text + m->clip[i].name);
         fprintf(to, " %.6g s, %u channels, %d keys of %d, position error %.3f px at %.3f s\n",
-               m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
-               r->error_time);
+                m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
+                r->error_time);
     }
     fprintf(to, "flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash,
-           c->bytes.meshes, c->bytes.textures, c->bytes.animation);
+            c->bytes.meshes, c->bytes.textures, c->bytes.animation);
     fprintf(to, "ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",
-           c->bytes.actor[1], c->bytes.actor[0], c->bytes.actor[2], c->bytes.open);
+            c->bytes.actor[1], c->bytes.actor[0], c->bytes.actor[2], c->bytes.open);
     fprintf(to, "largest position error: %.3f px, at rest %.3f (%g rows, %g degrees, at %.6g units)\n",
-           c->error_px, c->rest_error_px, o->rows, o->fov_degrees, c->distance);
+            c->error_px, c->rest_error_px, o->rows, o->fov_degrees, c->distance);
 }
 
 static int check_limits(const struct convert_command *command, const char *path, const struct conversion *c)

@@ -52,9 +52,11 @@ bool file_is_replaceable(const char *path, struct failure *f);
 /* Opens for writing and seeking; `path` must be replaceable. */
 bool output_open(struct output *o, const char *path, struct failure *f);
 
-/* The same for text, which may go to standard output, named `-`, or into a device or pipe: it goes there when it is
- * complete. A link to a file stays, and the file behind it is replaced. */
+/* The same for text, which goes to standard output for the name `-`, when it is complete. */
 bool output_open_text(struct output *o, const char *path, struct failure *f);
+
+/* Text that may also go into a device or pipe. A link to a file stays, and the file behind it is replaced. */
+bool output_open_stream(struct output *o, const char *path, struct failure *f);
 
 /* Closes, and gives the file its name unless outputs are held. Any write error since the opening fails here at the
  * latest; then nothing is left behind. The struct is empty afterwards in any case. */

@@ -2,13 +2,19 @@
 /* image.c - pictures in memory, and loading whichever format a file has. */
 #include "tools/image/image.h"
 
+#include "tools/image/file.h"
+
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 bool image_check_size(long width, long height, struct failure *f)
 {
-    if (width >= 1 && width <= IMAGE_MAX_EDGE && height >= 1 && height <= IMAGE_MAX_EDGE)
+    bool has_edges = width >= 1 && width <= IMAGE_MAX_EDGE && height >= 1 && height <= IMAGE_MAX_EDGE;
+    if (has_edges && width * height <= IMAGE_MAX_PIXELS)
         return true;
+    if (has_edges)
+        return fail(f, "picture has more than %d pixels (%ld x %ld)", (int)IMAGE_MAX_PIXELS, width, height);
     return fail(f, "picture size is outside 1..%d (%ld x %ld)", (int)IMAGE_MAX_EDGE, width, height);
 }
 
@@ -68,12 +74,29 @@ void float_image_free(struct float_image *image)
     *image = (struct float_image){0};
 }
 
+static bool look_at_head(const void *unused, const uint8_t *head, size_t size, struct failure *f)
+{
+    (void)unused;
+    bool is_pnm = size >= 2 && head[0] == 'P' && strchr("123456Ff", head[1]) != NULL && head[1] != 0;
+    return is_pnm || (size >= 1 && head[0] == 0x89) || fail(f, "neither PNG nor PPM nor PFM (first bytes)");
+}
+
+bool image_read(const char *path, uint8_t **bytes, size_t *size, struct failure *f)
+{
+    FILE *stream = fopen(path, "rb");
+    *bytes = NULL;
+    *size = 0;
+    if (stream == NULL)
+        return fail(f, "cannot be opened (%s)", strerror(errno));
+    return file_read_stream(stream, IMAGE_MAX_BYTES, look_at_head, NULL, bytes, size, f);
+}
+
 bool image_load(const char *path, struct image *out, struct failure *f)
 {
     uint8_t *bytes;
     size_t size;
     *out = (struct image){0};
-    if (!file_read(path, INT32_MAX, &bytes, &size, f))
+    if (!image_read(path, &bytes, &size, f))
         return false;
     bool ok;
     if (size >= 2 && bytes[0] == 'P' && strchr("2356", bytes[1]) != NULL && bytes[1] != 0)

@@ -24,8 +24,8 @@ struct float_image {
     float *value;               /* malloc'ed; null when empty */
 };
 
-/* Largest accepted edge; larger headers are refused before anything is allocated. */
-enum { IMAGE_MAX_EDGE = 16384 };
+/* Largest accepted edge, picture and file; what is larger is refused before anything is allocated. */
+enum { IMAGE_MAX_EDGE = 16384, IMAGE_MAX_PIXELS = 1 << 24, IMAGE_MAX_BYTES = 256 << 20 };
 
 /* Opaque black. */
 bool image_alloc(struct image *image, int width, int height, struct failure *f);
@@ -35,13 +35,16 @@ bool float_image_alloc(struct float_image *image, int width, int height, int cha
                        struct failure *f);
 void float_image_free(struct float_image *image);
 
-/* Edges within 1..IMAGE_MAX_EDGE; two pictures that exist and have one size. */
+/* Edges within 1..IMAGE_MAX_EDGE, no more than IMAGE_MAX_PIXELS; two pictures that exist and have one size. */
 bool image_check_size(long width, long height, struct failure *f);
 bool image_check_same_size(const struct image *a, const struct image *b, struct failure *f);
 
 /* The whole file; refuses files above max_bytes. The result has a NUL after its last byte. */
 bool file_read(const char *path, size_t max_bytes, uint8_t **bytes, size_t *size,
                struct failure *f);
+
+/* Likewise a picture's, which is refused by its first bytes where it begins like none. */
+bool image_read(const char *path, uint8_t **bytes, size_t *size, struct failure *f);
 
 /* Writes to a temporary name beside `path` and renames it, so that no partial file is ever seen. */
 bool file_write(const char *path, const uint8_t *bytes, size_t size, struct failure *f);
@@ -61,7 +64,7 @@ bool ppm_decode(const uint8_t *bytes, size_t size, struct image *out, struct fai
 /* Either byte order; the size of the scale is ignored. */
 bool pfm_decode(const uint8_t *bytes, size_t size, struct float_image *out, struct failure *f);
 
-/* PNG or PPM. */
+/* PNG or PPM, by content. */
 bool image_load(const char *path, struct image *out, struct failure *f);
 
 /* --- writing ---

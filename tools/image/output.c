@@ -214,6 +214,12 @@ static bool is_of_system(const char *path)
 
 bool output_open_text(struct output *o, const char *path, struct failure *f)
 {
+    *o = (struct output){ 0 };
+    return strcmp(path, "-") == 0 ? open_memory(o, NULL, NULL, f) : output_open(o, path, f);
+}
+
+bool output_open_stream(struct output *o, const char *path, struct failure *f)
+{
     struct stat there;
     *o = (struct output){ 0 };
     if (strcmp(path, "-") == 0)

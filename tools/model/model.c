@@ -16,7 +16,7 @@
 /* More draws, more to add up per pose (vertices times their morph targets and joints), or more
  * memory for what deforms, than any scene for small machines needs; a short file can ask for each
  * without end by using one mesh in many nodes. */
-enum { MAX_DRAWS = 1 << 20, MAX_TERMS = 1 << 26 };
+enum { MAX_DRAWS = 65535, MAX_TERMS = 1 << 26 };
 
 static void free_primitive(struct model_primitive *p)
 {

@@ -37,7 +37,7 @@ struct device_times stats_median(const struct device_times *times, double *spare
 bool stats_open(struct stats_file *s, const char *path, struct failure *f)
 {
     *s = (struct stats_file){ .frames = 0 };
-    if (!output_open_text(&s->file, path, f))
+    if (!output_open_stream(&s->file, path, f))
         return false;
     fputs("{\"frames\":[", s->file.stream);
     return true;
