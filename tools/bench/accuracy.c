@@ -30,6 +30,8 @@ static const struct judged_scene scenes[] = {
     { "peer/A", 40.5, 41.4, LAYERS_FOLDED }, { "peer/B64", 30.0, 29.6, LAYERS_FOLDED },
     { "peer/B256", 0.0, 0.0, LAYERS_UNCOUNTED }, { "peer/C", 38.0, 38.2, LAYERS_UNCOUNTED },
     { "peer/D", 30.0, 30.6, LAYERS_SHEET }, { "peer/E", 36.0, 36.0, LAYERS_FOLDED },
+    { "peer/F", 41.4, 0.0, LAYERS_UNCOUNTED }, { "peer/F-lit", 41.0, 0.0, LAYERS_UNCOUNTED },
+    { "peer/G", 38.9, 0.0, LAYERS_UNCOUNTED }, { "peer/G-lit", 38.0, 0.0, LAYERS_UNCOUNTED },
     { "peer/N", 0.0, 40.3, LAYERS_SHEET },
 };
 

@@ -3,9 +3,9 @@
  * geometry, same frames, same texture as every other renderer that was measured. Frame k is the
  * instant k/30.
  *
- * All of them: camera at the origin along -z, 60 degrees, near 0.25, far 64, unlit, clear (16,
- * 24, 48); one draw, whose model-view is T(t) Rx(ax) Ry(ay) T(p). Colours are given as display
- * codes. */
+ * All of them: camera at the origin along -z, 60 degrees, near 0.25, far 64, clear (16, 24, 48);
+ * unlit but for those called -lit, which have normals and the library's default light; one draw
+ * (G: 169), whose model-view is T(t) Rx(ax) Ry(ay) T(p). Colours are given as display codes. */
 #include "tools/scenes/builtin.h"
 
 #include "tools/scenes/build.h"
@@ -52,15 +52,21 @@ static const struct image *peer_texture(struct stage *stage, int size)
     return image;
 }
 
+static const struct scene_surface *peer_surface(struct build *b, const struct image *texture)
+{
+    const bool lit = (b->parts & BUILD_NORMAL) != 0;
+    struct scene_surface *surface = build_finish(b);
+    if (surface != NULL) {
+        surface->material.unlit = !lit;
+        surface->material.image = texture;
+    }
+    return surface;
+}
+
 static void finish_peer(struct build *b, const struct image *texture)
 {
     struct stage *stage = b->stage;
-    struct scene_surface *surface = build_finish(b);
-    if (surface != NULL) {
-        surface->material.unlit = true;
-        surface->material.image = texture;
-    }
-    stage_add(stage, surface);
+    stage_add(stage, peer_surface(b, texture));
 }
 
 static uint32_t point(struct build *b, double x, double y, double z, double u, double v)
@@ -86,21 +92,31 @@ static void patch(struct build *b, struct vec3 o, struct vec3 along, struct vec3
         }
 }
 
-static void place(struct scene_instant *out, struct vec3 t, double ax, double ay, struct vec3 p)
+static void place_draw(struct scene_instant *out, int draw, struct vec3 t, double ax, double ay, struct vec3 p)
 {
     struct xform turn = xform_mul(xform_turn_x(ax), xform_turn_y(ay));
-    stage_place(out, 0, xform_mul(xform_move(t.x, t.y, t.z),
-                                  xform_mul(turn, xform_move(p.x, p.y, p.z))));
+    stage_place(out, draw, xform_mul(xform_move(t.x, t.y, t.z),
+                                     xform_mul(turn, xform_move(p.x, p.y, p.z))));
+}
+
+static void place(struct scene_instant *out, struct vec3 t, double ax, double ay, struct vec3 p)
+{
+    place_draw(out, 0, t, ax, ay, p);
 }
 
 /* ------------------------------------------------------------------ A: 70,000 Gouraud triangles */
 
 enum { A_RINGS = 175, A_COLUMNS = 200 };
 
-static uint32_t a_vertex(struct build *b, double theta, double phi)
+static uint32_t bumpy_vertex(struct build *b, double theta, double phi, double u, double v)
 {
     double r = 1 + 0.08 * sin(5 * theta) * cos(4 * phi) + 0.03 * sin(11 * theta) * cos(9 * phi);
-    return point(b, r * sin(theta) * cos(phi), r * cos(theta), r * sin(theta) * sin(phi), 0, 0);
+    return point(b, r * sin(theta) * cos(phi), r * cos(theta), r * sin(theta) * sin(phi), u, v);
+}
+
+static uint32_t a_vertex(struct build *b, double theta, double phi)
+{
+    return bumpy_vertex(b, theta, phi, 0, 0);
 }
 
 /* Index of column j, which wraps, of ring i = 1..175; the top pole is vertex 0. */
@@ -115,10 +131,9 @@ static struct vec3 position_of(const struct build *b, uint32_t v)
     return vec3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-/* Light is part of the vertex colours: the scene measures interpolation, not lighting. */
-static void a_colors(struct build *b)
+/* Normals of vertices: the sums of their triangles', weighed by area. */
+static void find_normals(struct build *b)
 {
-    struct vec3 light = vec3_unit(vec3(0.4, 0.7, 0.6));
     for (int i = 0; i < 3 * b->vertex_count; i++)
         b->normal[i] = 0;
     for (int t = 0; t < b->triangle_count; t++) {
@@ -133,6 +148,13 @@ static void a_colors(struct build *b)
             sum[2] += (float)n.z;
         }
     }
+}
+
+/* Light is part of the vertex colours: the scene measures interpolation, not lighting. */
+static void a_colors(struct build *b)
+{
+    struct vec3 light = vec3_unit(vec3(0.4, 0.7, 0.6));
+    find_normals(b);
     for (int i = 0; i < b->vertex_count; i++) {
         const float *sum = b->normal + 3 * (size_t)i;
         struct vec3 n = vec3_unit(vec3((double)sum[0], (double)sum[1], (double)sum[2]));
@@ -318,6 +340,98 @@ static void e_move(const struct stage *stage, double time, struct scene_instant 
     place(out, vec3(0, 0, -5), 0.02 * (time * 30), 0.03 * (time * 30), vec3(0, 0, 0));
 }
 
+/* ------------------------------------------------------------------ F: 10,500 small textured
+ * triangles, on the surface of A */
+
+enum { F_RINGS = 75, F_COLUMNS = 70 };
+
+/* The seam has vertices of its own, and so has each triangle at a pole. */
+static uint32_t f_corner(int ring, int column)
+{
+    return (uint32_t)(ring * (F_COLUMNS + 1) + column);
+}
+
+static void f_make(struct stage *stage, unsigned parts)
+{
+    struct build b = build_begin(stage, parts);
+    for (int i = 0; i <= F_RINGS + 1; i++)
+        for (int j = 0; j <= F_COLUMNS; j++)
+            bumpy_vertex(&b, PI * i / (F_RINGS + 1), 2 * PI * (j % F_COLUMNS) / F_COLUMNS,
+                         0.02 + 0.96 * j / F_COLUMNS, 0.02 + 0.96 * i / (F_RINGS + 1));
+    for (int i = 0; i <= F_RINGS; i++)
+        for (int j = 0; j < F_COLUMNS; j++) {
+            if (i < F_RINGS)
+                build_triangle(&b, f_corner(i + 1, j), f_corner(i, j + 1), f_corner(i + 1, j + 1));
+            if (i > 0)
+                build_triangle(&b, f_corner(i, j), f_corner(i, j + 1), f_corner(i + 1, j));
+        }
+    if (!b.failed && (parts & BUILD_NORMAL) != 0)
+        find_normals(&b);
+    finish_peer(&b, peer_texture(stage, 256));
+}
+
+static void f_build(struct stage *stage)
+{
+    f_make(stage, BUILD_UV);
+}
+
+static void f_lit_build(struct stage *stage)
+{
+    f_make(stage, BUILD_UV | BUILD_NORMAL);
+}
+
+/* ------------------------------------------------------------------ G: 169 towers of 360 textured
+ * triangles */
+
+enum { G_ROWS = 8, G_SIDES = 24, G_EDGE = 13 };
+
+static void g_make(struct stage *stage, unsigned parts)
+{
+    struct build b = build_begin(stage, parts);
+    for (int i = 0; i < G_ROWS; i++)
+        for (int j = 0; j <= G_SIDES; j++) {
+            double a = 2 * PI * (j % G_SIDES) / G_SIDES;
+            point(&b, 0.35 * cos(a), i / 7.0, 0.35 * sin(a), 0.02 + 0.96 * j / G_SIDES, 0.02 + 0.96 * i / 7.0);
+        }
+    for (int i = 0; i < G_ROWS - 1; i++)
+        for (int j = 0; j < G_SIDES; j++) {
+            uint32_t here = (uint32_t)(i * (G_SIDES + 1) + j), above = here + G_SIDES + 1;
+            build_triangle(&b, here, above, here + 1);
+            build_triangle(&b, here + 1, above, above + 1);
+        }
+    uint32_t top = point(&b, 0, 1, 0, 0.5, 0.5);
+    for (int j = 0; j < G_SIDES; j++) {
+        double a = 2 * PI * j / G_SIDES;
+        point(&b, 0.35 * cos(a), 1, 0.35 * sin(a), 0.5 + 0.48 * cos(a), 0.5 + 0.48 * sin(a));
+    }
+    for (uint32_t j = 0; j < G_SIDES; j++)
+        build_triangle(&b, top, top + 1 + (j + 1) % G_SIDES, top + 1 + j);
+    if (!b.failed && (parts & BUILD_NORMAL) != 0)
+        find_normals(&b);
+    const struct scene_surface *tower = peer_surface(&b, peer_texture(stage, 256));
+    for (int i = 0; i < G_EDGE * G_EDGE; i++)
+        stage_add(stage, tower);
+}
+
+static void g_build(struct stage *stage)
+{
+    g_make(stage, BUILD_UV);
+}
+
+static void g_lit_build(struct stage *stage)
+{
+    g_make(stage, BUILD_UV | BUILD_NORMAL);
+}
+
+static void g_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    (void)stage;
+    for (int j = 0; j < G_EDGE; j++)
+        for (int i = 0; i < G_EDGE; i++)
+            place_draw(out, j * G_EDGE + i, vec3(0, -1.2, -5), 0.35, 0.2 + 0.1 * (time * 30),
+                       vec3(1.2 * (i - 6), 0, 1.2 * (j - 6)));
+}
+
 /* ------------------------------------------------------------------ N: a floor that passes
  * behind the camera */
 
@@ -348,6 +462,10 @@ static const struct stage_kind peer_kinds[] = {
     {"peer/C", 320, 240, 0, PEER_CLEAR, c_build, c_move},
     {"peer/D", 320, 240, 0, PEER_CLEAR, d_build, d_move},
     {"peer/E", 320, 240, 0, PEER_CLEAR, e_build, e_move},
+    {"peer/F", 320, 240, 0, PEER_CLEAR, f_build, a_move},
+    {"peer/F-lit", 320, 240, 0, PEER_CLEAR, f_lit_build, a_move},
+    {"peer/G", 320, 240, 0, PEER_CLEAR, g_build, g_move},
+    {"peer/G-lit", 320, 240, 0, PEER_CLEAR, g_lit_build, g_move},
     {"peer/N", 320, 240, 0, PEER_CLEAR, n_build, n_move},
 };
 

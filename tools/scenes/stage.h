@@ -13,7 +13,7 @@
 
 #include <stddef.h>
 
-enum { STAGE_MAX_PROPS = 128, STAGE_MAX_SECONDS = 1000000 };
+enum { STAGE_MAX_PROPS = 192, STAGE_MAX_SECONDS = 1000000 };
 
 struct stage;
 
