@@ -9,7 +9,7 @@
 #include "base/pixel.h"
 
 /* Edge functions at the centre of a pixel, q16; inside is e0, e1, e2 >= 0. e1 and e2 are twice the areas
- * opposite to v[1] and v[2]. Exact in 32 bits for boxes of up to 9 x 9 px. */
+ * opposite to v[1] and v[2]. Exact in 32 bits for boxes of up to 64 x 64 px. */
 struct tiny_edges {
     int32_t e0, e1, e2;
     int32_t right0, right1, right2;     /* one pixel to the right */
@@ -69,12 +69,27 @@ static inline int32_t tiny_times(int32_t a, uint32_t w)
 #endif
 }
 
+/* Returns floor(a w / 2^15) for a weight q15 of at most one. */
+static inline int32_t tiny_part(int32_t a, int32_t w)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * w >> 15);
+#else
+    return (a >> 15) * w + ((a & 0x7fff) * w >> 15);
+#endif
+}
+
+/* Returns the nearest depth code (smear_depth_units) of units q11. */
+static inline uint32_t tiny_code(int32_t units)
+{
+    return units < 32768 << 11 ? (uint32_t)(units + 0x400) >> 11
+                               : ((uint32_t)units + ((32768u - 2048u) << 15) + 0x4000u) >> 15;
+}
+
 /* Returns the nearest depth code (smear_depth_units) at weights w1 and w2, from units q11. */
 static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w1, uint32_t w2)
 {
-    int32_t units = q0 + tiny_times(q1 - q0, w1) + tiny_times(q2 - q0, w2);
-    return units < 32768 << 11 ? (uint32_t)(units + 0x400) >> 11
-                               : ((uint32_t)units + ((32768u - 2048u) << 15) + 0x4000u) >> 15;
+    return tiny_code(q0 + tiny_times(q1 - q0, w1) + tiny_times(q2 - q0, w2));
 }
 
 /* Whether depths differ so little that colours may be mixed on the screen: off by at most 1/128 of their range. */

@@ -347,6 +347,44 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     }
 }
 
+/* Rows of a small triangle, by edge functions: as many as the box has, at most SPAN_ROWS. */
+static void cover_small_rows(const struct setup *s, const struct pixel_box *box, smear_rows_fn *draw)
+{
+    const struct smear_raster_target *t = s->target;
+    const int32_t left = box->left, right = box->right, width = s->frame->width;
+    struct tiny_edges e;
+    struct gather g;
+    edges_start(&e, s, s->x1 * s->y2 - s->x2 * s->y1, left, box->top);
+    gather_start(&g, s, box->top);
+    g.rows.cut = max_i32(left, 0) < t->x0 || min_i32(right, width) > t->x1;
+    for (int32_t y = box->top; y < box->bottom; y++) {
+        struct span_side *side = &g.rows.side[g.rows.count];
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;
+        while ((e0 | e1 | e2) < 0 && ++x < right) {
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
+        }
+        side->left = max_i32(x, 0);
+        if (x < right)
+            do {
+                e0 += e.right0;
+                e1 += e.right1;
+                e2 += e.right2;
+            } while (++x < right && (e0 | e1 | e2) >= 0);
+        side->edge = x;
+        side->right = min_i32(x, width);
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
+        g.rows.count++;
+        if (++g.ring_row == t->window_rows.ring)
+            gather_draw(&g, s, draw);
+    }
+    if (g.rows.count != 0)
+        gather_draw(&g, s, draw);
+}
+
 /* n pixels from index `at` on, of the colour as the target has it. */
 SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
                               uint32_t dz, uint32_t color)
@@ -437,10 +475,15 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
     }
 }
 
+/* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
+#if defined(__ARM_ARCH_6M__)
+#define cover_flat_whole cover_flat_cut
+#else
 static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 {
     cover_flat(s, false, false);
 }
+#endif
 
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
@@ -510,8 +553,12 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
         s->has_velocity = true;
     }
 #if SMEAR_SPAN_ROWS
-    if (!small) {
+    if (!small || segment_textured(s->segment)) {
         smear_rows_fn *rows = smear_rows_choose(s);
+        if (rows != NULL && small) {
+            cover_small_rows(s, box, rows);
+            return;
+        }
         if (rows != NULL) {
             cover_rows(s, rows,
                        max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1);

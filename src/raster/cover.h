@@ -6,8 +6,15 @@
 #include "geometry/tiny.h"
 #include "raster/setup.h"
 
-/* Boxes of at most this many pixels in both directions are walked with edge functions (tiny.h), which fit 32 bits there. */
-enum { SMALL_PX = 8 };
+/* Boxes of at most this many pixels in both directions are walked with edge functions (tiny.h), which fit 32 bits there; a
+ * texture's set-up is cheaper for them, too. */
+enum { SMALL_PX = 8, SMALL_TEXTURED_PX = 16 };
+
+/* Whether a triangle is set up by smear_setup_small. */
+static inline bool cover_is_small(const struct setup *s, bool small)
+{
+    return small && segment_textured(s->segment) && segment_moves(s->segment) == 0;
+}
 
 /* Pixels [left, right) of rows [top, bottom). */
 struct pixel_box {
@@ -15,7 +22,7 @@ struct pixel_box {
 };
 
 /* Draws a triangle whose gradients and planes are made, and makes those of its velocity where they are needed. The box holds
- * its pixels in the target's rows; `small`: the triangle has at most SMALL_PX columns and rows. */
+ * its pixels in the target's rows; `small`: the triangle has at most so many columns and rows. */
 void smear_cover(struct setup *s, const struct pixel_box *box, bool small);
 
 #endif

@@ -3,7 +3,7 @@
  * (cover.c), and what is kept of those that go on in the next rows. */
 #include "raster/raster.h"
 
-#include "raster/cover_tiny.h"
+#include "raster/cover_texels.h"
 #include "raster/span.h"
 
 /* ------------------------------------------------------------------ a triangle */
@@ -53,6 +53,16 @@ static inline struct bounds bounds_of(const int32_t *const v[3])
                             max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
 }
 
+/* Draws a triangle of few pixels by the weights of its vertices. False where it needs gradients. */
+static inline bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box)
+{
+    if (cover_is_tiny(s, pixels)) {
+        cover_tiny(s, (int32_t)area, box);
+        return true;
+    }
+    return cover_has_texels(s, pixels) && smear_cover_texels(s, (int32_t)area, box);
+}
+
 /* Draws a triangle with these vertices, and this box of them where it is given. `triangle` is its number in the list's
  * geometry, or none. */
 static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
@@ -68,7 +78,8 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         bounds = bounds_of(v);
     const int32_t left = (bounds.x0 + 127) >> 8, right = (bounds.x1 + 127) >> 8;
     const int32_t top = (bounds.y0 + 127) >> 8, bottom = (bounds.y1 + 127) >> 8;
-    const bool small = right - left <= SMALL_PX && bottom - top <= SMALL_PX;
+    const int32_t most = segment_textured(segment) ? SMALL_TEXTURED_PX : SMALL_PX;
+    const bool small = right - left <= most && bottom - top <= most;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
         return;
@@ -98,14 +109,14 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     if (segment_moves(segment) != 0 || draw_is_fixed(s->draw))
         *moved = true;
     if (!known) {
-        uint64_t area = setup_edges(s);
-        if (cover_is_tiny(s, pixels)) {
+        const uint64_t area = setup_edges(s);
+        if (draw_tiny(s, area, pixels, &box)) {
             if (entry != NULL)
                 entry->triangle = SMEAR_NO_TRIANGLE;
-            cover_tiny(s, (int32_t)area, &box);
             return;
         }
-        smear_setup(s, area);
+        if (!(cover_is_small(s, small) && smear_setup_small(s, (int32_t)area)))
+            smear_setup(s, area);
         if (entry != NULL)
             entry->triangle = triangle;
     }

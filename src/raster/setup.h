@@ -166,6 +166,10 @@ static inline uint64_t setup_edges(struct setup *s)
 /* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */
 void smear_setup(struct setup *s, uint64_t area);
 
+/* Does that for a textured triangle of few pixels without a motion of its own, whose area fits: setup_small.c. Returns false
+ * where that would be too inexact, or its shape is that of a sliver. */
+bool smear_setup_small(struct setup *s, int32_t area);
+
 /* Makes the planes of its velocity: velocity.c. */
 void smear_setup_velocity(struct setup *s);
 

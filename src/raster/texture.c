@@ -98,14 +98,19 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
     return mix_texels(top, bottom, fv, s->linear);
 }
 
+uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v)
+{
+    if (SMEAR_WITH_TEXTURE && s->bilinear)
+        return sample_bilinear(s, u, v);
+    return texel(s, u >> 16, v >> 16);
+}
+
 /* Any texel at the coordinates u and v, in turns (`turns`) or texels q16. */
 SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
 {
     if (turns)
         return sampler_fetch(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
-    if (SMEAR_WITH_TEXTURE && s->bilinear)
-        return sample_bilinear(s, (int32_t)at, (int32_t)(at >> 32));
-    return texel(s, (int32_t)at >> 16, (int32_t)(at >> 32) >> 16);
+    return smear_sample_at(s, (int32_t)at, (int32_t)(at >> 32));
 }
 
 /* Along a chord or a parabola. No coordinate is asked for after a loop, which would

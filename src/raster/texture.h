@@ -65,6 +65,9 @@ SMEAR_INLINE uint32_t sampler_fetch(const struct smear_sampler *s, uint32_t at, 
     return texel_fetch(s->texels, s->palette, at, format);
 }
 
+/* The texel at u and v, q16 texels, as 0xAARRGGBB. Any format, size, wrap. */
+uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v);
+
 /* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
                   int first, int n);
