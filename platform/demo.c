@@ -57,8 +57,14 @@ static int start(const struct demo_screen *screen, const smear_desc *desc)
 {
     size_t room, need = smear_memory_size(desc);
     void *arena = platform_arena(&room);
-    if (need > room)
+    if (need > room) {
+        platform_print("demo: the context takes ");
+        print_decimal((uint32_t)need);
+        platform_print(" bytes of ");
+        print_decimal((uint32_t)room);
+        platform_print(" there are: fewer max_triangles, a smaller tile or strip (demo_player.c)\n");
         return SMEAR_ERR_MEMORY;
+    }
     return demo_player_start(&player, screen, desc, arena, need);
 }
 
@@ -263,31 +269,9 @@ static int memory(void)
 
 /* ------------------------------------------------------------------ showing */
 
-struct controls {
-    unsigned held;                  /* at the last look */
-    bool is_paused;
-};
-
-/* Does what the keys pressed since the last look ask for; true when that changes the picture. */
-static bool obey(struct controls *controls)
-{
-    unsigned held = display_keys(), pressed = held & ~controls->held;
-    uint16_t before = player.shutter_degrees;
-    controls->held = held;
-    if (pressed & KEY_A)
-        player.shutter_degrees = player.shutter_degrees == 0 ? 180 : 0;
-    if ((pressed & KEY_LEFT) && player.shutter_degrees > 90)
-        player.shutter_degrees -= 90;
-    if ((pressed & KEY_RIGHT) && player.shutter_degrees < 720)
-        player.shutter_degrees += 90;
-    if (pressed & KEY_START)
-        controls->is_paused = !controls->is_paused;
-    return player.shutter_degrees != before;
-}
-
 /* One frame, with the motion it has in the loop, and after those before it, of which the display keeps what
  * stands still; again whenever keys change it. */
-static int hold(uint32_t frame, struct controls *controls)
+static int hold(uint32_t frame, struct demo_controls *controls)
 {
     enum { BEFORE = 3 };
     do {
@@ -301,7 +285,7 @@ static int hold(uint32_t frame, struct controls *controls)
         do {
             if (!display_wait())
                 return 0;
-        } while (!obey(controls));
+        } while (!demo_player_obey(&player, controls, display_keys()));
     } while (true);
 }
 
@@ -314,11 +298,11 @@ static int show(const struct demo_screen *screen, const char *frame)
     if (result != SMEAR_OK)
         return failed("start", result);
     display_attach(player.ctx);
-    struct controls controls = { .held = display_keys() };
+    struct demo_controls controls = { .held = display_keys() };
     if (frame != NULL)
         return hold(read_number(frame) % DEMO_LOOP, &controls);
     for (uint32_t i = 0; result == SMEAR_OK; i = (i + !controls.is_paused) % DEMO_LOOP) {
-        obey(&controls);
+        demo_player_obey(&player, &controls, display_keys());
         result = demo_player_frame(&player, i, true);
         if (result == SMEAR_OK)
             display_show();

@@ -2,6 +2,7 @@
 /* demo_player.c - see demo_player.h. */
 #include "platform/demo_player.h"
 
+#include "platform/display.h"
 #include "platform/play.h"
 
 #define DAY 0xa9d6efu
@@ -25,6 +26,14 @@ const struct demo_screen demo_screens[] = {
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
+    { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 320, .max_draws = DEMO_DRAWS,
+                    .max_triangles = 520, .reuse.buffer_age = 1 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
+    { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
+                    .max_triangles = 400, .reuse.buffer_age = 1 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
                  .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_draws = DEMO_DRAWS, .max_triangles = 530 },
       SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", 0 },
@@ -136,6 +145,22 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
     }
     int result = submit(player, &how);
     return result == SMEAR_OK && draw ? smear_render(player->ctx) : result;
+}
+
+int demo_player_obey(struct demo_player *player, struct demo_controls *controls, unsigned held)
+{
+    const unsigned pressed = held & ~controls->held;
+    const uint16_t before = player->shutter_degrees;
+    controls->held = held;
+    if (pressed & KEY_A)
+        player->shutter_degrees = player->shutter_degrees == 0 ? 180 : 0;
+    if ((pressed & KEY_LEFT) && player->shutter_degrees > 90)
+        player->shutter_degrees -= 90;
+    if ((pressed & KEY_RIGHT) && player->shutter_degrees < 720)
+        player->shutter_degrees += 90;
+    if (pressed & KEY_START)
+        controls->is_paused = !controls->is_paused;
+    return player->shutter_degrees != before;
 }
 
 int demo_player_instant(struct demo_player *player, int32_t time)

@@ -55,6 +55,15 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
  * library remembers where everything was. Returns a smear_result. */
 int demo_player_frame(struct demo_player *player, uint32_t frame, int draw);
 
+/* Keys of the demo, enum display_key: A sharp or blurred; left and right a shorter or longer shutter; start stops and goes on. */
+struct demo_controls {
+    unsigned held;                  /* at the last look */
+    int is_paused;
+};
+
+/* Does what the keys pressed since the last look ask for; true when that changes the picture. */
+int demo_player_obey(struct demo_player *player, struct demo_controls *controls, unsigned held);
+
 /* Renders the sharp instant at a time between frames, in DEMO_TIME of a frame. Returns a smear_result. */
 int demo_player_instant(struct demo_player *player, int32_t time);
 

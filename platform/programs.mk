@@ -16,7 +16,9 @@
 # A target with a display sets DISPLAY_SRC (its display.h) and DEMO_SCREEN (demo_player.c);
 # DEMO_LOOPS is what demo-test draws there, and SHOT... how it takes screenshots: see
 # tests/shell/target_demo.sh and platform/lm3s6965evb/target.mk. For demo-run and model-run, SHOW is a command
-# if it is not to run the program; SHOWN is what their names end in where other programs are shown.
+# if it is not to run the program; SHOWN is what their names end in where other programs are shown. LOOPS... prints what the
+# display shows over a while. Where another build system makes the firmware, PROJECT calls it: PROJECT FOLDER PROGRAM BOARD
+# [MODEL.h] (platform/pico/target.mk).
 
 HOST_CC      ?= cc
 TARGET_TESTS ?= unit golden
@@ -124,9 +126,15 @@ $(PROPS)/props.c: $(PROPS)/demo_props
 	$(call say,GEN)
 	$(PROPS)/demo_props $@
 
+ifdef PROJECT
+$(BUILD)/demo$(EXE): $(PROPS)/props.c always
+	$(call say,BUILD)
+	$(PROJECT) $(BUILD) demo $(BOARD)
+else
 $(BUILD)/demo$(EXE): $(FIRMWARE_OBJ) $(LIB) $(SCRIPTS)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
+endif
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
 SCREEN_SRC := tests/target/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
@@ -237,9 +245,15 @@ $(BUILD)/model.name: always
 $(MODEL):
 	@echo "$(MODEL) is missing: build/smear convert FILE --name model -o $(MODEL)" >&2; exit 1
 
+ifdef PROJECT
+$(BUILD)/model$(EXE): $(MODEL) always
+	$(call say,BUILD)
+	$(PROJECT) $(BUILD) model $(BOARD) $(abspath $(MODEL))
+else
 $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(MODEL_OBJ) $(LIB) $(LDLIBS)
+endif
 
 .PHONY: model-firmware model-run model-cost model-test
 ## a converted model (MODEL=build/model.h) as firmware for TARGET

@@ -8,6 +8,21 @@ exr() {
     command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
 }
 
+# What firmware for a Pico is built with and run on. SDK and boot ROM are other people's: without them the suites are not run.
+pico() {
+    needs arm-none-eabi-g++ "libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib" && needs cmake "cmake g++" &&
+        needs node "nodejs npm" || return 1
+    [ -d "${RP2040JS:-build/tools/node_modules/rp2040js}" ] ||
+        lacks rp2040js "npm install --prefix build/tools rp2040js@1.4.1, or RP2040JS=FOLDER" || return 1
+    if [ -z "${PICO_SDK_PATH:-}" ] && [ ! -f "${PICO_SDK_ARCHIVE:-../shared/third-party/pico-sdk-1.5.1.tar.xz}" ]; then
+        without pico-sdk "git clone --depth 1 -b 1.5.1 https://github.com/raspberrypi/pico-sdk; PICO_SDK_PATH=\$PWD/pico-sdk make test"
+        return 1
+    fi
+    [ -f "${PICO_BOOTROM:-../shared/target-probes/rp2040/bootrom.mjs}" ] && return 0
+    without "the RP2040's boot ROM" "PICO_BOOTROM=bootrom.bin make test"
+    return 1
+}
+
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite includes $make -s layers
@@ -74,13 +89,16 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
-    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb rp2040 microbit gba; do
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba; do
         suite "symbols-$target" $make -s TARGET=$target symbols-test
     done
     suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
-    suite demo-rp2040 $make -s TARGET=rp2040 demo-test
+    if pico; then
+        suite demo-pico $make -s TARGET=pico demo-test
+        suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
+    fi
     suite model sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test

@@ -44,14 +44,24 @@ suite() {
 # needs TOOL PACKAGES: true when the tool is there.
 needs() {
     command -v "$1" >/dev/null 2>&1 && return 0
-    if [ "${CI:-}" = true ]; then
-        echo "$1 is missing: apt-get install --no-install-recommends $2"
-        failed=$((failed + 1))
-    else
-        echo "not run without $1: apt-get install --no-install-recommends $2"
-        missing=$((missing + 1))
+    lacks "$1" "apt-get install --no-install-recommends $2"
+}
+
+# lacks WHAT COMMAND: something is missing that the command installs; false.
+lacks() {
+    if [ "${CI:-}" != true ]; then
+        without "$1" "$2"
+        return 1
     fi
+    echo "$1 is missing: $2"
+    failed=$((failed + 1))
     return 1
+}
+
+# without WHAT COMMAND: suites are left out that need what nobody installs by the way.
+without() {
+    echo "not run without $1: $2"
+    missing=$((missing + 1))
 }
 
 # The last lines: N passed, N failed.

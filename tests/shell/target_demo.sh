@@ -5,7 +5,8 @@
 # program there. With a step of 1, a display that keeps what it is sent shows them too (on this machine). Then, where SHOT takes a screenshot (SHOT PROGRAM FRAME OUT.ppm [DISPLAY]), the
 # display shows the host's frames SHOT_FRAMES (FRAME or DISPLAY:FRAME) of SHOT_SCREEN to the bit,
 # every pixel SHOT_ZOOM times as large, and another frame is told from them. With SHOT_KEY, SHOT
-# presses that key (its last argument), and the frame becomes sharp.
+# presses that key (its last argument), and the frame becomes sharp. Where LOOPS prints the CRCs of what the display shows
+# after each frame (LOOPS PROGRAM FRAMES KEYS), these are the host's for LOOPS_FRAMES frames with LOOPS_KEYS held.
 set -u
 . "$(dirname "$0")/lib.sh"
 base=$1 program=$2
@@ -41,4 +42,10 @@ if [ -n "${SHOT:-}" ]; then
     claim "a screenshot is not as good as another" shows_not 180 $((frame + 1)) "$file"
     [ -z "${SHOT_KEY:-}" ] || claim "screenshot with a key held" shot 0 "$frame" "$base/shot-key.ppm" "$SHOT_KEY"
 fi
+
+loops() {
+    $screen keys "$SHOT_SCREEN" "$LOOPS_FRAMES" "$LOOPS_KEYS" >"$base/loops.want" || return 1
+    $LOOPS "$program" "$LOOPS_FRAMES" "$LOOPS_KEYS" >"$base/loops.got" && cmp "$base/loops.want" "$base/loops.got"
+}
+[ -z "${LOOPS:-}" ] || claim "the display over $LOOPS_FRAMES frames, with keys" loops
 finish

@@ -4,11 +4,13 @@
  *
  *     target_screen crcs SCREEN STEP
  *     target_screen kept SCREEN
+ *     target_screen keys SCREEN FRAMES FRAME:MASK,...
  *     target_screen picture SCREEN FRAME SHUTTER OUT.png
  *     target_screen compare SCREEN FRAME SHUTTER SHOT.ppm ZOOM
  *
  * `crcs` prints what `demo check` must print. `kept` plays the loop twice on a display that keeps what it is sent, and
- * says whether it shows every frame as one that is sent all. SHUTTER in degrees, 0 is sharp. A pixel of the
+ * says whether it shows every frame as one that is sent all. `keys` prints the CRCs of the first FRAMES frames that `demo show`
+ * shows while the keys of each mask (enum display_key) are held from its frame on. SHUTTER in degrees, 0 is sharp. A pixel of the
  * screen is ZOOM x ZOOM pixels of the screenshot,
  * all of one colour; what a larger screenshot has around the picture is of one colour, too.
  * Every code of the display's format must come back, to the bit. */
@@ -198,6 +200,43 @@ static bool kept(const struct demo_screen *which, struct failure *f)
     return true;
 }
 
+/* The keys that are held from `frame` on, if the list has it. */
+static void hold(const char *list, uint32_t frame, unsigned *held)
+{
+    while (*list != '\0') {
+        char *end;
+        const unsigned long from = strtoul(list, &end, 10);
+        const unsigned long mask = *end == ':' ? strtoul(end + 1, &end, 10) : 0;
+        if (from == frame)
+            *held = (unsigned)mask;
+        list = *end == ',' ? end + 1 : "";
+    }
+}
+
+static bool with_keys(const struct demo_screen *which, uint32_t frames, const char *list, struct failure *f)
+{
+    struct demo_player player;
+    struct demo_controls controls = { .held = 0 };
+    struct screen screen = { .code = calloc((size_t)which->desc.width * (size_t)which->desc.height, sizeof *screen.code) };
+    unsigned held = 0;
+    uint32_t shown = 0;
+    if (screen.code == NULL)
+        return fail(f, "out of memory");
+    if (!start_kept(&player, which, &screen, 0, f))
+        return false;
+    hold(list, 0, &controls.held);
+    for (uint32_t i = 0; i < frames; i++) {
+        hold(list, i, &held);
+        demo_player_obey(&player, &controls, held);
+        if (demo_player_frame(&player, shown, true) != SMEAR_OK)
+            return fail(f, "the library refused frame %u", i);
+        printf("%" PRIu32 " %08" PRIx32 "\n", i, crc_of(&screen));
+        shown = (shown + !controls.is_paused) % DEMO_LOOP;
+    }
+    free(screen.code);
+    return true;
+}
+
 static bool save(const struct screen *screen, const char *path, struct failure *f)
 {
     struct image image;
@@ -253,6 +292,7 @@ static bool compare(const struct screen *screen, const char *path, int zoom, str
 
 static const char usage[] = "usage: target_screen crcs SCREEN STEP\n"
                             "       target_screen kept SCREEN\n"
+                            "       target_screen keys SCREEN FRAMES FRAME:MASK,...\n"
                             "       target_screen picture SCREEN FRAME SHUTTER OUT.png\n"
                             "       target_screen compare SCREEN FRAME SHUTTER SHOT.ppm ZOOM\n";
 
@@ -272,6 +312,8 @@ int main(int argc, char **argv)
         ok = crcs(which, number, &f);
     } else if (argc == 3 && strcmp(argv[1], "kept") == 0) {
         ok = kept(which, &f);
+    } else if (argc == 5 && strcmp(argv[1], "keys") == 0) {
+        ok = with_keys(which, number, argv[4], &f);
     } else if (argc == 6 && strcmp(argv[1], "picture") == 0) {
         ok = draw(&screen, which, number % DEMO_LOOP, shutter, &f) && save(&screen, argv[5], &f);
     } else if (argc == 7 && strcmp(argv[1], "compare") == 0) {

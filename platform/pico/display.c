@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: MIT */
+/* display.c - display.h on the panels of boards.h: ST7789, ST7735S, GC9107 on SPI or eight wires, by DMA.
+ *
+ * One band is sent while the next is drawn. Both cores draw; core 1 waits in smear_work between frames. */
+#include "platform/display.h"
+#include "platform/pico/board.h"
+
+#include <hardware/clocks.h>
+#include <hardware/dma.h>
+#include <hardware/gpio.h>
+#include <hardware/irq.h>
+#include <hardware/pio.h>
+#include <hardware/spi.h>
+#include <hardware/sync.h>
+#include <pico/stdlib.h>
+
+/* Commands that all of these controllers share. */
+enum {
+    RESET = 0x01, SLEEP_OUT = 0x11, INVERT = 0x21, DISPLAY_ON = 0x29, COLUMNS = 0x2a, ROWS = 0x2b, MEMORY = 0x2c,
+    MEMORY_ORDER = 0x36, PIXEL_FORMAT = 0x3a,
+    BITS_16 = 0x55
+};
+
+enum { IS_PARALLEL = BOARD(BUS) == BUS_PARALLEL };
+
+static struct {
+    smear_context *ctx;
+    int dma;
+    volatile unsigned waiting;      /* bands handed to flush and not sent, 0 to 2 */
+    smear_band next;                /* with two: the one behind the one that is being sent */
+} bus;
+
+/* ------------------------------------------------------------------ bus */
+
+#define SPI (BOARD(BUS) == 1 ? spi1 : spi0)
+#define WIRES pio0
+#define MACHINE 0u
+
+static void open_spi(void)
+{
+    spi_init(SPI, BOARD(BUS_KHZ) * 1000);
+    gpio_set_function(BOARD(CLK), GPIO_FUNC_SPI);
+    gpio_set_function(BOARD(DATA), GPIO_FUNC_SPI);
+}
+
+/* Two instructions per byte: D0 to D7 with WR low, then WR high, by which the panel takes them. */
+static void open_parallel(void)
+{
+    static const uint16_t code[] = { 0x6008 /* out pins, 8  side 0 */, 0xb042 /* nop  side 1 */ };
+    static const struct pio_program program = { code, 2, 0 };
+    pio_add_program_at_offset(WIRES, &program, 0);
+    for (uint pin = BOARD(DATA); pin < BOARD(DATA) + 8; pin++)
+        pio_gpio_init(WIRES, pin);
+    pio_gpio_init(WIRES, BOARD(CLK));
+    pio_sm_set_consecutive_pindirs(WIRES, MACHINE, BOARD(DATA), 8, true);
+    pio_sm_set_consecutive_pindirs(WIRES, MACHINE, BOARD(CLK), 1, true);
+    pio_sm_config c = pio_get_default_sm_config();
+    sm_config_set_wrap(&c, 0, 1);
+    sm_config_set_out_pins(&c, BOARD(DATA), 8);
+    sm_config_set_sideset(&c, 1, false, false);
+    sm_config_set_sideset_pins(&c, BOARD(CLK));
+    sm_config_set_fifo_join(&c, PIO_FIFO_JOIN_TX);
+    sm_config_set_out_shift(&c, false, true, 8);
+    sm_config_set_clkdiv(&c, (float)(BOARD(CLOCK_KHZ)) / (2.0f * BOARD(BUS_KHZ)));
+    pio_sm_init(WIRES, MACHINE, 0, &c);
+    pio_sm_set_enabled(WIRES, MACHINE, true);
+}
+
+/* Until the last bit is on the wire: D/C must not change before. */
+static void drain(void)
+{
+    if (IS_PARALLEL) {
+        WIRES->fdebug = 1u << (PIO_FDEBUG_TXSTALL_LSB + MACHINE);
+        while ((WIRES->fdebug & 1u << (PIO_FDEBUG_TXSTALL_LSB + MACHINE)) == 0)
+            tight_loop_contents();
+        return;
+    }
+    while (spi_is_busy(SPI))
+        tight_loop_contents();
+    while (spi_is_readable(SPI))
+        (void)spi_get_hw(SPI)->dr;
+    spi_get_hw(SPI)->icr = SPI_SSPICR_RORIC_BITS;       /* nobody has read what came back */
+}
+
+static void write_bytes(const uint8_t *bytes, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (IS_PARALLEL)
+            pio_sm_put_blocking(WIRES, MACHINE, (uint32_t)bytes[i] << 24);
+        else
+            spi_write_blocking(SPI, &bytes[i], 1);
+    }
+}
+
+static void command(uint8_t code, const uint8_t *data, uint32_t count)
+{
+    drain();
+    gpio_put(BOARD(DC), 0);
+    write_bytes(&code, 1);
+    drain();
+    gpio_put(BOARD(DC), 1);
+    write_bytes(data, count);
+}
+
+static void open_dma(void)
+{
+    bus.dma = (int)dma_claim_unused_channel(true);
+    dma_channel_config c = dma_channel_get_default_config((uint)bus.dma);
+    channel_config_set_transfer_data_size(&c, DMA_SIZE_8);
+    channel_config_set_dreq(&c, IS_PARALLEL ? pio_get_dreq(WIRES, MACHINE, true) : spi_get_dreq(SPI, true));
+    volatile void *to = IS_PARALLEL ? (volatile void *)&WIRES->txf[MACHINE] : (volatile void *)&spi_get_hw(SPI)->dr;
+    dma_channel_configure((uint)bus.dma, &c, to, NULL, 0, false);
+    dma_channel_set_irq0_enabled((uint)bus.dma, true);
+}
+
+/* ------------------------------------------------------------------ bands */
+
+static void put_range(uint8_t code, int first, int count)
+{
+    const int last = first + count - 1;
+    const uint8_t data[4] = { (uint8_t)(first >> 8), (uint8_t)first, (uint8_t)(last >> 8), (uint8_t)last };
+    command(code, data, 4);
+}
+
+static void send(const smear_band *band)
+{
+    put_range(COLUMNS, BOARD(X) + band->x, band->width);
+    put_range(ROWS, BOARD(Y) + band->y, band->height);
+    command(MEMORY, NULL, 0);
+    dma_channel_transfer_from_buffer_now((uint)bus.dma, band->pixels, band->size);
+}
+
+/* The library hands out no third band before the first has been sent. */
+static int flush(void *user, const smear_band *band)
+{
+    (void)user;
+    const uint32_t state = save_and_disable_interrupts();
+    if (bus.waiting++ == 0)
+        send(band);
+    else
+        bus.next = *band;
+    restore_interrupts(state);
+    return 0;
+}
+
+/* The band has left memory; its last bytes are in the bus's queue. */
+static void sent(void)
+{
+    dma_channel_acknowledge_irq0((uint)bus.dma);
+    smear_band_done(bus.ctx);
+    if (--bus.waiting > 0)
+        send(&bus.next);
+}
+
+/* A core waits for a word of the other, which is no event, so it must not sleep; but it leaves the bus to it. */
+static void idle(void *user)
+{
+    (void)user;
+    busy_wait_at_least_cycles(16);
+}
+
+static void work(void)
+{
+    for (;;)
+        smear_work(bus.ctx, 1);
+}
+
+/* ------------------------------------------------------------------ display.h */
+
+static void open_output(uint pin, bool level)
+{
+    if (pin == NO_PIN)
+        return;
+    gpio_init(pin);
+    gpio_put(pin, level);
+    gpio_set_dir(pin, GPIO_OUT);
+}
+
+static void wake_panel(void)
+{
+    static const uint8_t order[] = { BOARD(MADCTL) }, format[] = { BITS_16 };
+    if (BOARD(RESET) != NO_PIN) {
+        gpio_put(BOARD(RESET), 0);
+        sleep_ms(10);
+        gpio_put(BOARD(RESET), 1);
+    } else {
+        command(RESET, NULL, 0);
+    }
+    sleep_ms(150);
+    command(SLEEP_OUT, NULL, 0);
+    sleep_ms(120);
+    command(PIXEL_FORMAT, format, 1);
+    command(MEMORY_ORDER, order, 1);
+    if (BOARD(INVERTED))
+        command(INVERT, NULL, 0);
+    command(DISPLAY_ON, NULL, 0);
+    drain();
+}
+
+static const struct {
+    uint8_t pin, key;
+} keys[] = {
+    { BOARD(UP), KEY_UP }, { BOARD(DOWN), KEY_DOWN }, { BOARD(LEFT), KEY_LEFT },
+    { BOARD(RIGHT), KEY_RIGHT }, { BOARD(A), KEY_A }, { BOARD(START), KEY_START }
+};
+
+enum { KEYS = sizeof keys / sizeof *keys };
+
+static void open_keys(void)
+{
+    for (int i = 0; i < KEYS; i++)
+        if (keys[i].pin != NO_PIN) {
+            gpio_init(keys[i].pin);
+            gpio_set_pulls(keys[i].pin, BOARD(LEVEL) == 0, BOARD(LEVEL) != 0);
+        }
+}
+
+bool display_open(smear_desc *desc)
+{
+    if (desc->width != BOARD(WIDTH) || desc->height != BOARD(HEIGHT) || desc->format != SMEAR_RGB565_SWAPPED)
+        return false;
+    desc->bands = 2;
+    desc->workers = (uint8_t)board_cores();
+    desc->flush = flush;
+    desc->idle = idle;
+    open_output(BOARD(CS), 1);
+    open_output(BOARD(DC), 1);
+    open_output(BOARD(RD), 1);
+    open_output(BOARD(RESET), 1);
+    open_output(BOARD(LED), 0);
+    if (IS_PARALLEL)
+        open_parallel();
+    else
+        open_spi();
+    gpio_put(BOARD(CS), 0);
+    wake_panel();
+    open_output(BOARD(LIGHT), 1);
+    open_keys();
+    open_dma();
+    return true;
+}
+
+void display_attach(smear_context *ctx)
+{
+    bus.ctx = ctx;
+    irq_set_exclusive_handler(DMA_IRQ_0, sent);
+    irq_set_enabled(DMA_IRQ_0, true);
+    if (board_cores() > 1)
+        board_start_core1(work);
+}
+
+void display_show(void)
+{
+    while (bus.waiting > 0)
+        tight_loop_contents();
+    drain();
+    if (BOARD(LED) != NO_PIN)
+        gpio_xor_mask(1u << BOARD(LED));
+}
+
+/* Somebody may always be looking. */
+bool display_wait(void)
+{
+    sleep_ms(10);
+    return true;
+}
+
+unsigned display_keys(void)
+{
+    const uint32_t levels = gpio_get_all();
+    unsigned held = 0;
+    for (int i = 0; i < KEYS; i++)
+        if (keys[i].pin != NO_PIN && (levels >> keys[i].pin & 1) == BOARD(LEVEL))
+            held |= keys[i].key;
+    return held;
+}

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# Raspberry Pi Pico and other boards with an RP2040 and a panel, in boards.h: BOARD=picosystem. The firmware is a pico-sdk
+# project (CMakeLists.txt); PICO_SDK_PATH says where the SDK is. Tests run it in an emulator, rp2040js of npm, from the
+# chip's boot ROM on (run.mjs).
+# Packages: gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib cmake g++ nodejs
+CC    := arm-none-eabi-gcc
+AR    := arm-none-eabi-ar
+NM    := arm-none-eabi-nm
+SIZE  := arm-none-eabi-size
+EXE   := .elf
+NEEDS := arm-none-eabi-gcc arm-none-eabi-g++ cmake g++ node
+
+BOARD ?= breakout
+export BOARD
+BUILD := $(BUILD)/$(BOARD)
+CFLAGS += -mcpu=cortex-m0plus -mthumb -ffreestanding -ffunction-sections -fdata-sections -DSMEAR_WITH_LINEAR=0 -DSMEAR_WITH_TIMEMASK=0
+
+# Builds BUILD/demo.elf and demo.uf2, or those of a model.
+PROJECT := sh platform/pico/build.sh
+
+RUN       := sh platform/pico/run.sh
+RUN_BENCH := sh platform/pico/cost.sh
+
+TARGET_TESTS :=
+
+PICO_WIDTH  := $(shell awk -F '[^A-Za-z0-9_]+' '$$1 == "BOARD" && $$2 == "$(BOARD)" { print $$4 }' platform/pico/boards.h)
+DEMO_SCREEN := $(if $(filter 240,$(PICO_WIDTH)),pico,pico-$(PICO_WIDTH))
+DEMO_LOOPS  := $(DEMO_SCREEN):24
+SHOW = $(SCREENSHOT)
+export SHOT        := sh platform/pico/shot.sh
+export SHOT_SCREEN := $(DEMO_SCREEN)
+export SHOT_FRAMES := 45
+export SHOT_ZOOM   := 1
+export SHOT_KEY    := 16
+# Two loops: a while sharp, with a longer and with a shorter shutter, and standing still.
+export LOOPS        := sh platform/pico/loops.sh
+export LOOPS_FRAMES := 144
+export LOOPS_KEYS   := 22:16,23:0,28:16,29:0,80:8,81:0,100:4,101:0,104:4,105:0,110:8,111:0,120:32,121:0,123:32,124:0
