@@ -307,7 +307,7 @@ static void cache_free_pool(struct smear_rows *rows)
     uint32_t first = (g->vertex_words + 1u) & ~1u;
     uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
     size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
-    rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers);
+    rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers, g);
 }
 
 static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)

@@ -8,41 +8,69 @@
 
 /* ------------------------------------------------------------------ a triangle */
 
-/* A triangle that goes on in the next rows. Memory of its own, between
- * the pool's vertices and triangles (frame.c). */
+/* A triangle that goes on in the next rows. Memory of its own, between the pool's vertices and triangles (draws.c). */
 struct cache_entry {
-    struct setup s;
     uint32_t triangle;
+    struct setup s;             /* so much of it as triangles of the frame use */
 };
 
 enum { ENTRIES_MAX = 512 };
 
-struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count)
+static inline struct cache_entry *entry_at(const struct smear_raster_cache *cache, uint32_t i)
 {
-    struct cache_entry *entry = (struct cache_entry *)memory;
-    uint32_t entries = min_u32((uint32_t)(bytes / sizeof *entry), ENTRIES_MAX) / (uint32_t)count;
+    return (struct cache_entry *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
+}
+
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
+{
+    size_t setup = 0;
+    for (uint32_t i = 0; i < bins->segment_count; i++) {
+        const size_t used = setup_bytes(&bins->segment[i]);
+        setup = used > setup ? used : setup;
+    }
+    const uint32_t entry_bytes = (uint32_t)(offsetof(struct cache_entry, s) + setup + 7u) & ~7u;
+    const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
+    const struct smear_raster_cache cache = { memory, entries, entry_bytes };
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
-        entry[i].triangle = SMEAR_NO_TRIANGLE;
-    return (struct smear_raster_cache){ entry, entries };
+        entry_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
+    return cache;
 }
 
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
 {
-    return (struct smear_raster_cache){ (struct cache_entry *)first->entry + (uint32_t)i * first->entries,
-                                        first->entries };
+    return (struct smear_raster_cache){ entry_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
 }
 
-/* The entry of a triangle that continues rows above the target's or goes on below them; null for others.
- * `known`: it holds the triangle's setup. */
+enum { PROBES = 4 };
+
+/* Whether an entry keeps nothing that rows from the target's on need. */
+static inline bool entry_is_free(const struct cache_entry *entry, const struct smear_raster_target *target)
+{
+    return entry->triangle == SMEAR_NO_TRIANGLE || (entry->s.bounds.y1 + 127) >> 8 <= target->y0;
+}
+
+/* The entry of a triangle that continues rows above the target's or goes on below them; null for others, and where all
+ * entries that it may have are others' still. `known`: it holds the triangle's setup. */
 static inline struct cache_entry *cache_find(const struct smear_raster_target *target, uint32_t triangle,
                                              bool continues, bool goes_on, bool *known)
 {
     *known = false;
     if (!SMEAR_RASTER_CACHE || target->cache.entries == 0 || !(continues || goes_on))
         return NULL;
-    struct cache_entry *entry = (struct cache_entry *)target->cache.entry + triangle % target->cache.entries;
-    *known = continues && entry->triangle == triangle;
-    return *known || goes_on ? entry : NULL;
+    struct cache_entry *free = NULL;
+    uint32_t at = (triangle * 40503u & 0xffffu) * target->cache.entries >> 16;
+    for (int i = 0; i < PROBES; i++) {
+        struct cache_entry *entry = entry_at(&target->cache, at);
+        if (continues && entry->triangle == triangle) {
+            *known = true;
+            return entry;
+        }
+        if (free == NULL && entry_is_free(entry, target))
+            free = entry;
+        if (++at == target->cache.entries)
+            at = 0;
+    }
+    return goes_on ? free : NULL;
 }
 
 static inline struct bounds bounds_of(const int32_t *const v[3])

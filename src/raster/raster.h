@@ -5,9 +5,9 @@
 
 #include "raster/target.h"
 
-/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other; they are empty.
- * Returns the first; and which is that of target i. */
-struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count);
+/* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
+ * geometry's segments; they are empty. Returns the first; and which is that of target i. */
+struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins);
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i);
 
 /* Draws the list that starts with triangle `head`, in order. */

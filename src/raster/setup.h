@@ -80,13 +80,9 @@ struct setup {
     struct plane depth;             /* units q11 */
 
     uint32_t color;                 /* 0xAARRGGBB: flat */
-    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
-                                     * linear >> 8) in q16, see channel_value */
     uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
     bool even_color;                /* channels are the same everywhere */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
-
-    struct texture_setup texture;
 
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool writes_velocity;
@@ -95,9 +91,24 @@ struct setup {
     bool flat;                      /* one colour, opaque: `color` */
     bool velocity_affine;
     bool clamp_velocity;
+
+    /* What few triangles have comes last: setups that are kept from row to row are cut where a frame needs no more
+     * (setup_bytes). */
+    struct texture_setup texture;
+    struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
+                                     * linear >> 8) in q16, see channel_value */
     struct plane vx, vy;            /* affine: displacement q18 px */
     struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
 };
+
+/* Returns how much of a setup triangles of the segment use. */
+static inline size_t setup_bytes(const struct smear_segment *s)
+{
+    return segment_moves(s) != 0  ? sizeof(struct setup)
+         : segment_gouraud(s)     ? offsetof(struct setup, vx)
+         : segment_textured(s)    ? offsetof(struct setup, channel)
+                                  : offsetof(struct setup, texture);
+}
 
 /* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
 static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)

@@ -19,6 +19,7 @@ struct smear_plane_rows {
 struct smear_raster_cache {
     void *entry;
     uint32_t entries;       /* 0: none */
+    uint32_t entry_bytes;
 };
 
 /* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples
