@@ -41,6 +41,8 @@ struct smear_context {
 
     /* stages and methods */
     struct smear_assembler assembler;
+    uint32_t parts_free_words;      /* of the pool, where cores assembled parts of the draws; else 0 */
+    uint32_t parts_wait;            /* assemblies until they are to do so again */
     struct smear_rows rows;
     bool direct;                    /* sharp rows are drawn as the display's pixels */
     struct smear_sums sums;

@@ -6,6 +6,9 @@
 #include "geometry/assemble_path.h"
 #include "layers/groups.h"
 
+/* Several cores assemble draws: not where size counts, or the assembler's state lies on the stack. */
+#define SMEAR_ASSEMBLY_JOBS (SMEAR_WITH_WORKERS && !SMEAR_FAST_STACK && !SMEAR_SMALL_CODE)
+
 /* Whether the frame has blurred layers. */
 static inline bool has_layers(const struct smear_context *c)
 {
@@ -145,6 +148,8 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     struct smear_draw_poses poses;
     poses_of(&poses, c, i);
     a->mesh = draw->mesh;
+    a->first = 0;
+    a->end = draw->mesh->triangle_count;
     a->material = draw->material != NULL ? draw->material : &white;
     a->draw = (uint16_t)i;
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
@@ -287,6 +292,184 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct s
 }
 #endif
 
+/* ------------------------------------------------------------------ assembling on several cores */
+
+#if SMEAR_ASSEMBLY_JOBS
+enum {
+    PART_TRIANGLES_LEAST = 256,     /* submitted: below, one core is faster */
+    PART_CACHE = 64,                /* vertices */
+    PART_WORDS_LEAST = 4096,
+    PARTS_RETRY = 32                /* assemblies on one core after one whose parts found no room */
+};
+
+/* A part of what was submitted, and a store of its own within the pool: numbers of triangles tell the order of parts, as
+ * they count from the pool's end. */
+struct assembly_part {
+    struct smear_assembler as;
+    struct smear_bins bins;
+    uint32_t first, end;            /* triangles, counted through all draws */
+    uint32_t beside;
+    bool done;
+};
+
+/* It lies at the pool's start. */
+struct assembly_parts {
+    struct smear_context *c;
+    const struct smear_instant *instant;
+    struct assembly_part part[SMEAR_WORKERS_MAX];
+};
+
+enum { PARTS_WORDS = (sizeof(struct assembly_parts) + 7) / 8 * 2 };
+
+/* Assembles triangles [first, end) of draw i. */
+static bool assemble_range(const struct assembly_parts *all, struct assembly_part *p, uint32_t i, uint32_t first, uint32_t end)
+{
+    struct smear_assembly a;
+    if (!make_assembly(all->c, i, all->instant, &a)) {
+        p->beside += first == 0;
+        return true;
+    }
+    if (assembly_has_path(&a))      /* is not cut: it belongs to where it begins */
+        return first != 0 || smear_assemble_path(&p->as, &a, false);
+    a.first = first;
+    a.end = end;
+    return smear_assemble(&p->as, &a, false);
+}
+
+static void assemble_job(void *argument, int job, int worker)
+{
+    struct assembly_parts *all = argument;
+    struct assembly_part *p = &all->part[job];
+    uint32_t at = 0;
+    (void)worker;
+    p->done = true;
+    smear_assembler_reset(&p->as);
+    for (uint32_t i = 0; i < all->c->draw_count && at < p->end && p->done; i++) {
+        const uint32_t count = all->c->submitted[i].draw.mesh->triangle_count;
+        const uint32_t first = max_u32(p->first, at) - at, end = min_u32(p->end - at, count);
+        if (first < end)
+            p->done = assemble_range(all, p, i, first, end);
+        at += count;
+    }
+}
+
+/* Makes part k of n: its share of the pool, of the segments' table and of triangles with a path. */
+static void make_part(struct assembly_parts *all, uint32_t k, uint32_t n)
+{
+    const struct smear_context *c = all->c;
+    const struct smear_bins *g = &c->rows.bins;
+    struct assembly_part *p = &all->part[k];
+    const uint32_t rows = (uint32_t)(g->row_count + g->moving_rows), words = (g->pool_words - PARTS_WORDS) / n & ~3u;
+    const uint32_t spare = g->segment_limit - c->draw_count, total = c->stats.triangles_in;
+    uint32_t *ring = g->pool + (g->pool_words - (k + 1) * words);
+    *p = (struct assembly_part){ .as = c->assembler, .bins = *g, .first = (uint32_t)((uint64_t)total * k / n),
+                                 .end = (uint32_t)((uint64_t)total * (k + 1) / n) };
+    p->as.bins = &p->bins;
+    p->as.cache = (struct smear_cached_vertex *)(void *)(ring + 3 * rows);
+    p->as.cache_mask = PART_CACHE - 1;
+    p->as.serial = p->as.path_static_count = p->as.triangles_drawn = 0;
+    p->as.path_limit = c->assembler.path_limit / n;
+    p->bins.triangle_count = k * words / 4;
+    p->bins.vertex_words = g->pool_words - (k + 1) * words + 3 * rows
+                         + PART_CACHE * (uint32_t)(sizeof(struct smear_cached_vertex) / 4);
+    /* A draw may have triangles in many parts, each of which begins a segment. */
+    uint32_t draws = 0;
+    for (uint32_t at = 0; draws < c->draw_count && at < p->first; draws++)
+        at += c->submitted[draws].draw.mesh->triangle_count;
+    p->bins.segment_count = draws + spare * k / n;
+    if (k != 0)
+        all->part[k - 1].bins.segment_limit = p->bins.segment_count;
+    for (uint32_t i = 0; i < 3 * rows; i++)
+        ring[i] = SMEAR_NO_TRIANGLE;
+    p->bins.opaque_last = ring;
+    p->bins.blend_last = ring + rows;
+    p->bins.moving_last = g->moving_last != NULL ? ring + 2 * rows : NULL;
+}
+
+/* Appends a part's rings to those of the parts before it. */
+static void join_rings(const struct smear_bins *g, uint32_t *last, const uint32_t *more)
+{
+    for (int row = g->row_first; row < g->row_end; row++) {
+        if (more[row] == SMEAR_NO_TRIANGLE)
+            continue;
+        if (last[row] != SMEAR_NO_TRIANGLE) {
+            struct smear_triangle *a = bins_triangle(g, last[row]), *b = bins_triangle(g, more[row]);
+            const uint32_t first = a->next;
+            a->next = b->next;
+            b->next = first;
+        }
+        last[row] = more[row];
+    }
+}
+
+/* Joins the parts. What is free of the pool becomes what is free in the part that has the most. */
+static void join_parts(struct smear_context *c, const struct assembly_parts *all, uint32_t n)
+{
+    struct smear_bins *g = &c->rows.bins;
+    uint32_t most = 0, free = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const struct assembly_part *p = &all->part[k];
+        const struct smear_bins *b = &p->bins;
+        const uint32_t rest = g->pool_words - b->vertex_words - b->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+        join_rings(g, g->opaque_last, b->opaque_last);
+        join_rings(g, g->blend_last, b->blend_last);
+        if (g->moving_last != NULL)
+            join_rings(g, g->moving_last, b->moving_last);
+        c->assembler.path_count += p->as.path_count;
+        c->assembler.path_static_count += p->as.path_static_count;
+        c->assembler.triangles_drawn += p->as.triangles_drawn;
+        c->assembler.triangles_dropped += p->as.triangles_dropped;
+        c->stats.draws_beside += p->beside;
+        free += rest;
+        if (k == 0 || rest > most) {
+            most = rest;
+            g->vertex_words = b->vertex_words;
+            g->triangle_count = b->triangle_count;
+        }
+    }
+    g->segment_count = all->part[n - 1].bins.segment_count;
+    c->parts_free_words = free;
+}
+
+/* Whether it pays to assemble in parts. */
+static bool has_parts(struct smear_context *c)
+{
+    const struct smear_bins *g = &c->rows.bins;
+    const uint32_t n = (uint32_t)c->rows.jobs.workers;
+    c->parts_free_words = 0;
+    if (n == 1 || has_layers(c) || c->damage != NULL || c->stats.triangles_in < PART_TRIANGLES_LEAST
+        || g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows)))
+        return false;
+    if (c->parts_wait == 0)
+        return true;
+    c->parts_wait--;
+    return false;
+}
+
+/* Assembles all draws in as many parts as there are workers. False where a part finds no room. */
+static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct smear_instant *instant)
+{
+    struct smear_bins *g = &c->rows.bins;
+    struct assembly_parts *all = (struct assembly_parts *)(void *)g->pool;
+    const uint32_t n = (uint32_t)c->rows.jobs.workers;
+    bool done = true;
+    all->c = c;
+    all->instant = instant;
+    for (uint32_t i = 0; i < g->segment_limit; i++)
+        g->segment[i] = (struct smear_segment){ 0 };
+    for (uint32_t k = 0; k < n; k++)
+        make_part(all, k, n);
+    smear_jobs_run(&c->rows.jobs, assemble_job, all, (int)n);
+    for (uint32_t k = 0; k < n; k++)
+        done = done && all->part[k].done;
+    if (done)
+        join_parts(c, all, n);
+    else
+        c->parts_wait = PARTS_RETRY;
+    return done;
+}
+#endif
+
 /* Assembles all draws for the tile rows [first, end). False when the store is full. */
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
                                          const struct smear_instant *instant, bool drop)
@@ -297,6 +480,13 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
         return assemble_fast(c, instant, drop);
 #endif
     smear_assembler_reset(&c->assembler);
+#if SMEAR_ASSEMBLY_JOBS
+    if (!drop && has_parts(c)) {
+        if (assemble_parts(c, instant))
+            return true;
+        smear_bins_reset(&c->rows.bins, first, end);
+    }
+#endif
     return assemble_draws(c, &c->assembler, instant, drop);
 }
 
@@ -320,8 +510,12 @@ static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
 static void note_fills(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
-    note_fill(&c->stats.fill.geometry, 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle),
-              4 * g->pool_words);
+    uint32_t used = 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle);
+#if SMEAR_ASSEMBLY_JOBS
+    if (c->parts_free_words != 0)
+        used = 4 * (g->pool_words - c->parts_free_words);
+#endif
+    note_fill(&c->stats.fill.geometry, used, 4 * g->pool_words);
     note_fill(&c->stats.fill.segments, g->segment_count, g->segment_limit);
     note_fill(&c->stats.fill.draws, c->draw_count, c->desc.max_draws);
 }

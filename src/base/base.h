@@ -35,6 +35,12 @@
 #endif
 #define SMEAR_NOINLINE __attribute__((noinline))
 
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_SMALL_CODE 1
+#else
+#define SMEAR_SMALL_CODE 0
+#endif
+
 /* What is rarely called is not inlined into what is called often, unless size counts. */
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_RARE

@@ -4,8 +4,13 @@
 
 static void do_share(struct smear_jobs *jobs, int worker)
 {
+#if SMEAR_CLAIMS
+    for (int i; (i = __atomic_fetch_add(&jobs->claimed, 1, __ATOMIC_RELAXED)) < jobs->count;)
+        jobs->job(jobs->argument, i, worker);
+#else
     for (int i = worker; i < jobs->count; i += jobs->workers)
         jobs->job(jobs->argument, i, worker);
+#endif
 }
 
 static void wait_a_little(struct smear_jobs *jobs)
@@ -19,6 +24,9 @@ static void announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument,
     jobs->job = job;
     jobs->argument = argument;
     jobs->count = count;
+#if SMEAR_CLAIMS
+    jobs->claimed = 0;
+#endif
     unsigned stage = word_own(&jobs->stage) + 1u;
     word_write(&jobs->stage, stage);
     if (job != NULL)

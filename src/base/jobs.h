@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* jobs.h - independent jobs on one or several cores.
  *
- * Core 0 announces a stage (a function and a number of jobs); worker w of n does jobs w, w + n, w + 2n ... and reports.
- * Only loads and stores of single words are needed, so cores without atomic read-modify-write (Cortex-M0+) can take
- * part. */
+ * Core 0 announces a stage (a function and a number of jobs); workers claim one job after the other and report. Where cores
+ * have loads and stores of single words alone (Cortex-M), worker w of n does jobs w, w + n, w + 2n ... instead. */
 #ifndef SMEAR_JOBS_H
 #define SMEAR_JOBS_H
 
@@ -18,6 +17,17 @@ static inline void word_write(unsigned *word, unsigned value)
     __atomic_store_n(word, value, __ATOMIC_RELEASE);
 }
 
+/* Cores can add to a word that they share: not where nobody but the program knows whether they watch each other's exclusive
+ * accesses (ARMv7-M and later). */
+#ifndef SMEAR_CLAIMS
+#if defined(__GCC_ATOMIC_INT_LOCK_FREE) && __GCC_ATOMIC_INT_LOCK_FREE == 2 \
+    && !(defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M')
+#define SMEAR_CLAIMS 1
+#else
+#define SMEAR_CLAIMS 0
+#endif
+#endif
+
 #define SMEAR_WORKERS_MAX (SMEAR_WITH_WORKERS ? 8 : 1)
 
 typedef void smear_job_fn(void *argument, int job, int worker);
@@ -27,6 +37,9 @@ struct smear_jobs {
     smear_job_fn *job;          /* null: the frame is over */
     void *argument;
     int count;
+#if SMEAR_CLAIMS
+    int claimed;                /* jobs that some worker does or has done */
+#endif
     void (*idle)(void *user);   /* called while waiting; may be null */
     void *user;
     unsigned stage;                          /* written by core 0 */

@@ -649,11 +649,11 @@ static bool assemble_places(struct batch *b)
 {
     const struct smear_assembler *a = b->a;
     const struct smear_bins *g = a->bins;
-    const uint32_t end = b->d->mesh->triangle_count;
+    const uint32_t end = b->d->end;
     const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
     struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided,
                                    b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
-    for (uint32_t i = 0; i < end;) {
+    for (uint32_t i = b->d->first; i < end;) {
         const uint32_t last = open_places(&r, b, i, end);
         uint32_t reached = last != i ? add_by_fours(b, &r, i, last) : i;
         if (reached == UINT32_MAX)
@@ -675,7 +675,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
     if (b.segment == NULL) {
         if (drop)
-            a->triangles_dropped += d->mesh->triangle_count;
+            a->triangles_dropped += d->end - d->first;
         return drop;
     }
     batch_start(&b);
@@ -683,5 +683,5 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, b
     if (!drop)          /* else the cache decides what finds room, as it does on every machine */
         return assemble_places(&b);
 #endif
-    return assemble_cached(&b, 0, d->mesh->triangle_count, drop);
+    return assemble_cached(&b, d->first, d->end, drop);
 }

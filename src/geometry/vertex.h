@@ -99,6 +99,7 @@ struct smear_placement {
 struct smear_assembly {
     const smear_mesh *mesh;
     const smear_material *material;     /* never null */
+    uint32_t first, end;                /* its triangles that are assembled; those with a path are not cut */
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` is set, and records get a path (path.h); moves is 0 */

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { PATH_LIMIT = 512, ARGUMENT_LIMIT = 24, NOT_RUN = 127 };
+enum { PATH_LIMIT = 512, ARGUMENT_LIMIT = 32, NOT_RUN = 127 };
 
 const struct count_toggles count_frame = { 1, { "bench_frame" } };
 

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { COUNT_MAX_FRAMES = 512, COUNT_MAX_TOGGLES = 8 };
+enum { COUNT_MAX_FRAMES = 512, COUNT_MAX_TOGGLES = 12 };
 
 struct counter {
     const char *program;        /* path of this program */
