@@ -41,10 +41,10 @@ struct smear_context {
 
     /* stages and methods */
     struct smear_assembler assembler;
-    uint32_t parts_free_words;      /* of the pool, where cores assembled parts of the draws; else 0 */
-    uint32_t parts_wait;            /* assemblies until they are to do so again */
     struct smear_rows rows;
     bool direct;                    /* sharp rows are drawn as the display's pixels */
+    bool in_parts;                  /* cores assembled parts of the draws */
+    uint8_t parts_wait;             /* assemblies until they are to do so again */
     struct smear_sums sums;
     struct smear_filtered filtered;
     struct smear_temporal temporal;

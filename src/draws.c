@@ -292,6 +292,12 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct s
 }
 #endif
 
+static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
+{
+    fill->used = max_u32(fill->used, used);
+    fill->room = room;
+}
+
 /* ------------------------------------------------------------------ assembling on several cores */
 
 #if SMEAR_ASSEMBLY_JOBS
@@ -428,7 +434,8 @@ static void join_parts(struct smear_context *c, const struct assembly_parts *all
         }
     }
     g->segment_count = all->part[n - 1].bins.segment_count;
-    c->parts_free_words = free;
+    note_fill(&c->stats.fill.geometry, 4 * (g->pool_words - free), 4 * g->pool_words);
+    c->in_parts = true;
 }
 
 /* Whether it pays to assemble in parts. */
@@ -436,7 +443,7 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    c->parts_free_words = 0;
+    c->in_parts = false;
     if (n == 1 || has_layers(c) || c->damage != NULL || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows)))
         return false;
@@ -500,22 +507,13 @@ static void cache_free_pool(struct smear_rows *rows)
     rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers, g);
 }
 
-static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
-{
-    fill->used = max_u32(fill->used, used);
-    fill->room = room;
-}
-
 /* Notes how full the lists of a part of the frame are. */
 static void note_fills(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
-    uint32_t used = 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle);
-#if SMEAR_ASSEMBLY_JOBS
-    if (c->parts_free_words != 0)
-        used = 4 * (g->pool_words - c->parts_free_words);
-#endif
-    note_fill(&c->stats.fill.geometry, used, 4 * g->pool_words);
+    if (!c->in_parts)           /* else it has been noted */
+        note_fill(&c->stats.fill.geometry, 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle),
+                  4 * g->pool_words);
     note_fill(&c->stats.fill.segments, g->segment_count, g->segment_limit);
     note_fill(&c->stats.fill.draws, c->draw_count, c->desc.max_draws);
 }

@@ -30,7 +30,7 @@ struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, in
     }
     const uint32_t entry_bytes = (uint32_t)(offsetof(struct cache_entry, s) + setup + 7u) & ~7u;
     const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
-    const struct smear_raster_cache cache = { memory, entries, entry_bytes };
+    const struct smear_raster_cache cache = { memory, (uint16_t)entries, (uint16_t)entry_bytes };
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
         entry_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
     return cache;

@@ -18,8 +18,8 @@ struct smear_plane_rows {
  * target's rows, for the rows after them: raster.c. */
 struct smear_raster_cache {
     void *entry;
-    uint32_t entries;       /* 0: none */
-    uint32_t entry_bytes;
+    uint16_t entries;       /* 0: none */
+    uint16_t entry_bytes;
 };
 
 /* Where a list is drawn: pixel rows [y0, y1) and columns [x0, x1) of the frame. Column cuts lie on multiples
