@@ -104,10 +104,11 @@ struct setup {
 /* Returns how much of a setup triangles of the segment use. */
 static inline size_t setup_bytes(const struct smear_segment *s)
 {
-    return segment_moves(s) != 0  ? sizeof(struct setup)
-         : segment_gouraud(s)     ? offsetof(struct setup, vx)
-         : segment_textured(s)    ? offsetof(struct setup, channel)
-                                  : offsetof(struct setup, texture);
+    if (segment_moves(s) != 0)
+        return sizeof(struct setup);
+    if (segment_gouraud(s))
+        return offsetof(struct setup, vx);
+    return segment_textured(s) ? offsetof(struct setup, channel) : offsetof(struct setup, texture);
 }
 
 /* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
