@@ -75,6 +75,13 @@ static inline uint32_t rgb565_nearest(uint32_t p)
     return (rb >> 16 & 0xf800u) | (g >> 5 & 0x7e0u) | (rb >> 11 & 0x1fu);
 }
 
+/* The same with five bits of green, and blue on top. */
+static inline uint32_t rgb555_nearest(uint32_t p)
+{
+    const uint32_t rb = (p & 0xff00ffu) * 249u + 0x03f603f6u, g = pixel_green(p) * 249u + 1014u;
+    return (rb >> 1 & 0x7c00u) | (g >> 6 & 0x3e0u) | rb >> 27;
+}
+
 /* The pixel `n` further on: narrow ones have 16 bits, others 32. */
 static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
 {

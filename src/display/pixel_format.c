@@ -82,24 +82,16 @@ static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32
 static void row_rgb16(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
-    const bool is_555 = SMEAR_WITH_RGB && format == SMEAR_RGB555, swapped = format == SMEAR_RGB565_SWAPPED;
+    const enum row_16bit layout = SMEAR_WITH_RGB && format == SMEAR_RGB555 ? ROW_555
+                                : format == SMEAR_RGB565_SWAPPED           ? ROW_565_SWAPPED
+                                                                           : ROW_565;
     if (!is_dithered(dither)) {
-        if (is_555)
-            row_rgb555(out, in, n);
-        else if (SMEAR_WITH_RGB565)
-            row_rgb565(out, in, n, swapped);
+        row_nearest(out, in, n, layout);
         return;
     }
     int32_t mask;
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
-    const enum row_16bit layout = is_555 ? ROW_555 : swapped ? ROW_565_SWAPPED : ROW_565;
-#ifndef __OPTIMIZE_SIZE__
-    if (!SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED) {
-        smear_row_dithered_blocks(out, in, n, x, threshold, layout);
-        return;
-    }
-#endif
-    row_dithered_reference(out, in, n, x, threshold, mask, layout);
+    row_dithered(out, in, n, x, threshold, mask, layout);
 }
 
 static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)

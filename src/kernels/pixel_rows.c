@@ -4,6 +4,7 @@
 
 /* ------------------------------------------------------------------ 16 bits, nearest levels */
 
+#ifndef __OPTIMIZE_SIZE__
 /* Returns two pixels of 16 bits as they lie in memory. */
 static inline uint32_t pair_of(uint32_t first, uint32_t second)
 {
@@ -19,10 +20,10 @@ static inline void store_pair(uint16_t *out, uint32_t pair)
     __builtin_memcpy(__builtin_assume_aligned(out, 4), &pair, 4);
 }
 
-SMEAR_INLINE void rgb565_pairs(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+SMEAR_INLINE void nearest_pairs(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
     if (((uintptr_t)out & 2u) != 0 && n > 0) {
-        *out++ = (uint16_t)bytes_ordered(rgb565_nearest(*in++), swapped);
+        *out++ = (uint16_t)nearest_16bit(*in++, format);
         n--;
     }
     if (n <= 0)
@@ -32,10 +33,10 @@ SMEAR_INLINE void rgb565_pairs(uint16_t *out, const uint32_t *in, int32_t n, boo
     for (; in < end_of_pairs; in += 2, out += 2) {
         uint32_t a = in[0], b = in[1], first = packed;
         if (a != last) {
-            first = bytes_ordered(rgb565_nearest(a), swapped);
-            packed = b == a ? first : bytes_ordered(rgb565_nearest(b), swapped);
+            first = nearest_16bit(a, format);
+            packed = b == a ? first : nearest_16bit(b, format);
         } else if (b != last) {
-            packed = bytes_ordered(rgb565_nearest(b), swapped);
+            packed = nearest_16bit(b, format);
         } else {
             store_pair(out, pair);
             for (; in < end_of_sixes && in[2] == last && in[3] == last && in[4] == last && in[5] == last;
@@ -50,16 +51,34 @@ SMEAR_INLINE void rgb565_pairs(uint16_t *out, const uint32_t *in, int32_t n, boo
         store_pair(out, pair_of(first, packed));
     }
     if (in < end)
-        *out = (uint16_t)bytes_ordered(rgb565_nearest(*in), swapped);
+        *out = (uint16_t)nearest_16bit(*in, format);
 }
 
-void smear_row_rgb565_unrolled(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+static SMEAR_NOINLINE void nearest_555(uint16_t *out, const uint32_t *in, int32_t n)
 {
-    if (swapped)
-        rgb565_pairs(out, in, n, true);
-    else
-        rgb565_pairs(out, in, n, false);
+    nearest_pairs(out, in, n, ROW_555);
 }
+
+static SMEAR_NOINLINE void nearest_565(uint16_t *out, const uint32_t *in, int32_t n)
+{
+    nearest_pairs(out, in, n, ROW_565);
+}
+
+static SMEAR_NOINLINE void nearest_565_swapped(uint16_t *out, const uint32_t *in, int32_t n)
+{
+    nearest_pairs(out, in, n, ROW_565_SWAPPED);
+}
+
+void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
+{
+    if (SMEAR_WITH_RGB && format == ROW_555)
+        nearest_555(out, in, n);
+    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
+        nearest_565_swapped(out, in, n);
+    else if (SMEAR_WITH_RGB565)
+        nearest_565(out, in, n);
+}
+#endif
 
 /* ------------------------------------------------------------------ 16 bits, dithered */
 
@@ -206,6 +225,128 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
         }
     }
     fn(out - (in - rest), rest, end, step);
+}
+#endif
+
+/* ------------------------------------------------------------------ 16 bits, in lanes */
+
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+typedef uint16_t smear_v8u __attribute__((vector_size(16)));
+
+static inline smear_v8u v8u_all(uint16_t a) { return (smear_v8u){ a, a, a, a, a, a, a, a }; }
+
+/* Eight pixels: blue and red of four by turns, of the other four; green of all. */
+struct lanes {
+    smear_v8u low, high, green;
+};
+
+static inline struct lanes lanes_of(smear_v4u a, smear_v4u b)
+{
+    return (struct lanes){ (smear_v8u)(a & 0xff00ffu), (smear_v8u)(b & 0xff00ffu),
+                           (smear_v8u)v4i_narrow((smear_v4i)(a >> 8 & 0xffu), (smear_v4i)(b >> 8 & 0xffu)) };
+}
+
+/* Levels become pixels. */
+SMEAR_INLINE void lanes_store(uint16_t *out, struct lanes k, enum row_16bit format)
+{
+    const smear_v8i place = SMEAR_WITH_RGB && format == ROW_555 ? (smear_v8i){ 1024, 1, 1024, 1, 1024, 1, 1024, 1 }
+                                                                : (smear_v8i){ 1, 2048, 1, 2048, 1, 2048, 1, 2048 };
+    const smear_v4i low = v8i_dot((smear_v8i)k.low, place) << 16 >> 16;
+    const smear_v4i high = v8i_dot((smear_v8i)k.high, place) << 16 >> 16;
+    smear_v8u pixel = (smear_v8u)v4i_narrow(low, high) | k.green << 5;
+    if ((format == ROW_565_SWAPPED) != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__))
+        pixel = pixel << 8 | pixel >> 8;
+    v8i_store(out, (smear_v8i)pixel);
+}
+
+static inline smear_v8u nearest_levels(smear_v8u code, uint16_t factor, uint16_t half, int shift)
+{
+    return (code * v8u_all(factor) + v8u_all(half)) >> shift;
+}
+
+SMEAR_INLINE void nearest_lanes(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
+{
+    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555;
+    for (; n >= 8; n -= 8, in += 8, out += 8) {
+        struct lanes k = lanes_of(v4u_load(in), v4u_load(in + 4));
+        k.low = nearest_levels(k.low, 249, 1014, 11);
+        k.high = nearest_levels(k.high, 249, 1014, 11);
+        k.green = is_555 ? nearest_levels(k.green, 249, 1014, 11) : nearest_levels(k.green, 253, 505, 10);
+        lanes_store(out, k, format);
+    }
+    row_nearest_reference(out, in, n, format);
+}
+
+void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
+{
+    if (SMEAR_WITH_RGB && format == ROW_555)
+        nearest_lanes(out, in, n, ROW_555);
+    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
+        nearest_lanes(out, in, n, ROW_565_SWAPPED);
+    else if (SMEAR_WITH_RGB565)
+        nearest_lanes(out, in, n, ROW_565);
+}
+
+/* level_q16 / 2^8 and a threshold, of which the upper byte is the level. */
+static inline smear_v8u dithered_levels(smear_v8u code, uint16_t levels, smear_v8u threshold)
+{
+    const smear_v8u factor = v8u_all(levels);
+    return (code * factor + ((code + (code >> 7)) * factor >> 8) + threshold) >> 8;
+}
+
+/* Thresholds of eight columns, in the order of lanes_of. */
+static inline struct lanes lanes_of_thresholds(const uint8_t *t)
+{
+    const smear_v8i all = (smear_v8i){ t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7] };
+    return (struct lanes){ (smear_v8u)v4i_twice_low(all), (smear_v8u)v4i_twice_high(all), (smear_v8u)all };
+}
+
+/* Blocks of eight columns whose first has a number that eight divides. A block of one colour looks like the last of its
+ * colour where thresholds repeat. */
+SMEAR_INLINE void dithered_lanes(uint16_t *out, const uint32_t *in, int32_t blocks, int32_t x, const uint8_t *threshold,
+                                 int32_t mask, enum row_16bit format)
+{
+    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555;
+    struct lanes step = lanes_of_thresholds(threshold);
+    smear_v4u last = v4u_all(0);
+    const uint16_t *kept = NULL;                /* of the colour `last` */
+    for (; blocks > 0; blocks--, in += 8, out += 8, x += 8) {
+        const smear_v4u a = v4u_load(in), b = v4u_load(in + 4);
+        const bool flat = !v4u_any((a ^ last) | (b ^ last));
+        if (flat && kept != NULL) {
+            __builtin_memcpy(out, kept, 16);
+            continue;
+        }
+        if (mask != 7)
+            step = lanes_of_thresholds(threshold + (x & mask));
+        struct lanes k = lanes_of(a, b);
+        k.low = dithered_levels(k.low, 31, step.low);
+        k.high = dithered_levels(k.high, 31, step.high);
+        k.green = dithered_levels(k.green, is_555 ? 31 : 63, step.green);
+        lanes_store(out, k, format);
+        if (!flat)
+            last = v4u_all(in[7]);
+        kept = flat && mask == 7 ? out : NULL;
+    }
+}
+
+void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                               int32_t mask, enum row_16bit format)
+{
+    const int32_t head = min_i32(-x & 7, n), blocks = (n - head) >> 3, rest = (n - head) & 7;
+    if (head != 0)
+        row_dithered_reference(out, in, head, x, threshold, mask, format);
+    out += head;
+    in += head;
+    x += head;
+    if (SMEAR_WITH_RGB && format == ROW_555)
+        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_555);
+    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
+        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_565_SWAPPED);
+    else if (SMEAR_WITH_RGB565)
+        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_565);
+    if (rest != 0)
+        row_dithered_reference(out + 8 * blocks, in + 8 * blocks, rest, x + 8 * blocks, threshold, mask, format);
 }
 #endif
 

@@ -73,39 +73,45 @@ static inline uint32_t bytes_ordered(uint32_t packed, bool swapped)
     return swapped != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
 }
 
-/* Stores n >= 0 pixels as blue over green over red, 5 bits each. It has one form. */
-static inline void row_rgb555(uint16_t *out, const uint32_t *in, int32_t n)
+/* Layouts: blue over green over red, 5 bits each; red over green over blue, 5, 6 and 5; the latter with its high byte
+ * first. */
+enum row_16bit { ROW_555, ROW_565, ROW_565_SWAPPED };
+
+SMEAR_INLINE uint32_t nearest_16bit(uint32_t p, enum row_16bit format)
 {
-    for (int32_t i = 0; i < n; i++)
-        out[i] = (uint16_t)bytes_ordered(level_nearest(pixel_blue(in[i]), 31) << 10
-                                             | level_nearest(pixel_green(in[i]), 31) << 5
-                                             | level_nearest(pixel_red(in[i]), 31),
-                                         false);
+    if (SMEAR_WITH_RGB && format == ROW_555)
+        return bytes_ordered(rgb555_nearest(p), false);
+    return bytes_ordered(rgb565_nearest(p), format == ROW_565_SWAPPED);
 }
 
-/* Stores n >= 0 pixels as red over green over blue, 5, 6 and 5 bits. Memory does not overlap. */
-static inline void row_rgb565_reference(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+/* Stores n >= 0 pixels. Memory does not overlap. */
+static inline void row_nearest_reference(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
     while (n-- > 0)
-        *out++ = (uint16_t)bytes_ordered(rgb565_nearest(*in++), swapped);
+        *out++ = (uint16_t)nearest_16bit(*in++, format);
 }
 
+#ifndef __OPTIMIZE_SIZE__
 /* Stores pairs of pixels. Flat areas are long: a pair that stays as it was costs a comparison. */
-void smear_row_rgb565_unrolled(uint16_t *out, const uint32_t *in, int32_t n, bool swapped);
+void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
+#endif
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+/* Stores eight pixels a round. */
+void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
+#endif
 
-static inline void row_rgb565(uint16_t *out, const uint32_t *in, int32_t n, bool swapped)
+static inline void row_nearest(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
 #ifdef __OPTIMIZE_SIZE__
-    row_rgb565_reference(out, in, n, swapped);
+    row_nearest_reference(out, in, n, format);
+#elif SMEAR_VECTORS
+    smear_row_nearest_vector(out, in, n, format);
 #else
-    smear_row_rgb565_unrolled(out, in, n, swapped);
+    smear_row_nearest_unrolled(out, in, n, format);
 #endif
 }
 
 /* ------------------------------------------------------------------ 16 bits, dithered */
-
-/* Layouts as above: blue over green over red, red over green over blue, and the latter with its high byte first. */
-enum row_16bit { ROW_555, ROW_565, ROW_565_SWAPPED };
 
 /* Stores n >= 0 dithered pixels from column x on; column c has the threshold[c & mask], in 1/256 of a level. Memory
  * does not overlap. Runs of one colour share its levels: only thresholds differ. */
@@ -134,6 +140,27 @@ static inline void row_dithered_reference(uint16_t *out, const uint32_t *in, int
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format);
 #endif
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+/* Stores eight pixels a round, by any thresholds; mask is 7 or 31. */
+void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                               int32_t mask, enum row_16bit format);
+#endif
+
+static inline void row_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                                int32_t mask, enum row_16bit format)
+{
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+    smear_row_dithered_vector(out, in, n, x, threshold, mask, format);
+#else
+#ifndef __OPTIMIZE_SIZE__
+    if (mask == 7) {
+        smear_row_dithered_blocks(out, in, n, x, threshold, format);
+        return;
+    }
+#endif
+    row_dithered_reference(out, in, n, x, threshold, mask, format);
+#endif
+}
 
 /* ------------------------------------------------------------------ L4 */
 

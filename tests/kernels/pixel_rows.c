@@ -12,17 +12,26 @@ static void xrgb8888_reference(struct kernel_call *c) { row_xrgb8888_reference(c
 static void xrgb8888_vector(struct kernel_call *c) { row_xrgb8888_vector(c->plane[0], c->plane[1], c->n); }
 #endif
 
-static void prepare_nearest(struct kernel_call *c) { c->word[LAYOUT] &= 1u; }
+static void prepare_nearest(struct kernel_call *c) { c->word[LAYOUT] %= 3u; }
 
-static void rgb565_reference(struct kernel_call *c)
+static void nearest_reference(struct kernel_call *c)
 {
-    row_rgb565_reference(c->plane[0], c->plane[1], c->n, c->word[LAYOUT] != 0);
+    row_nearest_reference(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
 }
 
-static void rgb565_unrolled(struct kernel_call *c)
+#ifndef __OPTIMIZE_SIZE__
+static void nearest_unrolled(struct kernel_call *c)
 {
-    smear_row_rgb565_unrolled(c->plane[0], c->plane[1], c->n, c->word[LAYOUT] != 0);
+    smear_row_nearest_unrolled(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
 }
+
+#if SMEAR_VECTORS
+static void nearest_vector(struct kernel_call *c)
+{
+    smear_row_nearest_vector(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
+}
+#endif
+#endif
 
 static void prepare_dithered(struct kernel_call *c)
 {
@@ -45,6 +54,41 @@ static void dithered_reference(struct kernel_call *c)
     row_dithered_reference(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
                            (enum row_16bit)c->word[LAYOUT]);
 }
+
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+static void dithered_vector(struct kernel_call *c)
+{
+    smear_row_dithered_vector(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
+                              (enum row_16bit)c->word[LAYOUT]);
+}
+
+/* Thresholds of any kind, 32 of them. */
+static const uint8_t *many_thresholds(const struct kernel_call *c)
+{
+    static uint8_t row[32];
+    for (int i = 0; i < 32; i++)
+        row[i] = (uint8_t)(c->word[THRESHOLDS + i % WIDTH] >> i);
+    return row;
+}
+
+static void prepare_blue(struct kernel_call *c)
+{
+    c->word[X] &= 63u;
+    c->word[LAYOUT] %= 3u;
+}
+
+static void blue_reference(struct kernel_call *c)
+{
+    row_dithered_reference(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], many_thresholds(c), 31,
+                           (enum row_16bit)c->word[LAYOUT]);
+}
+
+static void blue_vector(struct kernel_call *c)
+{
+    smear_row_dithered_vector(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], many_thresholds(c), 31,
+                              (enum row_16bit)c->word[LAYOUT]);
+}
+#endif
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. */
 static void prepare_l4(struct kernel_call *c)
@@ -83,14 +127,28 @@ const struct kernel kernels_pixel_rows[] = {
                 { "vector", xrgb8888_vector },
 #endif
       } },
-    { .name = "row_rgb565", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
-      .form = { { "reference", rgb565_reference }, { "unrolled", rgb565_unrolled } } },
+    { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
+      .form = { { "reference", nearest_reference },
+#ifndef __OPTIMIZE_SIZE__
+                { "unrolled", nearest_unrolled },
+#if SMEAR_VECTORS
+                { "vector", nearest_vector },
+#endif
+#endif
+      } },
     { .name = "row_dithered", .most = 67, .size = { 2, 4 }, .prepare = prepare_dithered,
       .form = { { "reference", dithered_reference },
 #ifndef __OPTIMIZE_SIZE__
                 { "blocks", dithered_blocks },
+#if SMEAR_VECTORS
+                { "vector", dithered_vector },
+#endif
 #endif
       } },
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+    { .name = "row_dithered_blue", .most = 67, .size = { 2, 4 }, .prepare = prepare_blue,
+      .form = { { "reference", blue_reference }, { "vector", blue_vector } } },
+#endif
     { .name = "row_l4", .most = 67, .size = { 1, 4 }, .prepare = prepare_l4,
       .form = { { "reference", l4_reference },
 #ifndef __OPTIMIZE_SIZE__
