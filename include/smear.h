@@ -191,12 +191,26 @@ typedef enum smear_billboard {
     SMEAR_BILLBOARD_UPRIGHT     /* as FACING, but turned about the world's y only */
 } smear_billboard;
 
+/* How poses of frames ago are joined, and where that goes on until the shutter closes. Of what turns, the fraction of the
+ * turn is exact at every moment; only scales and what deforms change evenly. */
+typedef enum smear_path {
+    SMEAR_PATH_DEFAULT,         /* of a draw: the frame's. Of a frame: CURVE */
+    SMEAR_PATH_CURVE,           /* through three poses where that two frames ago is known: a turn about the point that
+                                 * explains all three, be it the own origin (a wheel), another one (a blade beside its
+                                 * pivot) or one far away (a bend of the road). With two poses, or where the third says
+                                 * nothing (a rebound, a jump): ORIGIN */
+    SMEAR_PATH_LINE,            /* every vertex goes straight from pose to pose. Cheapest */
+    SMEAR_PATH_ORIGIN,          /* turns about its own origin, which goes straight */
+    SMEAR_PATH_SCREW            /* turns about the one axis that leads from pose to pose, and moves along it */
+} smear_path;
+
 /* One mesh in one place. Transforms are copied by smear_submit; what else is pointed to is read until smear_render
  * returns.
  *
  * Where it was: with smear_frame.shutter.poses, `open` and `close` are its poses at shutter open and close,
  * and `now` is that in the middle between them, whatever the exposure is. Otherwise `open` is its pose one
- * frame ago; when null, the library takes what it kept under `id`. A draw whose earlier pose is unknown
+ * frame ago and `close` that two frames ago, which only tells along which curve it moves (smear_path); where `open` is
+ * null, the library takes both from what it kept under `id`. A draw whose earlier pose is unknown
  * (first sight, cut, first frame, id 0) has no motion of its own. */
 typedef struct smear_draw {
     uint32_t id;                /* identity from frame to frame, unique in a frame; 0: nothing is kept */
@@ -209,6 +223,7 @@ typedef struct smear_draw {
     uint8_t motion;             /* smear_motion */
     uint8_t cut;                /* 1: teleported: no motion of its own in this frame */
     uint8_t billboard;          /* smear_billboard */
+    uint8_t path;               /* smear_path */
     uint16_t open_count, close_count;   /* vertices in open_position, close_position; 0: as many as the
                                          * mesh has. With another number nothing is known of the
                                          * deformation: the motion is rigid */
@@ -371,6 +386,7 @@ typedef struct smear_shutter {
     uint8_t poses;              /* 1: open/close are the poses at shutter open and close, not one frame ago, and the
                                  * present ones those in the middle of the exposure */
     uint8_t mode;               /* smear_shutter_mode. With `poses` the application's poses say it all */
+    uint8_t path;               /* smear_path of cameras, and of draws that do not say; with `poses` it is of no use */
     uint16_t reference_hz;      /* 1..1000; 0 means 30 */
     uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by `us` and by modes
                                  * other than native */
@@ -400,8 +416,8 @@ typedef struct smear_motion_scale {
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
-    const smear_camera *open, *close;   /* as in smear_draw; null: the camera kept from the last frame
-                                         * (if it is of the same kind; else nothing has camera motion) */
+    const smear_camera *open, *close;   /* as in smear_draw; null: the cameras kept from the last frames
+                                         * (if they are of the same kind; else nothing has camera motion) */
     uint8_t method;             /* smear_method */
     uint8_t light_space;        /* smear_light_space */
     uint8_t cut;                /* 1: camera cut: nothing has motion in this frame */
@@ -460,8 +476,8 @@ typedef int smear_flush_fn(void *user, const smear_band *band);
 typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const uint16_t *depth,
                               const int32_t *velocity);
 
-/* What a frame may leave out because it is shown already. For SMEAR_AUTO, SMEAR_SUBFRAMES and SMEAR_TIMEMASK; frames
- * of other methods are drawn and sent whole. The pictures are the same. See smear_frame.refresh. */
+/* What is kept from frame to frame. Pictures may be so for SMEAR_AUTO, SMEAR_SUBFRAMES and SMEAR_TIMEMASK, and are the
+ * same; frames of other methods are drawn and sent whole. See smear_frame.refresh. */
 typedef struct smear_reuse {
     uint8_t cache_static;       /* 1: what does not move is kept from frame to frame, and drawn again only where
                                  * camera, background or a static draw is another: 6 bytes per pixel of the whole frame
@@ -470,6 +486,9 @@ typedef struct smear_reuse {
                                  * frame so many frames ago: 1 for a panel with memory of its own, 2 where pages flip.
                                  * Then only damaged tiles are drawn and sent: bands of tiles beside each other, from
                                  * left to right and top to bottom, as many as it takes, or none. 0: all are */
+    uint8_t one_pose;           /* 1: of ids and of the camera only the pose a frame ago is kept, not that before it: 52
+                                 * bytes less for each of max_draws, 64 for the camera. SMEAR_PATH_CURVE then has two
+                                 * poses */
 } smear_reuse;
 
 /* Room beyond the usual for methods that filter. */
@@ -489,7 +508,8 @@ typedef struct smear_debug {
     uint32_t (*clock)(void *user);      /* null: no times in the statistics */
 } smear_debug;
 
-/* The first seventeen values, to filter.scatter, are what SMEAR_MEMORY and SMEAR_DESC of smear_memory.h take. */
+/* The first seventeen values, to filter.scatter but without reuse.one_pose, are what SMEAR_MEMORY and SMEAR_DESC of
+ * smear_memory.h take; reuse.one_pose is the eighteenth. */
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for; more

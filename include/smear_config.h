@@ -77,8 +77,8 @@
 #ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds */
 #define SMEAR_WITH_BOUNDS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_IDS                  /* poses kept under draw.id; else every draw brings its own */
-#define SMEAR_WITH_IDS SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_CURVES               /* paths that are no lines: SMEAR_PATH_CURVE, _ORIGIN, _SCREW */
+#define SMEAR_WITH_CURVES (SMEAR_WITH_ALL && (SMEAR_WITH_ACCUMULATE || SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SUBFRAMES))
 #endif
 #ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
 #define SMEAR_WITH_WORKERS SMEAR_WITH_ALL

@@ -8,7 +8,7 @@
  * Both take the first values of a smear_desc in their order; what is left out is 0, the default:
  *
  *     width, height, max_triangles, max_draws, methods, tile, reach, strip, band_rows, bands, format, workers,
- *     vertex_cache, reuse.cache_static, reuse.buffer_age, filter.passes, filter.scatter
+ *     vertex_cache, reuse.cache_static, reuse.buffer_age, filter.passes, filter.scatter, reuse.one_pose
  *
  * Format and band_rows set the size of a band: give them here rather than later, as SMEAR_XRGB8888 is both the default
  * and the largest. desc.debug.inspect takes memory that SMEAR_MEMORY does not know of.
@@ -20,17 +20,19 @@
 #include "smear.h"
 
 /* Bytes, and words of 8 bytes: constants. */
-#define SMEAR_MEMORY(...) SMEAR_MEMORY_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+#define SMEAR_MEMORY(...) SMEAR_MEMORY_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 #define SMEAR_MEMORY_WORDS(...) ((SMEAR_MEMORY(__VA_ARGS__) + 7u) / 8u)
 
 /* A desc of the same values: without format, dither and callbacks it is all default. */
-#define SMEAR_DESC(...) SMEAR_DESC_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+#define SMEAR_DESC(...) SMEAR_DESC_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 
 /* Bytes of one of each thing, at most. */
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window */
 #define SMEAR_DAMAGE_BYTES 56u              /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
+#define SMEAR_OLDER_BYTES 52u               /* the pose of an id before that: not with reuse.one_pose */
+#define SMEAR_OLDER_CAMERA_BYTES 72u
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36 bytes
@@ -45,7 +47,7 @@
 
 /* NAME_ is for this file only. Defaults first, then the sum with every value resolved: w h width and height, t triangles,
  * d draws, m methods, T tile, r reach, s strip, b band_rows, n bands, f format, k workers, v vertex_cache, c cache_static,
- * a buffer_age, p passes, x scatter. */
+ * a buffer_age, p passes, x scatter, o one_pose. */
 #define SMEAR_UP8_(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_PARTS_(whole, part) (((size_t)(whole) + (size_t)(part) - 1u) / (size_t)(part))
 #define SMEAR_MIN_(a, b) ((a) < (b) ? (a) : (b))
@@ -70,22 +72,22 @@
                                       : (size_t)(T), \
                SMEAR_PARTS_(w, T) * (size_t)(T))
 
-#define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, ...) \
+#define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, ...) \
     SMEAR_MEMORY_1_(w, h, SMEAR_OR_(t, 1024u), SMEAR_OR_(d, 16u), SMEAR_SET_OF_(m), T, \
                     SMEAR_REACH_OF_(SMEAR_SET_OF_(m), h, r), s, b, SMEAR_OR_(n, 1u), f, SMEAR_OR_(k, 1u), \
-                    SMEAR_OR_(v, 64u), c, a, p)
-#define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p) \
-    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, b, n, f, k, v, c, a, p)
-#define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p) \
-    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, T), n, f, k, v, c, a, p)
-#define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p) \
+                    SMEAR_OR_(v, 64u), c, a, p, o)
+#define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
+    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, b, n, f, k, v, c, a, p, o)
+#define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
+    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, T), n, f, k, v, c, a, p, o)
+#define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
     (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \
      + SMEAR_SCRATCH_(m, T, SMEAR_COLUMNS_(m, w, T, s), b, k) \
      + SMEAR_TEMPORAL_(m, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
      + SMEAR_DAMAGE_(d, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
      + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, T, b)) + (size_t)(n) * SMEAR_UP8_(SMEAR_BAND_BYTES_(w, b, f)) \
-     + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_STORE_(t, d, m) \
+     + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
      + 3u * SMEAR_UP8_((SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, T, b)) + 2u) * 4u) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
 
 /* Rows that are drawn at once, and rows that are kept. */
@@ -141,6 +143,9 @@
          : 0u)
 #define SMEAR_LAYER_WIDTH_(w, r) ((size_t)(w) + 2u * (size_t)(r) + 6u)
 #define SMEAR_LAYER_PX_(w, T, r) (SMEAR_LAYER_WIDTH_(w, r) * ((size_t)(T) + 2u * (size_t)(r)))
+/* Poses and a camera of two frames ago. */
+#define SMEAR_OLDER_(d, o) \
+    (SMEAR_WITH_CURVES && !(o) ? SMEAR_UP8_((size_t)(d) * SMEAR_OLDER_BYTES) + SMEAR_OLDER_CAMERA_BYTES : 0u)
 /* SMEAR_ACCUMULATE: r g b of the frame's pixels, or of a band's. */
 #define SMEAR_SUMS_(w, h, m, rows) \
     (((m) & SMEAR_SET(SMEAR_ACCUMULATE)) != 0 ? SMEAR_UP8_((size_t)(w) * (size_t)(h) * SMEAR_SUM_BYTES_) \
@@ -160,15 +165,16 @@
      + SMEAR_UP8_(((size_t)(d) + 2u + SMEAR_STORE_WORDS_(t, m) / 50000u) * SMEAR_SEGMENT_BYTES))
 
 /* What SMEAR_DESC calls. */
-#define SMEAR_DESC_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, ...) \
-    smear_desc_of(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x)
+#define SMEAR_DESC_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, ...) \
+    smear_desc_of(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o)
 
 static inline smear_desc smear_desc_of(int16_t width, int16_t height, uint32_t max_triangles, uint16_t max_draws,
                                        uint16_t methods, int16_t tile, int16_t reach, int16_t strip, int16_t band_rows,
                                        uint8_t bands, uint8_t format, uint8_t workers, uint16_t vertex_cache,
-                                       uint8_t cache_static, uint8_t buffer_age, uint8_t passes, uint8_t scatter)
+                                       uint8_t cache_static, uint8_t buffer_age, uint8_t passes, uint8_t scatter,
+                                       uint8_t one_pose)
 {
-    static const smear_desc none = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0 }, { 0, 0 }, 0, 0, 0, 0, { 0, 0, 0 } };
+    static const smear_desc none = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0 }, 0, 0, 0, 0, { 0, 0, 0 } };
     smear_desc desc = none;
     desc.width = width;
     desc.height = height;
@@ -187,6 +193,7 @@ static inline smear_desc smear_desc_of(int16_t width, int16_t height, uint32_t m
     desc.reuse.buffer_age = buffer_age;
     desc.filter.passes = passes;
     desc.filter.scatter = scatter;
+    desc.reuse.one_pose = one_pose;
     return desc;
 }
 

@@ -12,31 +12,31 @@
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
-                .max_triangles = 268, .vertex_cache = 32, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", 0 },
+                .max_triangles = 268, .vertex_cache = 32, .reuse = { .buffer_age = 1, .one_pose = 1 } },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", SMEAR_PATH_LINE, 0 },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
                .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,
                .reuse.buffer_age = 2 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32 },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
                     .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 32 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32 },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 320, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
                     .max_triangles = 400, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
                  .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_draws = DEMO_DRAWS, .max_triangles = 530 },
-      SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", 0 },
+      SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", SMEAR_PATH_CURVE, 0 },
 };
 
 const int demo_screen_count = sizeof demo_screens / sizeof *demo_screens;
@@ -136,7 +136,7 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
         .filter.flags = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
-        .light_space = player->screen->light, .shutter.degrees = player->shutter_degrees
+        .light_space = player->screen->light, .shutter = { .degrees = player->shutter_degrees, .path = player->screen->path }
     };
     if (blur != NULL) {
         how.method = blur->method;

@@ -12,6 +12,7 @@ struct demo_screen {
     uint8_t light;                  /* smear_light_space */
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */
+    uint8_t path;                   /* smear_path */
     uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE, which has none to keep; 0: desc's, for all ways to blur */
 };
 

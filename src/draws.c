@@ -15,6 +15,75 @@ static inline bool has_layers(const struct smear_context *c)
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
 }
 
+/* ------------------------------------------------------------------ curves */
+
+/* Makes the track of a draw. Returns false where it has no motion of its own. */
+static bool find_track(struct smear_track *track, const struct smear_context *c, struct smear_submitted *s)
+{
+    const smear_draw *d = &s->draw;
+    *track = (struct smear_track){ { &s->pose[0], &s->pose[1], &s->pose[2] }, d->close != NULL,
+                                   d->path != SMEAR_PATH_DEFAULT ? d->path : c->shot.path, c->shot.object_scale };
+    return d->open != NULL && !d->cut && d->motion == SMEAR_MOTION_FULL;
+}
+
+/* Returns how many layers there are that may have cameras of their own. */
+static int own_cameras(const struct smear_context *c)
+{
+    return SMEAR_WITH_LAYERS && smear_method_has_layers(c->frame.method) ? c->layers->setting_count : 0;
+}
+
+/* Whether one of these moves along a curve. */
+static bool layers_are_curved(struct smear_context *c)
+{
+    bool curved = false;
+    for (int i = 0; i < own_cameras(c) && !curved; i++) {
+        struct smear_layer_setting *s = &c->layers->setting[i];
+        curved = s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older);
+    }
+    return curved;
+}
+
+static bool frame_is_curved(struct smear_context *c)
+{
+    struct smear_track track;
+    bool curved = c->shot.camera_moves && smear_cameras_are_curved(&c->shot, c->shot.camera, c->shot.has_older);
+    for (uint32_t i = 0; i < c->draw_count && !curved; i++)
+        curved = find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track);
+    return curved || layers_are_curved(c);
+}
+
+/* What stays where it is before the camera does so at every moment, whatever the curves of both are. */
+static void find_attached(struct smear_context *c)
+{
+    const smear_camera *camera = c->shot.camera;
+    for (uint32_t i = 0; c->shot.camera_moves && i < c->draw_count; i++) {
+        struct smear_submitted *s = &c->submitted[i];
+        struct smear_track track;
+        if (find_track(&track, c, s) && s->draw.open_position == NULL && track.scale == 256
+            && smear_pose_is_attached(&s->pose[1], &camera[1], &s->pose[0], &camera[0]))
+            s->draw.motion = SMEAR_MOTION_NONE;
+    }
+}
+
+void smear_draws_find_curves(struct smear_context *c)
+{
+    struct smear_track track;
+    if (!SMEAR_WITH_CURVES || c->frame.method == SMEAR_NONE || c->shot.shutter_poses || c->shot.cut || !frame_is_curved(c))
+        return;
+    c->shot.curved = true;
+    find_attached(c);
+    if (c->shot.camera_moves)
+        smear_cameras_bend(&c->shot, c->shot.camera, c->shot.has_older);
+    for (int i = 0; i < own_cameras(c); i++)
+        if (c->layers->setting[i].has_camera)
+            smear_cameras_bend(&c->shot, c->layers->setting[i].camera, c->layers->setting[i].has_older);
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (find_track(&track, c, &c->submitted[i])) {
+            smear_track_bend(&track, &c->shot);
+            c->submitted[i].draw.close = &c->submitted[i].pose[2];
+        }
+}
+
 /* ------------------------------------------------------------------ what draws are */
 
 /* Returns the three cameras of a draw's layer, if it has its own. */
@@ -37,7 +106,7 @@ static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw
         const bool deforms = p->position[i] != p->position[0];
         own = own || deforms || !smear_transform_is_same(p->object[i], p->object[0]);
         attached = attached && !deforms
-                && smear_is_attached(p->object[i], p->camera[i], p->object[0], p->camera[0]);
+                && smear_pose_is_attached(p->object[i], p->camera[i], p->object[0], p->camera[0]);
     }
     r->fixed = motion == SMEAR_MOTION_NONE || (own && attached);
     r->moves = own && !attached;
@@ -121,9 +190,11 @@ SMEAR_NOINLINE void smear_draws_find_layers(struct smear_context *c, const struc
 static void add_motion(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p,
                        const struct smear_instant *instant)
 {
-    smear_draw_poses_add(a, p, &c->shot, 1);
-    if (c->shot.shutter_poses || instant->weight[0] != 1 << 24)
-        smear_draw_poses_add(a, p, &c->shot, c->shot.shutter_poses ? 2 : 0);
+    const struct smear_shutter_order at = smear_shot_order(&c->shot);
+    const bool spans = shot_spans_exposure(&c->shot);
+    smear_draw_poses_add(a, p, &c->shot, spans ? at.open : 1);
+    if (spans || instant->weight[0] != 1 << 24)
+        smear_draw_poses_add(a, p, &c->shot, spans ? at.close : 0);
 }
 
 /* Finds where a draw is, at an instant and along its path. */

@@ -5,6 +5,10 @@
 
 #include "context.h"
 
+/* Finds out whether anything of the frame moves along a curve; then all past poses become those at times of the exposure.
+ * Before all others. */
+void smear_draws_find_curves(struct smear_context *c);
+
 /* Looks at all draws of the frame: what moves, what is blended, whose velocity comes from where. */
 void smear_draws_prepare(struct smear_context *c);
 

@@ -22,6 +22,7 @@
     X(DESC_VERTEX_CACHE, "desc.vertex_cache: not 16 to 4096, a power of two") \
     X(DESC_CACHE_STATIC, "desc.reuse.cache_static: above 1, or no method can") \
     X(DESC_BUFFER_AGE, "desc.reuse.buffer_age: above 7, or no method can") \
+    X(DESC_ONE_POSE, "desc.reuse.one_pose: above 1") \
     X(DESC_PASSES, "desc.filter.passes: above 3, or no method can") \
     X(DESC_SCATTER, "desc.filter.scatter: above 1, or not with these methods") \
     X(DESC_DITHER, "desc.dither: unknown here") \
@@ -37,6 +38,7 @@
     X(FRAME_DEGREES, "frame.shutter.degrees: above 3600") \
     X(FRAME_EXPOSURE, "frame.shutter.exposure: unknown") \
     X(FRAME_MODE, "frame.shutter.mode: unknown here") \
+    X(FRAME_PATH, "frame.shutter.path: unknown here") \
     X(FRAME_REFERENCE, "frame.shutter.reference_hz: above 1000") \
     X(FRAME_TIME, "frame.shutter.frame_us: above 1000000, or missing") \
     X(FRAME_US, "frame.shutter.us: not compiled in") \
@@ -53,13 +55,14 @@
     X(FRAME_TRANSLATION, "frame.scale.translation: as rotation") \
     X(FRAME_OBJECT, "frame.scale.object: as rotation") \
     X(FRAME_LAYER, "frame.layer: too many, or a bad one") \
-    X(DRAW_ID, "draw.id: twice in this frame, or not compiled in") \
+    X(DRAW_ID, "draw.id: twice in this frame") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
     X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \
     X(DRAW_MATERIAL, "draw.material: out of range, or not compiled in") \
     X(DRAW_POSITION, "draw.open_position: not compiled in") \
     X(DRAW_MOTION, "draw.motion: unknown") \
-    X(DRAW_BILLBOARD, "draw.billboard: unknown here")
+    X(DRAW_BILLBOARD, "draw.billboard: unknown here") \
+    X(DRAW_PATH, "draw.path: unknown here")
 
 #define SMEAR_FAULT_NUMBER_(name, text) FAULT_NUMBER_##name,
 enum { SMEAR_FAULTS(SMEAR_FAULT_NUMBER_) SMEAR_FAULT_COUNT };

@@ -69,10 +69,14 @@ static int render_filtered(struct smear_context *c)
     const struct smear_instant middle = smear_instant_middle(&c->shot);
     const int rows = c->rows.window.rows, late = c->rows.blends ? c->filtered.window->lag : 0;
     int result = SMEAR_OK;
-    if (frame_has_depth_velocity(&c->rows.raster))
-        smear_reproject_make(&c->filtered.ports->by_depth.reprojection, &c->shot.camera[0], &c->shot.camera[1],
-                             &c->shot.camera[2], middle.weight, c->shot.shutter_poses, c->rows.window.width,
-                             c->rows.window.height);
+    if (frame_has_depth_velocity(&c->rows.raster)) {
+        const struct smear_shutter_order at = smear_shot_order(&c->shot);
+        const bool spans = shot_spans_exposure(&c->shot);
+        const smear_camera *camera = c->shot.camera;
+        smear_reproject_make(&c->filtered.ports->by_depth.reprojection, &camera[at.middle], &camera[at.open],
+                             &camera[at.close], spans ? smear_instant_now.weight : middle.weight, spans,
+                             c->rows.window.width, c->rows.window.height);
+    }
     for (int row = 0, end; row < rows && result == SMEAR_OK; row = end) {
         int top = max_i32(row - late, 0);
         end = smear_draws_assemble(c, &top, top, row, rows, &middle);
@@ -124,14 +128,15 @@ static void prepare_stages(struct smear_context *c, bool filters)
     const uint8_t method = c->frame.method;
     struct smear_rows *rows = &c->rows;
     struct smear_raster_frame *raster = &rows->raster;
+    const bool spans = shot_spans_exposure(&c->shot);
     const bool camera_moves = c->shot.camera_moves
                            && !(smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[1])
-                                && smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2]));
+                                && (!spans || smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2])));
     raster->linear = c->frame.light_space == SMEAR_LIGHT_LINEAR;
     c->shot.camera_moves = camera_moves;
     if (SMEAR_WITH_RECONSTRUCT) {
-        raster->velocity_scale = c->shot.shutter_poses ? 32768 : c->shot.half_exposure >> 8;
-        raster->inspect_scale = c->shot.shutter_poses ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
+        raster->velocity_scale = spans ? 32768 : c->shot.half_exposure >> 8;
+        raster->inspect_scale = spans ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
         raster->reach_q3 = rows->window.reach * 8;
         raster->velocity_from_depth = filters && c->frame.filter.camera_step != 0 && camera_moves && !c->shot.cut;
     }
@@ -169,6 +174,7 @@ static SMEAR_NOINLINE void prepare(struct smear_context *c, bool filters)
     c->stats.pixels = (uint32_t)(c->rows.window.width * c->rows.window.height);
     for (int i = 0; i < c->rows.jobs.workers; i++)
         c->rows.samples[i] = 0;
+    smear_draws_find_curves(c);
     prepare_stages(c, filters);
     prepare_methods(c);
     smear_draws_prepare(c);

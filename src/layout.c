@@ -173,7 +173,7 @@ static void lay_out_layers(struct smear_context *c, struct smear_arena *a, const
 static void lay_out_draws(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
     c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
-    smear_history_lay_out(&c->history, a, d->max_draws);
+    smear_history_lay_out(&c->history, a, d->max_draws, d->reuse.one_pose);
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 }
 

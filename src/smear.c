@@ -80,8 +80,9 @@ static void keep_layers(struct smear_layers *l, const smear_frame *f)
             s->camera[0] = *s->layer.camera;
             s->camera[1] = s->layer.open != NULL ? *s->layer.open : s->camera[0];
             s->camera[2] = s->layer.close != NULL ? *s->layer.close : s->camera[0];
+            s->has_older = s->layer.open != NULL && s->layer.close != NULL;
             if (!smear_camera_is_of_kind(&s->camera[1], s->camera) || !smear_camera_is_of_kind(&s->camera[2], s->camera))
-                s->camera[1] = s->camera[2] = s->camera[0];
+                s->camera[1] = s->camera[2] = s->camera[0], s->has_older = false;
         }
         s->layer.camera = s->layer.open = s->layer.close = NULL;
         s->shutter = s->layer.shutter_degrees != 0
@@ -122,8 +123,14 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         return result;
     if (SMEAR_WITH_LAYERS && smear_method_has_layers(f.method))
         keep_layers(c->layers, &f);
-    smear_shot_aim(&c->shot, &f, c->has_kept_camera ? &c->kept_camera : NULL);
+    struct smear_older *older = SMEAR_WITH_CURVES ? c->history.older : NULL;
+    smear_shot_aim(&c->shot, &f, c->has_kept_camera ? &c->kept_camera : NULL,
+                   older != NULL && older->has_camera ? &older->camera : NULL);
     smear_shot_expose(&c->shot, &f);
+    if (older != NULL) {
+        older->has_camera = c->has_kept_camera && !f.cut;
+        older->camera = c->kept_camera;
+    }
     c->kept_camera = *f.camera;
     c->has_kept_camera = true;
     smear_sun_make(&c->sun, f.light);
@@ -173,10 +180,15 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     copy_pose(&s->draw.now, &s->pose[0]);
     copy_pose(&s->draw.open, &s->pose[1]);
     copy_pose(&s->draw.close, &s->pose[2]);
-    smear_transform last;
-    if (smear_history_keep(&c->history, draw->id, s->draw.now, &last) && draw->open == NULL && !c->shot.shutter_poses) {
-        s->pose[1] = last;
-        s->draw.open = &s->pose[1];
+    smear_transform past[2];
+    const bool cut = draw->cut || c->shot.cut;
+    const int known = smear_history_keep(&c->history, draw->id, s->draw.now, cut, past);
+    if (draw->open != NULL || c->shot.shutter_poses)
+        return SMEAR_OK;
+    for (int i = 0; i < 2; i++) {
+        const smear_transform **pose = i == 0 ? &s->draw.open : &s->draw.close;
+        s->pose[i + 1] = past[i];
+        *pose = i < known ? &s->pose[i + 1] : NULL;
     }
     return SMEAR_OK;
 }

@@ -85,6 +85,7 @@ static const struct field desc_fields[] = {
     DESC(workers, WORKERS, 1, 1, SMEAR_WORKERS_MAX), DESC(vertex_cache, VERTEX_CACHE, 64, 16, 4096),
     DESC(reuse.cache_static, CACHE_STATIC, 0, 0, SMEAR_CACHE_STATIC_MOST),
     DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_BUFFER_AGE_MOST),
+    DESC(reuse.one_pose, ONE_POSE, 0, 0, 1),
     DESC(filter.passes, PASSES, 0, 0, SMEAR_PASSES_MOST),
     DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST), DESC(dither, DITHER, 0, 0, SMEAR_DITHER_BLUE)
 };
@@ -183,6 +184,7 @@ static const struct field blur_fields[] = {
     FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
     FRAME(shutter.exposure, EXPOSURE, 0, 0, SMEAR_LEADING),
     FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
+    FRAME(shutter.path, PATH, SMEAR_PATH_CURVE, SMEAR_PATH_LEAST, SMEAR_PATH_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
     FRAME(shutter.us, US, 0, 0, SMEAR_SHUTTER_US_MOST),
     FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WEIGHTS_MOST),
@@ -267,6 +269,8 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
 
 int smear_resolve_frame(smear_frame *f, const smear_desc *d)
 {
+    if (f->shutter.path == SMEAR_PATH_DEFAULT && (f->shutter.poses || f->method == SMEAR_NONE))
+        f->shutter.path = SMEAR_PATH_LINE;      /* nothing is joined */
     int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
     if (result == SMEAR_OK && SMEAR_BLURS)
         result = resolve_fields(f, blur_fields, (int)(sizeof blur_fields / sizeof *blur_fields));
@@ -379,8 +383,8 @@ int smear_check_draw(const smear_draw *draw)
         return FAULT(DRAW_MOTION);
     if (draw->billboard > SMEAR_BILLBOARD_MOST)
         return FAULT(DRAW_BILLBOARD);
-    if (!SMEAR_ID_MOST && draw->id != 0)
-        return FAULT(DRAW_ID);
+    if (draw->path > SMEAR_PATH_MOST || (draw->path != 0 && draw->path < SMEAR_PATH_LEAST))
+        return FAULT(DRAW_PATH);
     if (!SMEAR_VERTEX_COLORS_MOST && (draw->mesh->normal != NULL || draw->mesh->color != NULL))
         return FAULT(DRAW_MESH_COLORS);
     if (!SMEAR_DEFORM_MOST && (draw->open_position != NULL || draw->close_position != NULL))

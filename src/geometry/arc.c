@@ -36,8 +36,7 @@ static uint32_t angle_of(int32_t x, int32_t y)
     return (uint32_t)max_i32(angle, 0);
 }
 
-/* Finds cosine and sine, q30, to 2^-24. */
-static void cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
+void smear_turn_cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
 {
     /* Without a half turn, what is left lies within a quarter to either side. */
     bool turned = angle - 0x40000000u < 0x80000000u;
@@ -59,11 +58,6 @@ static void cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
 }
 
 /* ------------------------------------------------------------------ the turn between two poses */
-
-struct turn {
-    int32_t axis[3];        /* q30 */
-    uint32_t angle;         /* q32 turns, 0 .. half a turn; others wrap by themselves */
-};
 
 /* Brings a vector to length one, q30. *length is what it was after a shift to 30 bits by *shift: left, or right if
  * negative. Returns false for a vector without length. */
@@ -147,8 +141,8 @@ static void quaternion_of(int32_t q[4], int32_t m[3][3])
             q[i] = -q[i];
 }
 
-/* Finds the turn that takes `before` to `now`. Returns false when there is none, or none to speak of. */
-static bool find_turn(struct turn *turn, const smear_transform *before, const smear_transform *now)
+/* Finds axis and angle. Returns false when there is no turn, or none to speak of. */
+static bool find_turn(struct smear_turn *turn, const smear_transform *before, const smear_transform *now)
 {
     int32_t a[3][3], b[3][3], m[3][3], q[4];
     bool mirrored_a, mirrored_b;
@@ -169,13 +163,18 @@ static bool find_turn(struct turn *turn, const smear_transform *before, const sm
     return true;
 }
 
+void smear_turn_find(struct smear_turn *turn, const smear_transform *before, const smear_transform *now)
+{
+    turn->turns = find_turn(turn, before, now);
+}
+
 /* ------------------------------------------------------------------ poses */
 
 /* Finds Q - 1 for a turn by `angle` about the axis n, q29: sin [n] + (1 - cos) (n n' - 1). */
 static void rotation(int32_t m[3][3], const int32_t axis[3], uint32_t angle)
 {
     int32_t c, s;
-    cosine_sine(angle, &c, &s);
+    smear_turn_cosine_sine(angle, &c, &s);
     int64_t versine = ((int64_t)1 << 30) - c;               /* 0 .. 2, q30 */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -201,37 +200,39 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
     }
 }
 
-/* Returns now + (now - before) time, time in q24. */
-static int32_t extended(int32_t before, int32_t now, int32_t time)
+void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
+                      const smear_transform *now, int32_t time)
 {
-    SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
-    return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
+    int32_t m[3][3], turned[9], rest[9];
+    for (int i = 0; i < 9; i++)
+        turned[i] = before->basis[i];
+    if (turn->turns) {
+        rotation(m, turn->axis, turn->angle);
+        turn_basis(turned, m, before->basis);
+    }
+    for (int i = 0; i < 9; i++)
+        rest[i] = extended(turned[i], now->basis[i], time);
+    for (int i = 0; i < 9; i++)
+        basis[i] = rest[i];
+    if (turn->turns) {
+        rotation(m, turn->axis, turn_angle(turn, time));
+        turn_basis(basis, m, rest);
+    }
 }
 
 void smear_arc_between(smear_transform *out, const smear_transform *before, const smear_transform *now,
                        int32_t time)
 {
-    struct turn turn;
-    int32_t m[3][3], turned[9], rest[9];
+    struct smear_turn turn;
+    int32_t origin[3];
     if (time == 0 || time == -(1 << 24)) {
         *out = time == 0 ? *now : *before;
         return;
     }
-    bool turns = find_turn(&turn, before, now);
-    for (int i = 0; i < 9; i++)
-        turned[i] = before->basis[i];
-    if (turns) {
-        rotation(m, turn.axis, turn.angle);
-        turn_basis(turned, m, before->basis);
-    }
-    for (int i = 0; i < 9; i++)
-        rest[i] = extended(turned[i], now->basis[i], time);
+    smear_turn_find(&turn, before, now);
     for (int i = 0; i < 3; i++)
-        out->origin[i] = extended(before->origin[i], now->origin[i], time);
-    for (int i = 0; i < 9; i++)
-        out->basis[i] = rest[i];
-    if (turns) {
-        rotation(m, turn.axis, (uint32_t)((int64_t)turn.angle * time >> 24));
-        turn_basis(out->basis, m, rest);
-    }
+        origin[i] = extended(before->origin[i], now->origin[i], time);
+    smear_turn_basis(out->basis, &turn, before, now, time);
+    for (int i = 0; i < 3; i++)
+        out->origin[i] = origin[i];
 }

@@ -7,6 +7,35 @@
 
 #include "base/fixed.h"
 
+/* The turn that takes one pose to another. */
+struct smear_turn {
+    bool turns;             /* else the axis means nothing, and everything is linear */
+    int32_t axis[3];        /* q30, right-handed */
+    uint32_t angle;         /* q32 turns, 0 .. half a turn */
+};
+
+void smear_turn_find(struct smear_turn *turn, const smear_transform *before, const smear_transform *now);
+
+/* Finds cosine and sine, q30, of an angle in q32 turns, to 2^-24. */
+void smear_turn_cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine);
+
+/* Returns the angle of so much time, q24: whole turns are lost. */
+static inline uint32_t turn_angle(const struct smear_turn *turn, int32_t time)
+{
+    return (uint32_t)((int64_t)turn->angle * time >> 24);
+}
+
+/* Returns now + (now - before) time, time in q24. */
+static inline int32_t extended(int32_t before, int32_t now, int32_t time)
+{
+    SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
+    return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
+}
+
+/* Finds the basis of the pose at a time, as smear_arc_between does. */
+void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
+                      const smear_transform *now, int32_t time);
+
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis
  * through the origin of the object, which itself moves along a straight line. Scales (along the

@@ -2,16 +2,20 @@
 /* history.c - see history.h. */
 #include "geometry/history.h"
 
-void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint32_t max_draws)
+void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint32_t max_draws, bool one_pose)
 {
-    h->room = SMEAR_WITH_IDS ? max_draws : 0;
-    h->kept = SMEAR_WITH_IDS ? arena_take(a, max_draws, sizeof *h->kept) : NULL;
+    const bool two = SMEAR_WITH_CURVES && !one_pose;
+    h->room = SMEAR_BLURS ? max_draws : 0;
+    h->kept = SMEAR_BLURS ? arena_take(a, max_draws, sizeof *h->kept) : NULL;
+    h->older = two ? arena_take(a, 1, sizeof *h->older + max_draws * sizeof *h->older->pose) : NULL;
 }
 
 void smear_history_clear(struct smear_history *h)
 {
-    for (uint32_t i = 0; SMEAR_WITH_IDS && i < h->room; i++)
+    for (uint32_t i = 0; SMEAR_BLURS && i < h->room; i++)
         h->kept[i].id = 0;
+    if (SMEAR_BLURS && h->older != NULL)
+        h->older->has_camera = false;
 }
 
 /* Returns the place of an id: its own, else a free one, else one not seen in the last frame; or -1. */
@@ -33,25 +37,35 @@ static int32_t find(const struct smear_history *h, uint32_t id)
 
 bool smear_history_has(const struct smear_history *h, uint32_t id, bool *knows)
 {
-    *knows = true;
-    if (!SMEAR_WITH_IDS || id == 0)
+    *knows = SMEAR_BLURS || id == 0;
+    if (!SMEAR_BLURS || id == 0)
         return false;
     const int32_t at = find(h, id);
     *knows = at >= 0;
     return at >= 0 && h->kept[at].id == id && h->kept[at].frame == h->frame;
 }
 
-bool smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, smear_transform *last)
+int smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, bool cut,
+                       smear_transform past[2])
 {
-    const int32_t at = SMEAR_WITH_IDS && id != 0 ? find(h, id) : -1;
+    const int32_t at = SMEAR_BLURS && id != 0 ? find(h, id) : -1;
     if (at < 0)
-        return false;
+        return 0;
     struct smear_kept_pose *k = &h->kept[at];
-    const bool known = k->id == id && k->frame + 1u == h->frame;
-    if (known)
-        *last = k->pose;
+    int count = k->id == id && k->frame + 1u == h->frame;
+    if (count != 0)
+        past[0] = k->pose;
+    if (SMEAR_WITH_CURVES && h->older != NULL) {
+        struct smear_older_pose *o = &h->older->pose[at];
+        if (count != 0 && o->frame + 2u == h->frame) {
+            past[1] = o->pose;
+            count = 2;
+        }
+        o->frame = count != 0 && !cut ? k->frame : h->frame;        /* that of no frame to come is its own */
+        o->pose = k->pose;
+    }
     k->id = id;
     k->frame = h->frame;
     k->pose = *pose;
-    return known;
+    return count;
 }

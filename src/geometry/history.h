@@ -13,20 +13,37 @@ struct smear_kept_pose {
     smear_transform pose;
 };
 
+/* The pose it had before that, in frame `frame`. */
+struct smear_older_pose {
+    uint32_t frame;
+    smear_transform pose;
+};
+
+/* What was two frames ago. */
+struct smear_older {
+    bool has_camera;
+    smear_camera camera;
+    struct smear_older_pose pose[]; /* beside those of smear_history.kept */
+};
+
 struct smear_history {
     struct smear_kept_pose *kept;   /* a hash table by id */
+    struct smear_older *older;      /* null with desc.reuse.one_pose */
     uint32_t room;
     uint32_t frame;                 /* number of the frame that is submitted */
 };
 
 /* Takes room for as many ids as a frame has draws; nothing is kept yet. */
-void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint32_t max_draws);
+void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint32_t max_draws, bool one_pose);
 void smear_history_clear(struct smear_history *h);
 
 /* Whether an id was submitted in this frame already, as far as there was room to keep it. *knows: there was. */
 bool smear_history_has(const struct smear_history *h, uint32_t id, bool *knows);
 
-/* Keeps the pose of an id, and writes the one it had in the frame before to `last`; false where it had none. */
-bool smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, smear_transform *last);
+/* Keeps the pose of an id, and writes those it had in the last frame and in the one before to past[0] and past[1].
+ * Returns how many it had, without a frame left out: 0 to 2. `cut`: it jumped to the new one, from which no curve leads
+ * back. */
+int smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, bool cut,
+                       smear_transform past[2]);
 
 #endif

@@ -32,6 +32,37 @@ bool smear_camera_is_same(const smear_camera *a, const smear_camera *b)
                       && a->half_height == b->half_height);
 }
 
+/* ------------------------------------------------------------------ attached objects */
+
+bool smear_pose_is_attached(const smear_transform *object, const smear_camera *camera,
+                       const smear_transform *other_object, const smear_camera *other_camera)
+{
+    /* Both in camera space, to within the rounding of their entries. */
+    const smear_transform *o[2] = { object, other_object };
+    const smear_camera *c[2] = { camera, other_camera };
+    if (camera->focal != other_camera->focal || camera->half_height != other_camera->half_height)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        int64_t offset[2] = { 0, 0 };
+        for (int j = 0; j < 3; j++) {
+            int64_t turn[2] = { 0, 0 };
+            for (int side = 0; side < 2; side++) {
+                const int32_t *b = c[side]->pose.basis;
+                for (int k = 0; k < 3; k++)
+                    turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
+                offset[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
+            }
+            if (magnitude(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
+                return false;
+        }
+        if (magnitude(offset[0] - offset[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
+            return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ other poses */
+
 static uint32_t magnitude_of(int32_t a)
 {
     return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
@@ -46,7 +77,7 @@ static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
 enum { DEFORM_MOST = 8 << 8 };
 
 /* Brings the other poses nearer to that of now, or farther: smear_frame.scale.object. */
-static void scale_object(struct smear_draw_poses *p, uint32_t scale)
+static void scale_object(struct smear_draw_poses *p, uint32_t scale, bool curved)
 {
     for (int i = 1; i < 3; i++) {
         const smear_transform *other = p->object[i], *now = p->object[0];
@@ -55,7 +86,8 @@ static void scale_object(struct smear_draw_poses *p, uint32_t scale)
             made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
         for (int k = 0; k < 3; k++)
             made->origin[k] = scaled(now->origin[k], other->origin[k], scale);
-        p->object[i] = made;
+        if (!curved)        /* poses on curves are scaled by their times */
+            p->object[i] = made;
         if (scale == 0)
             p->position[i] = p->position[0];
     }
@@ -112,14 +144,14 @@ static void object_poses(struct smear_draw_poses *p, const struct smear_shot *sh
         p->position[1] = d->open_position;
     if (d->open != NULL)
         p->object[1] = d->open;
+    if (shot_spans_exposure(shot) && d->close != NULL)
+        p->object[2] = d->close;
     if (shot->shutter_poses) {
         if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
             p->position[2] = d->close_position;
-        if (d->close != NULL)
-            p->object[2] = d->close;
     }
     if (SMEAR_WITH_SCALES && shot->object_scale != 256)
-        scale_object(p, shot->object_scale);
+        scale_object(p, shot->object_scale, shot->curved);
 }
 
 void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d,
@@ -137,7 +169,7 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
     p->deform = 256;
     if (SMEAR_BLURS && moves) {
         p->camera[1] = &camera[1];
-        if (shot->shutter_poses)
+        if (shot_spans_exposure(shot))
             p->camera[2] = &camera[2];
     }
     if (SMEAR_BLURS)
@@ -166,6 +198,30 @@ static bool deformation_is_scaled(const struct smear_draw_poses *p, int k)
     return SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && p->deform != 256 && p->position[k] != p->position[0];
 }
 
+/* Whether vertices go straight from where they were a frame ago while the pose follows a curve. */
+static bool deforms_on_curve(const struct smear_draw_poses *p, const struct smear_shot *shot)
+{
+    return SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM && shot->curved && p->position[1] != p->position[0];
+}
+
+/* Returns how much of the vertices' displacement since a frame ago is undone at a time, q24. */
+static int32_t part_at(const struct smear_draw_poses *p, int32_t time)
+{
+    return (int32_t)((int64_t)-time * p->deform >> 8);
+}
+
+/* Shares a placement between the mesh's vertices and those a frame ago. */
+static void place_deformed(struct smear_placement *out, const struct smear_draw_poses *p, int32_t part)
+{
+    struct smear_projection both[2] = { out->now, out->now };
+    const int32_t weight[2] = { (1 << 24) - part, part };
+    smear_projection_weigh(both, weight, 2, p->camera[0]);
+    out->now = both[0];
+    out->extra[0] = both[1];
+    out->extra_position[0] = p->position[1];
+    out->extra_count = 1;
+}
+
 void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,
                             const smear_mesh *mesh, const struct smear_instant *instant)
 {
@@ -184,9 +240,9 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         if (instant->weight[k] == 0)
             continue;
         sum[count] = *project_pose(p, shot, k, mesh);
-        position[count] = p->position[k];
+        position[count] = p->position[shot->curved ? 0 : k];
         weight[count++] = instant->weight[k];
-        if (deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
+        if (!shot->curved && deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
             sum[count] = sum[count - 1];
             position[count] = p->position[0];
             weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);
@@ -207,21 +263,24 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
             out->extra_position[out->extra_count++] = position[k];
         }
     }
+    if (deforms_on_curve(p, shot) && instant->time != 0)
+        place_deformed(out, p, part_at(p, instant->time));
 }
 
 void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, const struct smear_shot *shot, int k)
 {
+    const bool curves = deforms_on_curve(p, shot);
     const int i = a->moves++;
     a->pose[i] = *project_pose(p, shot, k, a->mesh);
-    a->pose_position[i] = p->position[k];
-    if (!SMEAR_WITH_SCALES || !SMEAR_WITH_DEFORM)
+    a->pose_position[i] = p->position[curves ? 1 : k];
+    if (!SMEAR_PARTS_OF_DEFORMS || (!curves && p->deform == 256))
         return;
     struct smear_projection both[2] = { a->pose[i], a->pose[i] };
-    int32_t deform = deformation_is_scaled(p, k) ? p->deform : 256;
-    const int32_t weight[2] = { deform * 65536, (256 - deform) * 65536 };
-    a->has_rest = a->has_rest || deform != 256;
-    if (p->deform != 256)
-        smear_projection_weigh(both, weight, 2, p->camera[0]);
+    const int32_t part = curves ? part_at(p, smear_shot_time(shot, k))
+                                : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
+    const int32_t weight[2] = { part, (1 << 24) - part };
+    a->has_rest = a->has_rest || weight[1] != 0;
+    smear_projection_weigh(both, weight, 2, p->camera[0]);
     a->pose[i] = both[0];
     a->rest[i] = both[1];
 }

@@ -32,6 +32,10 @@ bool smear_transform_is_mirrored(const smear_transform *t);
 bool smear_transform_is_same(const smear_transform *a, const smear_transform *b);
 bool smear_camera_is_same(const smear_camera *a, const smear_camera *b);
 
+/* Whether an object with these two poses stays where it is in the view of the camera's two: attached to it. */
+bool smear_pose_is_attached(const smear_transform *object, const smear_camera *camera,
+                            const smear_transform *other_object, const smear_camera *other_camera);
+
 /* Whether the draw is elsewhere, or of another shape, in pose i than now. */
 static inline bool pose_differs(const struct smear_draw_poses *p, int i)
 {

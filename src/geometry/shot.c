@@ -3,27 +3,47 @@
 #include "geometry/shot.h"
 
 #include "base/fixmath.h"
-#include "geometry/arc.h"
+#include "geometry/curve.h"
 
 /* ------------------------------------------------------------------ instants */
 
-const struct smear_instant smear_instant_now = { { 1 << 24, 0, 0 } };
+const struct smear_instant smear_instant_now = { { 1 << 24, 0, 0 }, 0 };
+
+struct smear_shutter_order smear_shot_order(const struct smear_shot *shot)
+{
+    if (!shot->curved || shot->exposure == SMEAR_CENTRED)
+        return (struct smear_shutter_order){ 1, 0, 2 };
+    return shot->exposure == SMEAR_TRAILING ? (struct smear_shutter_order){ 1, 2, 0 }
+                                            : (struct smear_shutter_order){ 0, 1, 2 };
+}
+
+/* Returns when `u` of the exposure is, q24 frames from now: its centre plus u half exposures. */
+static int32_t time_of(const struct smear_shot *shot, int32_t u)
+{
+    const int64_t half = shot->half_exposure;
+    const int64_t centre = shot->exposure == SMEAR_TRAILING ? -half : shot->exposure == SMEAR_LEADING ? half : 0;
+    return (int32_t)(centre + (half * u >> 16));
+}
+
+int32_t smear_shot_time(const struct smear_shot *shot, int pose)
+{
+    const struct smear_shutter_order at = smear_shot_order(shot);
+    return pose == 0 ? 0 : time_of(shot, pose == at.open ? -65536 : pose == at.close ? 65536 : 0);
+}
 
 struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u)
 {
-    struct smear_instant i;
-    if (shot->shutter_poses) {
+    struct smear_instant i = { { 0, 0, 0 }, shot->shutter_poses ? 0 : time_of(shot, u) };
+    if (shot_spans_exposure(shot)) {
         const int64_t square = (int64_t)u * u >> 16;
-        i.weight[1] = (int32_t)((square - u) * 128);
-        i.weight[2] = (int32_t)((square + u) * 128);
+        const struct smear_shutter_order at = smear_shot_order(shot);
+        i.weight[at.open] = (int32_t)((square - u) * 128);
+        i.weight[at.close] = (int32_t)((square + u) * 128);
+        i.weight[at.middle] = (1 << 24) - i.weight[at.open] - i.weight[at.close];
     } else {
-        /* Frames from now: the exposure's centre plus u half exposures. */
-        const int64_t half = shot->half_exposure;
-        const int64_t centre = shot->exposure == SMEAR_TRAILING ? -half : shot->exposure == SMEAR_LEADING ? half : 0;
-        i.weight[1] = (int32_t)-(centre + (half * u >> 16));
-        i.weight[2] = 0;
+        i.weight[1] = -i.time;
+        i.weight[0] = (1 << 24) - i.weight[1];
     }
-    i.weight[0] = (1 << 24) - i.weight[1] - i.weight[2];
     return i;
 }
 
@@ -79,6 +99,8 @@ void smear_shot_expose(struct smear_shot *shot, smear_frame *f)
     shot->shutter_poses = f->shutter.poses;
     shot->cut = f->cut;
     shot->object_scale = f->scale.object;
+    shot->path = f->shutter.path;
+    shot->curved = false;
 }
 
 /* ------------------------------------------------------------------ cameras */
@@ -108,31 +130,82 @@ bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b)
     return !SMEAR_WITH_ORTHOGRAPHIC || (a->half_height > 0) == (b->half_height > 0);
 }
 
-/* Finds the cameras of the three poses, of one kind: between a perspective and an orthographic view there is no path, as
- * after a cut. */
-void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last)
+/* Between a perspective and an orthographic view there is no path, as after a cut. */
+void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last,
+                    const smear_camera *older)
 {
     if (!SMEAR_BLURS) {
         shot->camera[0] = *frame->camera;
         return;
     }
-    const smear_camera *now = frame->camera, *close = frame->close != NULL ? frame->close : now, *open = now;
-    shot->camera_moves = true;
-    if (frame->open != NULL)
-        open = frame->open;
-    else if (last != NULL && !frame->shutter.poses)
+    const smear_camera *now = frame->camera, *close = frame->close, *open = frame->open;
+    const bool knows_past = open == NULL && !frame->shutter.poses;
+    if (knows_past) {
         open = last;
-    else
-        shot->camera_moves = frame->shutter.poses && frame->close != NULL;
-    if (!smear_camera_is_of_kind(open, now) || !smear_camera_is_of_kind(close, now)) {
-        shot->camera_moves = false;
-        open = close = now;
+        close = last != NULL ? older : NULL;
+    }
+    shot->camera_moves = open != NULL || (frame->shutter.poses && close != NULL);
+    shot->has_older = !frame->shutter.poses && open != NULL && close != NULL && smear_camera_is_of_kind(close, now);
+    if ((open != NULL && !smear_camera_is_of_kind(open, now)) || (frame->shutter.poses && close != NULL && !smear_camera_is_of_kind(close, now))) {
+        shot->camera_moves = shot->has_older = false;
+        open = close = NULL;
     }
     shot->camera[0] = *now;
-    shot->camera[1] = *open;
-    shot->camera[2] = *close;
+    shot->camera[1] = open != NULL ? *open : *now;
+    shot->camera[2] = close != NULL && (frame->shutter.poses || shot->has_older) ? *close : *now;
     if (SMEAR_WITH_SCALES) {
         scale_camera(&shot->camera[1], now, frame);
         scale_camera(&shot->camera[2], now, frame);
     }
 }
+
+/* ------------------------------------------------------------------ curves */
+
+#if SMEAR_WITH_CURVES
+static bool find_curve(struct smear_curve *curve, const struct smear_track *t)
+{
+    return smear_curve_find(curve, t->pose[0], t->pose[1], t->has_older ? t->pose[2] : NULL, t->path);
+}
+
+bool smear_track_is_curved(const struct smear_track *t)
+{
+    struct smear_curve curve;
+    return find_curve(&curve, t);
+}
+
+void smear_track_bend(const struct smear_track *t, const struct smear_shot *shot)
+{
+    struct smear_curve curve;
+    const smear_transform last = *t->pose[1];
+    find_curve(&curve, t);
+    curve.last = &last;
+    for (int k = 1; k < 3; k++) {
+        const int64_t time = (int64_t)smear_shot_time(shot, k) * t->scale >> 8, most = 1 << 30;
+        smear_curve_at(t->pose[k], &curve, (int32_t)(time < -most ? -most : time > most ? most : time));
+    }
+}
+
+static struct smear_track track_of(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+{
+    return (struct smear_track){ { &camera[0].pose, &camera[1].pose, &camera[2].pose }, has_older, shot->path, 256 };
+}
+
+bool smear_cameras_are_curved(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+{
+    const struct smear_track track = track_of(shot, camera, has_older);
+    return smear_track_is_curved(&track);
+}
+
+void smear_cameras_bend(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+{
+    const struct smear_track track = track_of(shot, camera, has_older);
+    const smear_camera *now = &camera[0];
+    const int32_t focal = camera[1].focal, half_height = camera[1].half_height;
+    smear_track_bend(&track, shot);
+    for (int k = 1; k < 3; k++) {
+        const int32_t time = smear_shot_time(shot, k);
+        camera[k].focal = now->focal > 0 ? max_i32(extended(focal, now->focal, time), 1) : 0;
+        camera[k].half_height = now->half_height > 0 ? max_i32(extended(half_height, now->half_height, time), 1) : 0;
+    }
+}
+#endif

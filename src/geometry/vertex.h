@@ -95,6 +95,9 @@ struct smear_placement {
     const int16_t *extra_position[SMEAR_WITH_DEFORM ? 2 : 1];
 };
 
+/* Vertices may be anywhere on the line through two positions of the mesh. */
+#define SMEAR_PARTS_OF_DEFORMS ((SMEAR_WITH_SCALES || SMEAR_WITH_CURVES) && SMEAR_WITH_DEFORM)
+
 /* One draw with everything that does not change from triangle to triangle. */
 struct smear_assembly {
     const smear_mesh *mesh;
@@ -110,8 +113,8 @@ struct smear_assembly {
     /* Velocity is measured between these poses or, where there is one, between it and the drawn instant. */
     struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
     const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
-    bool has_rest;                      /* deformation is scaled: the mesh's own vertices are added by `rest` */
-    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_WITH_SCALES ? 2 : 1];
+    bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by `rest` */
+    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_PARTS_OF_DEFORMS ? 2 : 1];
     struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
     struct smear_shading shading;
 };
@@ -152,7 +155,7 @@ static inline void pose_transform(struct smear_homogeneous *h, const struct smea
                                   uint32_t index)
 {
     transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
-    if (SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && d->has_rest) {
+    if (SMEAR_PARTS_OF_DEFORMS && d->has_rest) {
         struct smear_homogeneous rest;
         transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
         homogeneous_add(h, &rest);

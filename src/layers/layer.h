@@ -18,7 +18,7 @@
 struct smear_layer_setting {
     smear_layer layer;
     smear_camera camera[3];     /* now, open, close */
-    bool has_camera;
+    bool has_camera, has_older;     /* camera[2] is that two frames ago until curves are found */
     int32_t shutter;            /* its exposure over that of the frame, q16 */
 };
 

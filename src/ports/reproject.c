@@ -289,32 +289,3 @@ void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2,
         out[1] = -out[1];
     }
 }
-
-/* ------------------------------------------------------------------ attached objects */
-
-bool smear_is_attached(const smear_transform *object, const smear_camera *camera,
-                       const smear_transform *other_object, const smear_camera *other_camera)
-{
-    /* Both in camera space, to within the rounding of their entries. */
-    const smear_transform *o[2] = { object, other_object };
-    const smear_camera *c[2] = { camera, other_camera };
-    if (camera->focal != other_camera->focal || camera->half_height != other_camera->half_height)
-        return false;
-    for (int i = 0; i < 3; i++) {
-        int64_t offset[2] = { 0, 0 };
-        for (int j = 0; j < 3; j++) {
-            int64_t turn[2] = { 0, 0 };
-            for (int side = 0; side < 2; side++) {
-                const int32_t *b = c[side]->pose.basis;
-                for (int k = 0; k < 3; k++)
-                    turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
-                offset[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
-            }
-            if (magnitude(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
-                return false;
-        }
-        if (magnitude(offset[0] - offset[1]) > (uint64_t)4 << 24)              /* 4 / 65536 units */
-            return false;
-    }
-    return true;
-}

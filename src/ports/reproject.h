@@ -40,8 +40,4 @@ void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now,
 void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units,
                      int32_t out[2]);
 
-/* Whether an object with these two poses stays where it is in the view of the camera's two: attached to it. */
-bool smear_is_attached(const smear_transform *object, const smear_camera *camera,
-                       const smear_transform *other_object, const smear_camera *other_camera);
-
 #endif

@@ -157,6 +157,7 @@ static void check_raster(struct subject *s, int width, int height, bool shutter_
     double bar, start = cpu_seconds();
     present.method = SMEAR_RECONSTRUCT;
     present.shutter_poses = shutter_poses;
+    present.path = SMEAR_PATH_LINE;         /* the reference's velocities are now less a frame ago */
     present.light = encoded ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR;
     if (!compare(s, &present, width, height, &d, &detail, &bar))
         return;

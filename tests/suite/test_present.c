@@ -217,7 +217,8 @@ static void check_poses(struct mock *mock, double time, double slack)
     if (CHECK(p != NULL && p->draw_count == 1)) {
         CHECK_CLOSE(worst_error(p, &scene, 0, time), 0.0, slack);
         CHECK_CLOSE(worst_error(p, &scene, 1, time - 1.0 / 30), 0.0, slack);
-        CHECK(p->draw[0].close == NULL && p->frame.close == NULL && !p->frame.shutter.poses);
+        CHECK_CLOSE(worst_error(p, &scene, 2, time - 2.0 / 30), 0.0, slack);
+        CHECK(!p->frame.shutter.poses);
     }
     options.shutter_poses = true;
     p = presenter_frame(presenter, time, &options, &f);
@@ -685,8 +686,9 @@ static void test_other_poses_are_taken_at_the_right_times(void)
                                             .method = SMEAR_RECONSTRUCT };
     const struct presented *p = presenter_frame(presenter, 0.0, &closed, &f);
     CHECK(p != NULL && p->frame.method == SMEAR_NONE);
-    CHECK_EQ(mock.pose_count, 2);
+    CHECK_EQ(mock.pose_count, 3);
     CHECK_CLOSE(mock.posed_at[1], -1.0 / 60, 1e-12);
+    CHECK_CLOSE(mock.posed_at[2], -2.0 / 60, 1e-12);
     presenter_free(presenter);
 }
 

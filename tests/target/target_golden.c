@@ -49,6 +49,8 @@ static bool is_refused(const struct tape *tape)
             return true;
         if (f->frame->light_space == SMEAR_LIGHT_LINEAR && !SMEAR_WITH_LINEAR)
             return true;
+        if (method != SMEAR_NONE && !f->frame->shutter.poses && f->frame->shutter.path != SMEAR_PATH_LINE && !SMEAR_WITH_CURVES)
+            return true;
         if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
             || ((f->frame->scale.rotation | f->frame->scale.translation | f->frame->scale.object) != 0 && !SMEAR_WITH_SCALES)
             || ((f->frame->shutter.mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter.us != 0) && !SMEAR_WITH_SCALES))
@@ -56,7 +58,7 @@ static bool is_refused(const struct tape *tape)
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;
-            if ((draw->id != 0 && !SMEAR_WITH_IDS) || (draw->billboard != 0 && !SMEAR_WITH_BILLBOARDS))
+            if (draw->billboard != 0 && !SMEAR_WITH_BILLBOARDS)
                 return true;
             if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
                 || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))

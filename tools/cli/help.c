@@ -62,9 +62,13 @@ static const char *const render_help[] = {
     "                        [native]\n"
     "  --exposure centred|trailing|leading\n"
     "                        where the frame's instant lies in it [centred]\n"
+    "  --path curve|line|origin|screw\n"
+    "                        what joins poses of frames ago: the turn about the point that three of\n"
+    "                        them tell; straight lines; the turn about the own origin, which goes\n"
+    "                        straight; the turn about the axis that leads from pose to pose [curve]\n"
     "  --poses previous|shutter\n"
-    "                        what the library is told: the pose a frame ago, or those at shutter\n"
-    "                        open, centre and close [previous]\n",
+    "                        what the library is told: the poses of one and two frames ago, or those\n"
+    "                        at shutter open, centre and close [previous]\n",
     method_lines,
     "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
     "                        at most, slots of timemask (8, 16 or 32) [32]\n"

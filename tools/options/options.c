@@ -120,6 +120,16 @@ static const char *read_poses(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_path(void *to, const char *value)
+{
+    static const char *const names[] = { "curve", "line", "origin", "screw", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs curve, line, origin or screw";
+    ((struct render_options *)to)->path = (smear_path)(SMEAR_PATH_CURVE + found);
+    return NULL;
+}
+
 static const char *read_method(void *to, const char *value)
 {
     static char text[280];
@@ -374,6 +384,7 @@ static const struct option table[] = {
     { "--shutter", true, read_shutter },
     { "--exposure", true, read_exposure },
     { "--poses", true, read_poses },
+    { "--path", true, read_path },
     { "--method", true, read_method },
     { "--samples", true, read_samples },
     { "--exact", false, read_exact },

@@ -27,6 +27,7 @@ struct render_options {
     double reference_hz;        /* of modes that are not native */
     smear_exposure exposure;
     bool shutter_poses;
+    smear_path path;            /* how poses of frames ago are joined */
     smear_method method;
     int samples;                /* 0: the method's default */
     bool exact, has_quality, has_target;

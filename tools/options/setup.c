@@ -70,7 +70,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
     out->present = (struct present_options){
         .fps = is_builtin && !o->has_fps ? scene->fps : o->fps,
         .exposure = o->exposure,
-        .shutter_poses = o->shutter_poses, .method = o->method,
+        .shutter_poses = o->shutter_poses, .path = o->path, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear,
         .reconstruct = o->reconstruct, .target = o->target, .budget = o->budget,

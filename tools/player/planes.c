@@ -42,6 +42,7 @@ bool planes_draw(struct planes *planes, const struct presented *presented, struc
     struct presented drawn = *presented;
     drawn.frame.method = SMEAR_RECONSTRUCT;
     drawn.frame.shutter.exposure = SMEAR_CENTRED;
+    drawn.frame.shutter.path = SMEAR_PATH_LINE;     /* velocities of curves belong to the exposure */
     drawn.frame.samples = 1;
     planes->presented = &drawn;
     bool ok = device_fit(&planes->device, &drawn, f) && device_draw(&planes->device, &drawn, f);

@@ -21,6 +21,7 @@
  * coarse beyond 256 near planes. Moved by powers of two, so that it rests while things move. */
 #define NEAR_SLACK 128.0
 
+/* Without poses of the shutter OPEN is a frame ago and CLOSE two frames ago. */
 enum { NOW, OPEN, CLOSE, POSES };
 
 #define NOT_KEPT INT_MAX
@@ -417,10 +418,12 @@ static bool add_part(struct presenter *p, const struct converted *c, const struc
     return true;
 }
 
-/* The draw at each pose; null where it is not known. Returns whether it was cut in between. */
+/* The draw at each pose; null where it is not known. Returns whether it was cut in between: two frames ago that only
+ * means that nothing is known of then. */
 static bool draw_poses(const struct presenter *p, int index, const bool has[POSES],
                        const struct scene_draw *pose[POSES])
 {
+    const bool has_older = !p->out.frame.shutter.poses;
     bool cut = false;
     for (int i = 0; i < POSES; i++) {
         const struct scene_instant *instant = &p->instant[i];
@@ -429,7 +432,11 @@ static bool draw_poses(const struct presenter *p, int index, const bool has[POSE
             continue;
         if (index < instant->draw_count && !instant->draw[index].hidden)
             pose[i] = &instant->draw[index];
-        cut = cut || pose[i] == NULL || pose[i]->epoch != pose[NOW]->epoch;
+        const bool is_other = pose[i] == NULL || pose[i]->epoch != pose[NOW]->epoch;
+        if (is_other && i == CLOSE && has_older)
+            pose[i] = NULL;
+        else
+            cut = cut || is_other;
     }
     if (cut)
         pose[OPEN] = pose[CLOSE] = NULL;
@@ -462,6 +469,7 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .clear = o->clear, .layer = o->layer, .layer_count = (uint8_t)o->layer_count };
     frame->shutter = (smear_shutter){ .degrees = (uint16_t)degrees, .exposure = (uint8_t)o->exposure,
                                       .poses = o->shutter_poses && degrees > 0 && !o->instant_only,
+                                      .path = (uint8_t)o->path,
                                       .mode = (uint8_t)o->shutter_mode, .frame_us = (uint32_t)o->frame_us,
                                       .us = (uint32_t)o->shutter_us, .curve = o->shutter };
     frame->filter = (smear_filter){ .kind = (uint8_t)o->filter, .flags = (uint8_t)o->reconstruct,
@@ -487,7 +495,8 @@ static bool pose_all(struct presenter *p, double time, const struct present_opti
     if (o->instant_only)
         return true;
     if (!frame->shutter.poses)
-        return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f);
+        return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f) &&
+               scene_pose(p->scene, time - 2.0 / o->fps, &p->instant[CLOSE], f);
     return scene_pose(p->scene, open, &p->instant[OPEN], f) &&
            scene_pose(p->scene, close, &p->instant[CLOSE], f);
 }
@@ -631,14 +640,17 @@ static bool present(struct presenter *p, double time, const struct present_optio
     if (!fill_frame(&out->frame, o, f) || !pose_all(p, time, o, f))
         return false;
     const struct scene_instant *now = &p->instant[NOW];
-    const bool has[POSES] = { true, !o->instant_only, out->frame.shutter.poses != 0 };
+    bool has[POSES] = { true, !o->instant_only, !o->instant_only };
     for (int i = 0; i < POSES; i++) {
         const struct scene_camera *camera = &p->instant[i].camera;
         if (!has[i])
             continue;
         if (!check_camera(camera, f))
             return false;
-        if (camera->epoch != now->camera.epoch || camera->orthographic != now->camera.orthographic)
+        const bool is_other = camera->epoch != now->camera.epoch || camera->orthographic != now->camera.orthographic;
+        if (is_other && i == CLOSE && !out->frame.shutter.poses)
+            has[i] = false;
+        else if (is_other)
             out->frame.cut = 1;
     }
     if (!per_draw_room(p, now->draw_count, f) || !convert_new(p, now, f) ||
@@ -648,6 +660,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
     /* after a cut the other poses mean nothing */
     const bool moves = out->frame.cut == 0;
     const bool seen[POSES] = { true, has[OPEN] && moves, has[CLOSE] && moves };
+    const bool blurred[POSES] = { true, seen[OPEN], seen[CLOSE] && out->frame.shutter.poses };
     const double *reference = now->camera.pose + 12;
     struct reach reach;
     if (o->keep_ids) {
@@ -655,7 +668,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
             memcpy(p->kept_reference, reference, sizeof p->kept_reference);
         reference = p->kept_reference;
     }
-    reach_all(p, seen, reference, &reach);
+    reach_all(p, blurred, reference, &reach);
     if (!choose_world(p, o->keep_ids, &reach, f))
         return false;
 

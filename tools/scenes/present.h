@@ -40,6 +40,7 @@ struct present_options {
     double shutter_degrees;         /* rounded to whole degrees; below half a degree: SMEAR_NONE */
     smear_exposure exposure;
     bool shutter_poses;             /* give the poses at shutter open and close, not a frame ago */
+    smear_path path;                /* how poses of frames ago are joined */
     bool instant_only;              /* give no other pose: nothing moves */
     bool cut;                       /* no motion in this frame */
     bool fit_grid;                  /* positions get the grid that fits them best, which takes a

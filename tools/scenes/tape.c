@@ -349,6 +349,7 @@ static void add_draw(struct text *text, struct tape_writer *w, const smear_draw 
     add_field(text, "motion", d->motion);
     add_field(text, "cut", d->cut);
     add_field(text, "billboard", d->billboard);
+    add_field(text, "path", d->path);
     add_field(text, "open_count", d->open_count);
     add_field(text, "close_count", d->close_count);
     add_field(text, "layers", d->layers);
@@ -396,6 +397,7 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_field(&text, "shutter.exposure", frame->shutter.exposure);
     add_field(&text, "shutter.poses", frame->shutter.poses);
     add_field(&text, "shutter.mode", frame->shutter.mode);
+    add_field(&text, "shutter.path", frame->shutter.path);
     add_field(&text, "shutter.reference_hz", frame->shutter.reference_hz);
     add_field(&text, "shutter.frame_us", frame->shutter.frame_us);
     add_field(&text, "shutter.us", frame->shutter.us);

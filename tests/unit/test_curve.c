@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: MIT */
+/* test_curve.c - curves through two and three poses, against motion in double precision; and what is kept for them. */
+#include "geometry/curve.h"
+#include "geometry/history.h"
+#include "geometry/shot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/random.h"
+#include "tests/test.h"
+
+void suite_curve(void);
+
+enum { ONE = 1 << 24 };
+
+/* ------------------------------------------------------------------ motion in double */
+
+/* Turns evenly about a pivot, which moves evenly and, along the axis or where nothing turns, falls. */
+struct motion {
+    double axis[3], angle;      /* radians per frame */
+    double pivot[3], velocity[3], fall[3];
+    double arm[3];              /* from the pivot to the object's origin, now */
+};
+
+static void turned(double out[3], const struct motion *m, double angle, const double v[3])
+{
+    const double *n = m->axis, c = cos(angle), s = sin(angle);
+    const double along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = c * v[i] + s * (n[j] * v[k] - n[k] * v[j]) + (1 - c) * along * n[i];
+    }
+}
+
+static void motion_at(double basis[9], double origin[3], const struct motion *m, double time)
+{
+    double arm[3];
+    turned(arm, m, m->angle * time, m->arm);
+    for (int i = 0; i < 3; i++)
+        origin[i] = m->pivot[i] + m->velocity[i] * time + m->fall[i] * time * time / 2 + arm[i];
+    for (int j = 0; j < 3; j++) {
+        const double unit[3] = { j == 0, j == 1, j == 2 };
+        double column[3];
+        turned(column, m, m->angle * time, unit);
+        for (int i = 0; i < 3; i++)
+            basis[3 * i + j] = column[i];
+    }
+}
+
+static smear_transform pose(const struct motion *m, double time)
+{
+    double basis[9], origin[3];
+    smear_transform t;
+    motion_at(basis, origin, m, time);
+    for (int i = 0; i < 9; i++)
+        t.basis[i] = (int32_t)floor(basis[i] * 16777216.0 + 0.5);
+    for (int i = 0; i < 3; i++)
+        t.origin[i] = (int32_t)floor(origin[i] * 65536.0 + 0.5);
+    return t;
+}
+
+static struct motion random_motion(double angle)
+{
+    struct motion m = { .angle = angle };
+    double length = 0;
+    for (int i = 0; i < 3; i++) {
+        m.axis[i] = uniform(-1, 1);
+        length += m.axis[i] * m.axis[i];
+        m.pivot[i] = uniform(-100, 100);
+        m.velocity[i] = uniform(-1, 1);
+    }
+    for (int i = 0; i < 3; i++)
+        m.axis[i] /= sqrt(length);
+    return m;
+}
+
+/* How far the curve is from the motion at a time: entries of the basis in 2^-20, the origin in 2^-16. */
+struct error {
+    double basis, origin;
+};
+
+static struct error error_at(const struct smear_curve *c, const struct motion *m, double time)
+{
+    double basis[9], origin[3];
+    smear_transform out;
+    struct error e = { 0, 0 };
+    smear_curve_at(&out, c, (int32_t)floor(time * ONE + 0.5));
+    motion_at(basis, origin, m, floor(time * ONE + 0.5) / ONE);
+    for (int i = 0; i < 9; i++)
+        e.basis = fmax(e.basis, fabs(out.basis[i] / 16777216.0 - basis[i]) * 1048576.0);
+    for (int i = 0; i < 3; i++)
+        e.origin = fmax(e.origin, fabs(out.origin[i] / 65536.0 - origin[i]) * 65536.0);
+    return e;
+}
+
+/* The worst of them over times of exposures of up to two frames. */
+static struct error worst_error(const struct motion *m, int poses, uint8_t path)
+{
+    const smear_transform now = pose(m, 0), last = pose(m, -1), older = pose(m, -2);
+    struct smear_curve c;
+    struct error worst = { 0, 0 };
+    smear_curve_find(&c, &now, &last, poses == 3 ? &older : NULL, path);
+    for (int k = -8; k <= 8; k++) {
+        const struct error e = error_at(&c, m, k / 8.0);
+        worst.basis = fmax(worst.basis, e.basis);
+        worst.origin = fmax(worst.origin, e.origin);
+    }
+    return worst;
+}
+
+/* ------------------------------------------------------------------ curves */
+
+static void test_a_wheel_turns_about_its_origin(void)
+{
+    random_state = 1;
+    for (int n = 0; n < 300; n++) {
+        const struct motion m = random_motion(uniform(0.05, 3.1));
+        for (int poses = 2; poses <= 3; poses++) {
+            const struct error e = worst_error(&m, poses, SMEAR_PATH_CURVE);
+            CHECK_CLOSE(e.basis, 0.0, 1.0);
+            CHECK_CLOSE(e.origin, 0.0, 8.0);
+        }
+        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_ORIGIN).origin, 0.0, 2.0);
+    }
+}
+
+static void test_a_blade_beside_its_pivot_goes_along_a_screw(void)
+{
+    random_state = 2;
+    for (int n = 0; n < 300; n++) {
+        struct motion m = random_motion(uniform(0.05, 3.0));
+        const double along = uniform(-0.5, 0.5);
+        for (int i = 0; i < 3; i++) {
+            m.arm[i] = uniform(-3, 3);
+            m.velocity[i] = m.axis[i] * along;
+        }
+        CHECK_CLOSE(worst_error(&m, 2, SMEAR_PATH_SCREW).origin, 0.0, 16.0 + 24.0 / m.angle);
+        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 16.0 + 24.0 / m.angle);
+    }
+}
+
+static void test_three_poses_tell_the_pivot_of_what_turns_and_goes(void)
+{
+    random_state = 3;
+    for (int n = 0; n < 300; n++) {
+        struct motion m = random_motion(uniform(0.05, 0.9));
+        for (int i = 0; i < 3; i++) {
+            m.velocity[i] *= 4;
+            m.arm[i] = uniform(-0.2, 0.2);
+        }
+        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 16.0 + 24.0 / m.angle);
+    }
+}
+
+static void test_three_poses_tell_a_fall(void)
+{
+    random_state = 4;
+    for (int n = 0; n < 200; n++) {
+        struct motion m = random_motion(0);
+        m.velocity[0] = 2;
+        for (int i = 0; i < 3; i++)
+            m.fall[i] = uniform(-0.3, 0.3);
+        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 4.0);
+    }
+}
+
+static void test_nothing_jumps_where_small_turns_begin(void)
+{
+    random_state = 5;
+    for (int n = 0; n < 200; n++) {
+        struct motion m = random_motion(6.2831853 / 256 * uniform(0.9, 1.1));
+        for (int i = 0; i < 3; i++) {
+            m.velocity[i] = m.axis[i];
+            m.arm[i] = uniform(-4, 4);
+        }
+        /* 4 units of arm by the square of the angle bend the path by 1/400 of a unit, of which a hundredth is lost. */
+        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 24.0);
+    }
+}
+
+static void test_a_rebound_tells_nothing(void)
+{
+    for (int turns = 0; turns < 2; turns++) {
+        struct motion m = { .axis = { 0, 0, 1 }, .angle = turns * 0.3, .velocity = { 0.5, 1, 0 } };
+        const smear_transform now = pose(&m, 0), last = pose(&m, -1);
+        smear_transform older = pose(&m, -2);
+        struct smear_curve c;
+        older.origin[1] = now.origin[1];            /* it came down as fast as it goes up */
+        CHECK_EQ(smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE), turns);
+        CHECK_CLOSE(error_at(&c, &m, 0.25).origin, 0.0, 2.0);
+        older.origin[0] += 500 * 65536;             /* it was put elsewhere */
+        CHECK_EQ(smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE), turns);
+        CHECK_CLOSE(error_at(&c, &m, 0.25).origin, 0.0, 2.0);
+    }
+}
+
+static void test_what_goes_evenly_and_does_not_turn_has_no_curve(void)
+{
+    random_state = 6;
+    for (int n = 0; n < 200; n++) {
+        const struct motion m = random_motion(0);
+        const smear_transform now = pose(&m, 0), last = pose(&m, -1), older = pose(&m, -2);
+        struct smear_curve c;
+        for (int path = SMEAR_PATH_CURVE; path <= SMEAR_PATH_SCREW; path++)
+            CHECK(!smear_curve_find(&c, &now, &last, &older, (uint8_t)path));
+    }
+    const struct motion m = random_motion(0.5);
+    const smear_transform now = pose(&m, 0), last = pose(&m, -1);
+    struct smear_curve c;
+    CHECK(!smear_curve_find(&c, &now, &last, NULL, SMEAR_PATH_LINE));
+    CHECK(smear_curve_find(&c, &now, &last, NULL, SMEAR_PATH_CURVE));
+}
+
+static void test_poses_are_met_exactly(void)
+{
+    random_state = 7;
+    for (int n = 0; n < 100; n++) {
+        struct motion m = random_motion(uniform(0.1, 3));
+        m.arm[0] = 2;
+        const smear_transform now = pose(&m, 0), last = pose(&m, -1), older = pose(&m, -2);
+        smear_transform out;
+        struct smear_curve c;
+        smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE);
+        smear_curve_at(&out, &c, 0);
+        CHECK_EQ(memcmp(&out, &now, sizeof out), 0);
+        smear_curve_at(&out, &c, -ONE);
+        CHECK_EQ(memcmp(&out, &last, sizeof out), 0);
+    }
+}
+
+/* Whatever is given: no overflow (sanitizers), and nothing but poses. */
+static void test_wild_poses_do_no_harm(void)
+{
+    random_state = 8;
+    for (int n = 0; n < 20000; n++) {
+        smear_transform t[3], out;
+        struct smear_curve c;
+        struct motion m = random_motion(uniform(0, 3.2));
+        for (int i = 0; i < 3; i++) {
+            t[i] = pose(&m, -i);
+            for (int k = 0; k < 9 && n % 3 == 0; k++)
+                t[i].basis[k] = (int32_t)random_u32();
+            for (int k = 0; k < 3; k++)
+                t[i].origin[k] = (int32_t)random_u32();
+        }
+        smear_curve_find(&c, &t[0], &t[1], n & 1 ? &t[2] : NULL, (uint8_t)(SMEAR_PATH_CURVE + n % 4));
+        smear_curve_at(&out, &c, (int32_t)random_u32() >> 1);
+        for (int i = 0; i < 3; i++)
+            CHECK(out.origin[i] != INT32_MIN);
+    }
+}
+
+/* ------------------------------------------------------------------ tracks */
+
+/* A camera that turns, goes and zooms, at the times of each exposure. */
+static void test_cameras_are_where_the_exposure_asks(void)
+{
+    struct motion m = { .axis = { 0, 1, 0 }, .angle = 0.2, .velocity = { 0.1, 0, -0.3 }, .arm = { 0, 0, 4 } };
+    static const double time[3][2] = { { -0.25, 0.25 }, { -0.5, -0.25 }, { 0.25, 0.5 } };
+    for (int exposure = SMEAR_CENTRED; exposure <= SMEAR_LEADING; exposure++) {
+        struct smear_shot shot = { .curved = true, .exposure = (uint8_t)exposure, .half_exposure = ONE / 4,
+                                   .path = SMEAR_PATH_CURVE };
+        smear_camera camera[3];
+        for (int i = 0; i < 3; i++)
+            camera[i] = (smear_camera){ .pose = pose(&m, -i), .focal = 65536 - 1000 * i, .near_plane = 65536 };
+        CHECK(smear_cameras_are_curved(&shot, camera, true));
+        smear_cameras_bend(&shot, camera, true);
+        for (int i = 1; i < 3; i++) {
+            const smear_transform want = pose(&m, time[exposure][i - 1]);
+            for (int k = 0; k < 9; k++)
+                CHECK_NEAR(camera[i].pose.basis[k], want.basis[k], 16);
+            for (int k = 0; k < 3; k++)
+                CHECK_NEAR(camera[i].pose.origin[k], want.origin[k], 40);
+            CHECK_CLOSE((double)camera[i].focal, 65536 + 1000 * time[exposure][i - 1], 1.0);
+        }
+        /* The instants that are drawn are those of the poses. */
+        const struct smear_shutter_order at = smear_shot_order(&shot);
+        CHECK_EQ(smear_instant_at(&shot, -65536).weight[at.open], ONE);
+        CHECK_EQ(smear_instant_at(&shot, 0).weight[at.middle], ONE);
+        CHECK_EQ(smear_instant_at(&shot, 65536).weight[at.close], ONE);
+        CHECK_EQ(smear_shot_time(&shot, 0), 0);
+    }
+}
+
+/* ------------------------------------------------------------------ history */
+
+static struct smear_history history_of(void *memory, bool one_pose)
+{
+    struct smear_history h = { .frame = 0 };
+    struct smear_arena a = { memory, 0 };
+    smear_history_lay_out(&h, &a, 4, one_pose);
+    smear_history_clear(&h);
+    return h;
+}
+
+/* Keeps pose `number` of an id in the next frame; returns how many past ones it had, after a look at them. */
+static int keep(struct smear_history *h, uint32_t id, int number, bool cut)
+{
+    static const smear_transform identity = SMEAR_IDENTITY;
+    smear_transform now = identity, past[2] = { identity, identity };
+    h->frame++;
+    now.origin[0] = number;
+    const int count = smear_history_keep(h, id, &now, cut, past);
+    for (int i = 0; i < count; i++)
+        CHECK_EQ(past[i].origin[0], number - 1 - i);
+    return count;
+}
+
+static void test_two_poses_are_kept_of_each_id(void)
+{
+    static uint64_t memory[256];
+    struct smear_history h = history_of(memory, false);
+    for (int n = 0; n < 5; n++)
+        CHECK_EQ(keep(&h, 9, n, false), n < 2 ? n : 2);
+    struct smear_history one = history_of(memory, true);
+    for (int n = 0; n < 5; n++)
+        CHECK_EQ(keep(&one, 9, n, false), n < 1 ? n : 1);
+}
+
+static void test_no_curve_leads_over_a_cut(void)
+{
+    static uint64_t memory[256];
+    struct smear_history h = history_of(memory, false);
+    keep(&h, 9, 0, false);
+    keep(&h, 9, 1, false);
+    CHECK_EQ(keep(&h, 9, 2, true), 2);      /* a cut draw has no motion, whatever is known */
+    CHECK_EQ(keep(&h, 9, 3, false), 1);
+    CHECK_EQ(keep(&h, 9, 4, false), 2);
+}
+
+static void test_a_frame_without_the_id_forgets_it(void)
+{
+    static uint64_t memory[256];
+    struct smear_history h = history_of(memory, false);
+    for (int n = 0; n < 3; n++)
+        keep(&h, 9, n, false);
+    h.frame++;
+    CHECK_EQ(keep(&h, 9, 4, false), 0);
+    CHECK_EQ(keep(&h, 9, 5, false), 1);
+    CHECK_EQ(keep(&h, 9, 6, false), 2);
+    /* Others take its place when there is no other: nothing of it is theirs. */
+    h.frame += 2;
+    for (uint32_t id = 20; id < 24; id++) {
+        smear_transform past[2], now = SMEAR_IDENTITY;
+        CHECK_EQ(smear_history_keep(&h, id, &now, false, past), 0);
+    }
+    h.frame--;
+    CHECK_EQ(keep(&h, 9, 7, false), 0);
+}
+
+void suite_curve(void)
+{
+    RUN(test_a_wheel_turns_about_its_origin);
+    RUN(test_a_blade_beside_its_pivot_goes_along_a_screw);
+    RUN(test_three_poses_tell_the_pivot_of_what_turns_and_goes);
+    RUN(test_three_poses_tell_a_fall);
+    RUN(test_nothing_jumps_where_small_turns_begin);
+    RUN(test_a_rebound_tells_nothing);
+    RUN(test_what_goes_evenly_and_does_not_turn_has_no_curve);
+    RUN(test_poses_are_met_exactly);
+    RUN(test_wild_poses_do_no_harm);
+    RUN(test_cameras_are_where_the_exposure_asks);
+    RUN(test_two_poses_are_kept_of_each_id);
+    RUN(test_no_curve_leads_over_a_cut);
+    RUN(test_a_frame_without_the_id_forgets_it);
+}
