@@ -151,7 +151,7 @@ static void object_poses(struct smear_draw_poses *p, const struct smear_shot *sh
             p->position[2] = d->close_position;
     }
     if (SMEAR_WITH_SCALES && shot->object_scale != 256)
-        scale_object(p, shot->object_scale, shot->curved);
+        scale_object(p, shot->object_scale, shot_is_curved(shot));
 }
 
 void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d,
@@ -201,7 +201,7 @@ static bool deformation_is_scaled(const struct smear_draw_poses *p, int k)
 /* Whether vertices go straight from where they were a frame ago while the pose follows a curve. */
 static bool deforms_on_curve(const struct smear_draw_poses *p, const struct smear_shot *shot)
 {
-    return SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM && shot->curved && p->position[1] != p->position[0];
+    return SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM && shot_is_curved(shot) && p->position[1] != p->position[0];
 }
 
 /* Returns how much of the vertices' displacement since a frame ago is undone at a time, q24. */
@@ -240,9 +240,9 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         if (instant->weight[k] == 0)
             continue;
         sum[count] = *project_pose(p, shot, k, mesh);
-        position[count] = p->position[shot->curved ? 0 : k];
+        position[count] = p->position[shot_is_curved(shot) ? 0 : k];
         weight[count++] = instant->weight[k];
-        if (!shot->curved && deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
+        if (!shot_is_curved(shot) && deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
             sum[count] = sum[count - 1];
             position[count] = p->position[0];
             weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);

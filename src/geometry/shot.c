@@ -9,14 +9,6 @@
 
 const struct smear_instant smear_instant_now = { { 1 << 24, 0, 0 }, 0 };
 
-struct smear_shutter_order smear_shot_order(const struct smear_shot *shot)
-{
-    if (!shot->curved || shot->exposure == SMEAR_CENTRED)
-        return (struct smear_shutter_order){ 1, 0, 2 };
-    return shot->exposure == SMEAR_TRAILING ? (struct smear_shutter_order){ 1, 2, 0 }
-                                            : (struct smear_shutter_order){ 0, 1, 2 };
-}
-
 /* Returns when `u` of the exposure is, q24 frames from now: its centre plus u half exposures. */
 static int32_t time_of(const struct smear_shot *shot, int32_t u)
 {
@@ -25,11 +17,13 @@ static int32_t time_of(const struct smear_shot *shot, int32_t u)
     return (int32_t)(centre + (half * u >> 16));
 }
 
+#if SMEAR_WITH_CURVES
 int32_t smear_shot_time(const struct smear_shot *shot, int pose)
 {
     const struct smear_shutter_order at = smear_shot_order(shot);
     return pose == 0 ? 0 : time_of(shot, pose == at.open ? -65536 : pose == at.close ? 65536 : 0);
 }
+#endif
 
 struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u)
 {

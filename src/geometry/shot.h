@@ -23,6 +23,14 @@ struct smear_shot {
     int32_t height;                 /* of the frame, px */
 };
 
+static inline bool shot_is_curved(const struct smear_shot *shot) { return SMEAR_WITH_CURVES && shot->curved; }
+
+/* Whether velocities are measured over the whole exposure, else over a frame. */
+static inline bool shot_spans_exposure(const struct smear_shot *shot)
+{
+    return shot->shutter_poses || shot_is_curved(shot);
+}
+
 /* Weights of the poses for an instant, q24; they add up to one. */
 struct smear_instant {
     int32_t weight[3];
@@ -44,16 +52,14 @@ struct smear_shutter_order {
     uint8_t open, middle, close;
 };
 
-struct smear_shutter_order smear_shot_order(const struct smear_shot *shot);
+static inline struct smear_shutter_order smear_shot_order(const struct smear_shot *shot)
+{
+    static const struct smear_shutter_order order[] = { { 1, 0, 2 }, { 1, 2, 0 }, { 0, 1, 2 } };
+    return order[shot_is_curved(shot) ? shot->exposure : SMEAR_CENTRED];
+}
 
 /* Returns the time of a pose of a curved shot, q24 frames from now. */
 int32_t smear_shot_time(const struct smear_shot *shot, int pose);
-
-/* Whether velocities are measured over the whole exposure, else over a frame. */
-static inline bool shot_spans_exposure(const struct smear_shot *shot)
-{
-    return shot->shutter_poses || shot->curved;
-}
 
 /* Fills in the exposure of a frame whose defaults are filled in, and brings its shutter.degrees up to date. */
 void smear_shot_expose(struct smear_shot *shot, smear_frame *frame);
