@@ -81,8 +81,10 @@ static void keep_layers(struct smear_layers *l, const smear_frame *f)
             s->camera[1] = s->layer.open != NULL ? *s->layer.open : s->camera[0];
             s->camera[2] = s->layer.close != NULL ? *s->layer.close : s->camera[0];
             s->has_older = s->layer.open != NULL && s->layer.close != NULL;
-            if (!smear_camera_is_of_kind(&s->camera[1], s->camera) || !smear_camera_is_of_kind(&s->camera[2], s->camera))
-                s->camera[1] = s->camera[2] = s->camera[0], s->has_older = false;
+            if (!smear_camera_is_of_kind(&s->camera[1], s->camera) || !smear_camera_is_of_kind(&s->camera[2], s->camera)) {
+                s->camera[1] = s->camera[2] = s->camera[0];
+                s->has_older = false;
+            }
         }
         s->layer.camera = s->layer.open = s->layer.close = NULL;
         s->shutter = s->layer.shutter_degrees != 0

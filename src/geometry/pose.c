@@ -35,7 +35,7 @@ bool smear_camera_is_same(const smear_camera *a, const smear_camera *b)
 /* ------------------------------------------------------------------ attached objects */
 
 bool smear_pose_is_attached(const smear_transform *object, const smear_camera *camera,
-                       const smear_transform *other_object, const smear_camera *other_camera)
+                            const smear_transform *other_object, const smear_camera *other_camera)
 {
     /* Both in camera space, to within the rounding of their entries. */
     const smear_transform *o[2] = { object, other_object };
