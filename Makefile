@@ -46,7 +46,7 @@ SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
-TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples fuzz target shell)
+TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
@@ -61,7 +61,7 @@ BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(MODEL_SRC) \
     $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c output.c palette.c place.c \
         png_read.c png_write.c ppm.c) \
-    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c model_scene.c present.c \
+    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c cover.c model_scene.c present.c \
         present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
@@ -333,6 +333,22 @@ test-readme: $(LIB)
 	! $(BUILD)/readme | cmp -s - $(BUILD)/readme.ppm
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
 	    grep -q "RUN($$name);" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
+
+# The program with its calls of the system wrapped: each can be made to fail.
+FAULTS_WRAPPED := main malloc calloc realloc open fopen fdopen fileno open_memstream realpath fsync rename link unlink pthread_create
+$(BUILD)/faults-injected: $(call objects,$(wildcard tests/faults/*.c) $(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
+	$(call say,LD)
+	$(CC) $(LDFLAGS) $(FAULTS_WRAPPED:%=-Wl,--wrap=%) -o $@ $^ -lm -lpthread
+
+$(BUILD)/hostile: tests/shell/hostile.c
+	$(call say,CC,$<)
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
+
+.PHONY: faults-injected
+## every allocation, read, write and rename of the program fails once, and the power at each
+faults-injected: $(BUILD)/faults-injected
+	$< .
 
 FUZZ_CC := clang-14
 FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -I. -DSMEAR_CHECK=1

@@ -49,6 +49,10 @@ needs python3 "python3" || true        # cli.sh reads statistics with it
 suite command-line sh tests/shell/cli.sh build/smear
 suite outputs sh tests/shell/outputs.sh build/smear
 suite strangers sh tests/shell/strangers.sh build/smear
+suite build-hostile $make -s build/host/hostile
+suite limits sh tests/shell/limits.sh build/smear build/host/hostile
+suite build-faults-injected $make -s build/host/faults-injected
+suite faults-injected build/host/faults-injected .
 suite view sh tests/shell/view.sh build/smear
 suite build-demo-screen $make -s build/host/demo-screen
 suite view-display sh tests/shell/view_display.sh build/host/demo-screen

@@ -383,15 +383,17 @@ static int write_result(const struct convert_command *command, const char *path,
     free(bytes);
     if (!ok)
         return say_bad_input(is_text ? "standard output" : command->output, &f);
-    print_result(is_text ? stderr : stdout, c, &command->options);
-    if (!output_flush_standard(&f)) {
-        outputs_drop();
-        return say_bad_input("standard output", &f);
-    }
-    if (!outputs_publish(NULL, &f))
-        return say_bad_input(is_text ? "standard output" : command->output, &f);
-    if (!is_text)
+    if (!is_text) {
+        print_result(stdout, c, &command->options);
         printf("wrote %s\n", command->output);
+    }
+    ok = output_flush_standard(&f);
+    if (!ok || !outputs_publish(NULL, &f)) {
+        outputs_drop();
+        return say_bad_input(!ok || is_text ? "standard output" : command->output, &f);
+    }
+    if (is_text)
+        print_result(stderr, c, &command->options);
     return STATUS_OK;
 }
 

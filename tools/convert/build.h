@@ -146,6 +146,9 @@ struct converter {
 
 /* ------------------------------------------------------------------ stages, in order */
 
+/* limits.c: no more than firmware can hold, and than can be converted in seconds */
+bool check_work(struct converter *c);
+
 /* nodes.c */
 bool find_draws(struct converter *c);
 bool find_moving_nodes(struct converter *c);

@@ -243,7 +243,7 @@ bool convert_model(const struct model *model, const struct convert_options *opti
     if (out->pile == NULL)
         return out_of_memory(f);
     c.pile = out->pile;
-    bool ok = start(&c) && choose_world(&c) && find_draws(&c) && find_moving_nodes(&c) && find_carriers(&c)
+    bool ok = check_work(&c) && start(&c) && choose_world(&c) && find_draws(&c) && find_moving_nodes(&c) && find_carriers(&c)
            && find_shapes(&c) && find_bounds(&c) && write_nodes(&c) && write_meshes(&c) && write_skins(&c)
            && write_clips(&c) && finish_textures(&c) && keep_lists(&c);
     if (ok) {

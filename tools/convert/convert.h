@@ -5,6 +5,7 @@
  * What comes out depends on the model and the options alone, bit for bit, on every host: see exact.h.
  *
  *     model (floats)                         tools/model
+ *       limits.c    what is too much
  *       nodes.c     which nodes move; the others go into vertices or joints; scales
  *       track.c     clips at an instant, exactly
  *       keys.c      clips as keys that mix linearly, no more than the tolerance needs

@@ -12,7 +12,10 @@
 #include <limits.h>
 #include <string.h>
 
-enum { SLOTS = 64 };            /* smear_desc.vertex_cache by default */
+enum {
+    SLOTS = 64,                 /* smear_desc.vertex_cache by default */
+    MAX_LOOKS = 128             /* triangles at a vertex that are looked at: more share none but the hubs of wheels */
+};
 
 int count_transforms(const uint32_t *index, int triangles)
 {
@@ -29,6 +32,9 @@ int count_transforms(const uint32_t *index, int triangles)
     return count;
 }
 
+/* Of all tries together: seconds. Meshes of a quarter million triangles stay below it, tangles of as many do not. */
+static const double max_looks = 1 << 30;
+
 /* What decides between triangles that transform equally many vertices. */
 struct taste {
     int left, age;
@@ -37,7 +43,8 @@ struct taste {
 struct walk {
     const struct raw_mesh *mesh;
     int *first, *triangle;      /* triangles of vertex v: triangle[first[v]] .. triangle[first[v + 1] - 1] */
-    int *left;                  /* per vertex: triangles not taken */
+    int *left;                  /* per vertex: triangles not taken, which are the first of those */
+    int *place;                 /* per corner of a triangle: where it stands among those of its vertex */
     int *number;                /* per vertex: its new number, or -1 */
     int *vertex;                /* per new number: the vertex */
     int numbers;
@@ -73,10 +80,8 @@ static int next_triangle(const struct walk *w, int *lowest)
         if (w->slot[i] < 0)
             continue;
         int v = w->vertex[w->slot[i]];
-        for (int k = w->first[v]; w->left[v] > 0 && k < w->first[v + 1]; k++) {
-            int t = w->triangle[k];
-            if (w->taken[t])
-                continue;
+        for (int k = 0; k < w->left[v] && k < MAX_LOOKS; k++) {
+            int t = w->triangle[w->first[v] + k];
             int cost = cost_of(w, t);
             if (cost < best_cost || (cost == best_cost && t < best)) {
                 best = t;
@@ -89,12 +94,29 @@ static int next_triangle(const struct walk *w, int *lowest)
     return best >= 0 ? best : *lowest;
 }
 
+static int corner_of(const struct walk *w, int triangle, int vertex)
+{
+    const uint16_t *index = w->mesh->index + 3 * triangle;
+    return 3 * triangle + (index[0] == vertex ? 0 : index[1] == vertex ? 1 : 2);
+}
+
+/* The triangle goes behind those at `vertex` that are not taken. */
+static void drop(struct walk *w, int vertex, int triangle)
+{
+    int *at = w->triangle + w->first[vertex], last = --w->left[vertex];
+    int *place = &w->place[corner_of(w, triangle, vertex)], *place_of_last = &w->place[corner_of(w, at[last], vertex)];
+    at[*place] = at[last];
+    *place_of_last = *place;
+    at[last] = triangle;
+    *place = last;
+}
+
 static void take(struct walk *w, int triangle)
 {
     w->taken[triangle] = true;
     for (int k = 0; k < 3; k++) {
         int v = w->mesh->index[3 * triangle + k];
-        w->left[v]--;
+        drop(w, v, triangle);
         if (w->number[v] < 0) {
             w->number[v] = w->numbers;
             w->vertex[w->numbers++] = v;
@@ -132,18 +154,23 @@ static bool list_triangles(struct walk *w, struct convert_pile *pile, struct fai
     w->first = pile_alloc(pile, vertices + 2, sizeof *w->first, f);
     w->triangle = pile_alloc(pile, 3 * triangles, sizeof *w->triangle, f);
     w->left = pile_alloc(pile, vertices, sizeof *w->left, f);
+    w->place = pile_alloc(pile, 3 * triangles, sizeof *w->place, f);
     w->number = pile_alloc(pile, vertices, sizeof *w->number, f);
     w->vertex = pile_alloc(pile, vertices, sizeof *w->vertex, f);
     w->taken = pile_alloc(pile, triangles, sizeof *w->taken, f);
-    if (w->first == NULL || w->triangle == NULL || w->left == NULL || w->number == NULL || w->vertex == NULL
+    if (w->first == NULL || w->triangle == NULL || w->left == NULL || w->place == NULL || w->number == NULL || w->vertex == NULL
         || w->taken == NULL)
         return false;
     for (size_t i = 0; i < 3 * triangles; i++)
         w->first[m->index[i] + 2]++;
     for (size_t v = 0; v < vertices; v++)
         w->first[v + 2] += w->first[v + 1];
-    for (size_t i = 0; i < 3 * triangles; i++)
+    for (size_t i = 0; i < 3 * triangles; i++) {
+        w->place[i] = w->first[m->index[i] + 1];
         w->triangle[w->first[m->index[i] + 1]++] = (int)(i / 3);
+    }
+    for (size_t i = 0; i < 3 * triangles; i++)
+        w->place[i] -= w->first[m->index[i]];
     return true;
 }
 
@@ -235,6 +262,9 @@ bool order_triangles(struct raw_mesh *m, bool keep_order, struct convert_pile *p
     int tries = keep_order ? 0 : (int)(sizeof tastes / sizeof *tastes), best = INT_MAX;
     struct walk w = { .mesh = m };
     size_t triangles = (size_t)m->triangle_count;
+    double valence = 3.0 * (double)triangles / (m->vertex_count > 0 ? m->vertex_count : 1);
+    if ((double)triangles * SLOTS * (valence < MAX_LOOKS ? valence : MAX_LOOKS) * tries > max_looks)
+        tries = 1;
     int *order[2] = { pile_alloc(pile, triangles, sizeof(int), f),
                       pile_alloc(pile, triangles, sizeof(int), f) };
     uint32_t *index[2] = { pile_alloc(pile, triangles, 3 * sizeof(uint32_t), f),

@@ -172,7 +172,8 @@ bool find_shapes(struct converter *c)
 {
     c->shape = pile_alloc(c->pile, (size_t)c->draw_count, sizeof *c->shape, c->f);
     bool *taken = pile_alloc(c->pile, (size_t)c->draw_count, sizeof *taken, c->f);
-    if (c->shape == NULL || taken == NULL)
+    int *draw = pile_alloc(c->pile, (size_t)c->draw_count, sizeof *draw, c->f);     /* of all shapes, one after the other */
+    if (c->shape == NULL || taken == NULL || draw == NULL)
         return false;
     for (int i = 0; i < c->draw_count; i++) {
         if (taken[i])
@@ -184,14 +185,13 @@ bool find_shapes(struct converter *c)
                              .target_count = d->primitive->target_count };
         if (s->target_count > 0)
             s->morph_node = d->node;
-        s->draw = pile_alloc(c->pile, (size_t)(c->draw_count - i), sizeof *s->draw, c->f);
-        if (s->draw == NULL)
-            return false;
+        s->draw = draw;
         for (int k = i; k < c->draw_count; k++)
             if (!taken[k] && (k == i || go_together(c, d, &c->draw[k]))) {
                 taken[k] = true;
                 s->draw[s->draw_count++] = k;
             }
+        draw += s->draw_count;
         s->same = shape_with_same_vertices(c, i, c->shape_count);
         c->shape_count++;
         if (!fill_shape(c, s))

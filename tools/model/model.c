@@ -16,7 +16,7 @@
 /* More draws, more to add up per pose (vertices times their morph targets and joints), or more
  * memory for what deforms, than any scene for small machines needs; a short file can ask for each
  * without end by using one mesh in many nodes. */
-enum { MAX_DRAWS = 65535, MAX_TERMS = 1 << 26 };
+enum { MAX_DRAWS = 65535, MAX_TRIANGLES = 1 << 20, MAX_TERMS = 1 << 26, JOINT_TERMS = 64 };
 
 static void free_primitive(struct model_primitive *p)
 {
@@ -93,13 +93,15 @@ void model_free(struct model *model)
 
 static bool check_instances(const struct model *model, struct failure *f)
 {
-    size_t draws = 0, bytes = 0, terms = 0;
+    size_t draws = 0, bytes = 0, terms = 0, triangles = 0;
     for (int i = 0; i < model->node_count; i++) {
         const struct model_node *node = &model->node[i];
         if (node->mesh < 0)
             continue;
         const struct model_mesh *mesh = &model->mesh[node->mesh];
         bytes += (size_t)mesh->weight_count * sizeof(double);
+        if (model->in_scene[i] && node->skin >= 0)
+            terms += (size_t)model->skin[node->skin].joint_count * JOINT_TERMS;
         if (model->in_scene[i])
             draws += (size_t)mesh->primitive_count;
         for (int k = 0; model->in_scene[i] && k < mesh->primitive_count; k++) {
@@ -107,12 +109,14 @@ static bool check_instances(const struct model *model, struct failure *f)
             if (p->target_count > 0 || (node->skin >= 0 && p->joint != NULL))
                 bytes += (size_t)p->vertex_count * 6 * sizeof(float);
             terms += (size_t)p->vertex_count * (size_t)(p->target_count + p->influences);
+            triangles += (size_t)p->triangle_count;
         }
         if (draws > MAX_DRAWS || bytes > MODEL_MAX_BYTES || terms > MAX_TERMS)
             return fail(f, "too many nodes use its meshes: above %d draws, %zu MB or %d terms a "
                         "pose", MAX_DRAWS, MODEL_MAX_BYTES >> 20, MAX_TERMS);
     }
-    return true;
+    return triangles <= MAX_TRIANGLES ||
+           fail(f, "draws %zu triangles, more than %d", triangles, MAX_TRIANGLES);
 }
 
 static bool is_gltf(const uint8_t *bytes, size_t size)

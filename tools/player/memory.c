@@ -4,24 +4,32 @@
 
 #include "tools/player/device.h"
 
+/* What the search may draw: triangles and, for 16 of them, pixels. */
+static const double max_work = 5e6;
+
 static bool draws_in_one(struct device *device, const struct presented *presented,
-                         uint32_t triangles, smear_stats *stats, struct failure *f)
+                         uint32_t triangles, smear_stats *stats, double *work, struct failure *f)
 {
+    if (*work > max_work)
+        return fail(f, "its frame takes too long to be measured");
     device->setup.max_triangles = triangles;
     if (!device_fit(device, presented, f) || !device_draw(device, presented, f))
         return false;
     smear_get_stats(device->ctx, stats);
+    *work += (double)presented->triangle_count * (1 + stats->parts_added) + ((double)stats->pixels + stats->samples) / 16;
     return true;
 }
 
-/* Halves the interval in which the smallest sufficient list lies. */
+/* Halves the interval in which the smallest sufficient list lies. Begins with all triangles, as many parts take
+ * long. */
 static bool find_smallest(struct device *device, const struct presented *presented, uint32_t *list,
                           uint32_t *drawn, struct failure *f)
 {
     smear_stats stats;
-    uint32_t low = DEVICE_MIN_TRIANGLES, high = DEVICE_MIN_TRIANGLES;
+    uint32_t low = DEVICE_MIN_TRIANGLES, all = presented->triangle_count, high = all > low ? all : low;
+    double work = 0;
     for (;; high *= 2) {
-        if (!draws_in_one(device, presented, high, &stats, f))
+        if (!draws_in_one(device, presented, high, &stats, &work, f))
             return false;
         if (stats.parts_added == 0 && stats.triangles_dropped == 0)
             break;
@@ -32,7 +40,7 @@ static bool find_smallest(struct device *device, const struct presented *present
     *drawn = stats.triangles_drawn;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (!draws_in_one(device, presented, middle, &stats, f))
+        if (!draws_in_one(device, presented, middle, &stats, &work, f))
             return false;
         if (stats.parts_added == 0 && stats.triangles_dropped == 0)
             high = middle;

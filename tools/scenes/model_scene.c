@@ -10,6 +10,9 @@
 
 #define PI 3.14159265358979323846
 
+/* Screens full of triangles in a frame; more take minutes with many instants. */
+enum { MAX_COVER = 1024 };
+
 struct model_scene {
     const struct model *model;
     int clip;
@@ -18,6 +21,7 @@ struct model_scene {
     int *first;                         /* per mesh: its first surface */
     int camera;                         /* of the file, or -1: `fixed` */
     struct scene_camera fixed;
+    double aspect;
 };
 
 static void model_instant_free(struct scene *scene, struct scene_instant *instant)
@@ -90,12 +94,14 @@ static bool model_scene_pose(struct scene *scene, double time, struct scene_inst
         memcpy(out->draw[i].world, from->world, sizeof from->world);
     }
 
-    if (m->camera < 0) {
+    const struct model_camera *camera = m->camera >= 0 ? &m->model->camera[m->camera] : NULL;
+    if (camera == NULL)
         out->camera = m->fixed;
-        return true;
-    }
-    const struct model_camera *camera = &m->model->camera[m->camera];
-    return camera_from_node(camera, pose->node_world + 16 * camera->node, &out->camera, f);
+    else if (!camera_from_node(camera, pose->node_world + 16 * camera->node, &out->camera, f))
+        return false;
+    double times = scene_cover(out, m->aspect, MAX_COVER);
+    return times <= MAX_COVER
+        || fail(f, "its triangles cover the picture more than %d times over (at %.6g s)", MAX_COVER, time);
 }
 
 static struct scene_surface surface_of(const struct model *model, const struct model_primitive *p,
@@ -206,6 +212,7 @@ bool scene_from_model(const struct model *model, const struct scene_view *view, 
     m->clip = view->clip;
     m->loop = view->loop;
     m->camera = view->camera;
+    m->aspect = view->aspect > 0 ? view->aspect : 4.0 / 3.0;
     bool ok = view->camera < model->camera_count ||
               fail(f, "there is no camera %d, only %d", view->camera, model->camera_count);
     ok = ok && model_surfaces(m, view->bilinear, f);

@@ -89,6 +89,10 @@ bool scene_pose(struct scene *scene, double time, struct scene_instant *out, str
 void scene_instant_free(struct scene *scene, struct scene_instant *instant);
 void scene_free(struct scene *scene);
 
+/* How many pictures of this aspect the triangles of an instant would fill, hidden ones and backs counted; stops above
+ * `enough`. */
+double scene_cover(const struct scene_instant *instant, double aspect, double enough);
+
 /* --- scenes from files --- */
 struct scene_view {                 /* the camera and clip options of the command line */
     int clip;                       /* index, MODEL_CLIP_NONE or MODEL_CLIP_ALL */
@@ -100,7 +104,7 @@ struct scene_view {                 /* the camera and clip options of the comman
     bool bilinear;
     double aspect;                  /* width / height, for the automatic camera */
 };
-/* The model must outlive the scene. The automatic camera is that of the command-line contract:
+/* The model must outlive the scene, whose poses fail where triangles cover the picture a thousand times over. The automatic camera is that of the command-line contract:
  * bounds of the pose at t = 0 with centre c and half diagonal r; yfov 45 degrees; eye = c + d
  * normalise(0.5, 0.35, 1), d = r / sin(half the smaller of yfov and xfov); near = max(d - 2r,
  * d/100), far = d + 2r. With `eye`: near and far from the bounds as seen from there. File

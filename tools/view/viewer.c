@@ -5,6 +5,7 @@
 
 #include "tools/view/clock.h"
 #include "tools/view/control.h"
+#include "tools/image/file.h"
 #include "tools/view/film.h"
 #include "tools/view/guard.h"
 #include "tools/view/overlay.h"
@@ -502,6 +503,8 @@ static int open_files(struct view *v)
 {
     const struct view_options *w = &v->wish;
     struct failure f = { "" };
+    if (w->update)
+        outputs_hold();             /* a list without its pictures would mislead */
     if (!golden_open(&v->golden, w->check, w->crc, w->update, &f))
         return say_bad_input(w->check, &f);
     if (w->play != NULL && !script_play(&v->script, w->play, &f))
@@ -560,15 +563,19 @@ static int finish(struct view *v)
     struct failure f = { "" };
     if (v->trouble != NULL)
         return say_bad_input(v->trouble, &v->why);
-    if (!script_end(&v->script, &f))
-        return say_bad_input(v->wish.record, &f);
     if (!golden_end(&v->golden, &f))
         return say_bad_input(v->wish.check, &f);
-    return STATUS_OK;
+    if (!output_flush_standard(&f))
+        return say_bad_input("standard output", &f);
+    if (!script_end(&v->script, &f))
+        return say_bad_input(v->wish.record, &f);
+    const char *failed = NULL;
+    return outputs_publish(&failed, &f) ? STATUS_OK : say_bad_input(failed, &f);
 }
 
 static void release(struct view *v)
 {
+    outputs_drop();
     golden_close(&v->golden);
     script_close(&v->script);
     debug_close(&v->debug);
