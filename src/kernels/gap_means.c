@@ -7,40 +7,6 @@ static inline uint32_t weight_of(const struct gap_taps *taps, int32_t pair)
     return pair + 1 == taps->at.pairs ? taps->last : 1u << taps->unit_log2;
 }
 
-/* The sum of one pixel's taps, as the contract says. */
-static inline struct packed_sum sum_seen(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
-{
-    const struct packed_sum here = packed_sum_at(&p->sums, at);
-    const uint32_t unit = 1u << taps->unit_log2;
-    struct packed_sum all = { here.rb << taps->unit_log2, here.gn << taps->unit_log2 };
-    bool hides = p->depth[at] > p->nearest;
-    for (int32_t i = 0; i < taps->at.pairs && !hides; i++) {
-        const struct packed_sum a = gap_tap(p, at, at - taps->at.offset[i], 1, &hides),
-                                b = gap_tap(p, at, at + taps->at.offset[i], 1, &hides);
-        all.rb += (a.rb + b.rb) * weight_of(taps, i);
-        all.gn += (a.gn + b.gn) * weight_of(taps, i);
-    }
-    if (hides) {
-        const uint32_t whole = taps->at.pairs == 0 ? unit
-                                                   : unit * (2 * (uint32_t)taps->at.pairs - 1) + 2 * taps->last;
-        all = (struct packed_sum){ here.rb * whole, here.gn * whole };
-    }
-    return all;
-}
-
-void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
-                               enum gap_cover cover)
-{
-    (void)cover;
-    for (int32_t i = at; i < at + n; i++) {
-        const struct packed_sum sum = sum_seen(p, i, taps);
-        if (sum.gn >> 16 != 0)
-            p->color[i] = packed_mean_of(taps->mean, sum, p->color[i]);
-    }
-}
-
-/* ------------------------------------------------------------------ in two passes */
-
 /* The sums of n pixels whose taps all count what is there: first those of one weight, then the last pair. */
 static void sums_uncovered(struct packed_sum *out, const struct packed_sums *sums, int32_t at, int32_t n,
                            const struct gap_taps *taps)
@@ -74,17 +40,54 @@ static void sums_uncovered(struct packed_sum *out, const struct packed_sums *sum
     }
 }
 
-/* Sums of some pixels, then their means: each loop alone needs few registers. */
+/* The sum of one pixel's taps, as the contract says. */
+static inline struct packed_sum sum_seen(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
+{
+    const struct packed_sum here = packed_sum_at(&p->sums, at);
+    const uint32_t unit = 1u << taps->unit_log2;
+    struct packed_sum all = { here.rb << taps->unit_log2, here.gn << taps->unit_log2 };
+    bool hides = p->depth[at] > p->nearest;
+    for (int32_t i = 0; i < taps->at.pairs && !hides; i++) {
+        const struct packed_sum a = gap_tap(p, at, at - taps->at.offset[i], 1, &hides),
+                                b = gap_tap(p, at, at + taps->at.offset[i], 1, &hides);
+        all.rb += (a.rb + b.rb) * weight_of(taps, i);
+        all.gn += (a.gn + b.gn) * weight_of(taps, i);
+    }
+    if (hides) {
+        const uint32_t whole = taps->at.pairs == 0 ? unit
+                                                   : unit * (2 * (uint32_t)taps->at.pairs - 1) + 2 * taps->last;
+        all = (struct packed_sum){ here.rb * whole, here.gn * whole };
+    }
+    return all;
+}
+
+void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+                               enum gap_cover cover)
+{
+    (void)cover;
+    for (int32_t i = at; i < at + n; i++) {
+        struct packed_sum sum;
+        sums_uncovered(&sum, &p->sums, i, 1, taps);
+        if (sum.gn >> 16 != taps->mean->n)
+            sum = sum_seen(p, i, taps);
+        if (sum.gn >> 16 != 0)
+            p->color[i] = packed_mean_of(taps->mean, sum, p->color[i]);
+    }
+}
+
+/* ------------------------------------------------------------------ in two passes */
+
+/* Sums of some pixels, then their means: each loop alone needs few registers. Where what moves is seen throughout, at all
+ * taps, the background hides nothing, and where it is seen nowhere there is nothing to hide: no depth matters. */
 void smear_gap_means_two_passes(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                                 enum gap_cover cover)
 {
     struct packed_sum sums[16];
     while (n > 0) {
         const int32_t count = min_i32(n, 16);
-        if (cover == COVER_NONE)
-            sums_uncovered(sums, &p->sums, at, count, taps);
-        else
-            for (int32_t i = 0; i < count; i++)
+        sums_uncovered(sums, &p->sums, at, count, taps);
+        for (int32_t i = 0; i < count && cover != COVER_NONE; i++)
+            if (sums[i].gn >> 16 != 0 && sums[i].gn >> 16 != taps->mean->n)
                 sums[i] = sum_seen(p, at + i, taps);
         smear_packed_means(p->color + at, sums, count, taps->mean);
         at += count;
@@ -110,8 +113,8 @@ static inline void mean4(uint32_t *color, smear_v4u rb, smear_v4u gn, const stru
     v4u_store(color, (rb_mean >> m->shift & 0xff00ffu) | g_mean >> m->shift << 8);
 }
 
-/* Pixels whose taps all count what is there. */
-static inline void uncovered4(uint32_t *color, const uint32_t *rb, const uint32_t *gn, const struct gap_taps *taps)
+/* The sums of four pixels whose taps all count what is there. */
+static inline struct gap_sums4 uncovered4(const uint32_t *rb, const uint32_t *gn, const struct gap_taps *taps)
 {
     smear_v4u a = v4u_load(rb), b = v4u_load(gn);
     const int32_t *offset = taps->at.offset;
@@ -125,11 +128,11 @@ static inline void uncovered4(uint32_t *color, const uint32_t *rb, const uint32_
         a += weighted4(v4u_load(rb + *offset) + v4u_load(rb - *offset), taps->last);
         b += weighted4(v4u_load(gn + *offset) + v4u_load(gn - *offset), taps->last);
     }
-    mean4(color, a, b, taps->mean);
+    return (struct gap_sums4){ a, b };
 }
 
-/* Pixels whose taps count as the contract says. */
-static void covered_means4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
+/* The sums of four pixels whose taps count as the contract says. */
+static struct gap_sums4 covered4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
 {
     struct gap_pixels4 c = gap_pixels4_at(p, at, 1);
     uint32_t all = 1u << taps->unit_log2;
@@ -142,28 +145,35 @@ static void covered_means4(const struct gap_planes *p, int32_t at, const struct 
         gn += weighted4(before.gn + after.gn, weight);
         all += 2 * weight;
     }
-    rb = v4u_choose(c.hides, weighted4(c.own.rb, all), rb);
-    gn = v4u_choose(c.hides, weighted4(c.own.gn, all), gn);
-    mean4(p->color + at, rb, gn, taps->mean);
+    return (struct gap_sums4){ v4u_choose(c.hides, weighted4(c.own.rb, all), rb),
+                               v4u_choose(c.hides, weighted4(c.own.gn, all), gn) };
 }
 
-/* Where pixels and taps are seen evenly and nothing is beyond `nearest`, no depth matters. */
+static inline void mean_uncovered4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
+{
+    const struct gap_sums4 sum = uncovered4(p->sums.rb + at, p->sums.gn + at, taps);
+    mean4(p->color + at, sum.rb, sum.gn, taps->mean);
+}
+
+static inline void mean_seen4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps, enum gap_cover cover)
+{
+    struct gap_sums4 sum = uncovered4(p->sums.rb + at, p->sums.gn + at, taps);
+    if (!v4u_any(sum.gn >> 16))
+        return;
+    if (gap_may_hide4(p, at, &taps->at, sum.gn >> 16, taps->mean->n, cover))
+        sum = gap_choose4(sum, taps->mean->n, covered4(p, at, taps));
+    mean4(p->color + at, sum.rb, sum.gn, taps->mean);
+}
+
 void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                             enum gap_cover cover)
 {
     const int32_t end = at + n;
-    for (; at + 4 <= end; at += 4) {
-        if (cover != COVER_NONE) {
-            const enum gap_seen seen = gap_seen4(p->sums.gn + at, &taps->at);
-            if (seen == SEEN_NOWHERE)
-                continue;
-            if (seen == SEEN_UNEVENLY || (cover == COVER_ALL && gap_is_hidden4(p, at, &taps->at))) {
-                covered_means4(p, at, taps);
-                continue;
-            }
-        }
-        uncovered4(p->color + at, p->sums.rb + at, p->sums.gn + at, taps);
-    }
+    if (cover == COVER_NONE)
+        for (; at + 4 <= end; at += 4)
+            mean_uncovered4(p, at, taps);
+    for (; at + 4 <= end; at += 4)
+        mean_seen4(p, at, taps, cover);
     smear_gap_means_two_passes(p, at, end - at, taps, cover);
 }
 #endif

@@ -30,7 +30,8 @@ enum gap_cover {
  *     `nearest`, or with two instants less than the pixel has, as what is at a pixel at n instants is half a gap away,
  *     or less, at n - 1 of them;
  *   - all taps as the pixel itself where the background at the pixel hides what moves: beyond `nearest`, or nearer than
- *     at a tap that has two instants more. */
+ *     at a tap that has two instants more;
+ * unless all taps together, as they are, have all instants: then nothing hides what moves. */
 struct gap_pairs {
     const int32_t *offset;      /* of each pair, in indices */
     int32_t pairs;              /* 0 .. GAP_PAIRS_MAX */
@@ -66,14 +67,8 @@ static inline bool gap_is_hidden4(const struct gap_planes *p, int32_t at, const 
     return v4u_any((smear_v4u)(v8i_max(most, limit) ^ limit));
 }
 
-/* How often what moves is seen at four pixels and at their taps. */
-enum gap_seen {
-    SEEN_NOWHERE,
-    SEEN_EVENLY,
-    SEEN_UNEVENLY       /* somewhere at two instants more than elsewhere */
-};
-
-static inline enum gap_seen gap_seen4(const uint32_t *gn, const struct gap_pairs *taps)
+/* Whether what moves is seen at four pixels or at their taps at two instants more than elsewhere. */
+static inline bool gap_is_uneven4(const uint32_t *gn, const struct gap_pairs *taps)
 {
     const smear_v8i sign = v8i_all(INT16_MIN);
     smear_v8i least = (smear_v8i)v4u_load(gn) ^ sign, most = least;
@@ -83,15 +78,21 @@ static inline enum gap_seen gap_seen4(const uint32_t *gn, const struct gap_pairs
         least = v8i_min(least, v8i_min(a, b));
         most = v8i_max(most, v8i_max(a, b));
     }
-    const smear_v4u low = (smear_v4u)(least ^ sign) >> 16, high = (smear_v4u)(most ^ sign) >> 16;
-    if (!v4u_any(high))
-        return SEEN_NOWHERE;
-    const smear_v4i zero = { 0, 0, 0, 0 };
-    return v4u_any((smear_v4u)((smear_v4i)(high - low) > zero + (int32_t)taps->instant)) ? SEEN_UNEVENLY
-                                                                                         : SEEN_EVENLY;
+    const smear_v4i low = (smear_v4i)((smear_v4u)(least ^ sign) >> 16), high = (smear_v4i)((smear_v4u)(most ^ sign) >> 16);
+    return v4u_any((smear_v4u)(high - low > v4i_all((int32_t)taps->instant)));
 }
 
-/* The sums that a tap of four pixels counts. */
+/* Whether the background may hide what moves at four pixels or at their taps. `times`: how often all taps together show it,
+ * weighted, of `full`: where that is always, nothing hides it. Else no depth matters where it is seen evenly and nothing
+ * is beyond `nearest`. */
+static inline bool gap_may_hide4(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps, smear_v4u times,
+                                 uint32_t full, enum gap_cover cover)
+{
+    return v4u_any(times ^ v4u_all(full))
+        && ((cover == COVER_ALL && gap_is_hidden4(p, at, taps)) || gap_is_uneven4(p->sums.gn + at, taps));
+}
+
+/* Sums of four pixels, or of a tap of each. */
 struct gap_sums4 {
     smear_v4u rb, gn;
 };
@@ -102,6 +103,13 @@ struct gap_pixels4 {
     smear_v4i depth, times, nearest, instant;
     smear_v4i hides;
 };
+
+/* Returns the sums of pixels whose taps, as they are, have all instants, and what was found for others. */
+static inline struct gap_sums4 gap_choose4(struct gap_sums4 there, uint32_t full, struct gap_sums4 found)
+{
+    const smear_v4i is_full = (smear_v4i)(there.gn >> 16 == v4u_all(full));
+    return (struct gap_sums4){ v4u_choose(is_full, there.rb, found.rb), v4u_choose(is_full, there.gn, found.gn) };
+}
 
 static inline struct gap_pixels4 gap_pixels4_at(const struct gap_planes *p, int32_t at, uint32_t instant)
 {

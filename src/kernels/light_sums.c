@@ -163,30 +163,45 @@ struct light_mean smear_light_mean(uint32_t full, int32_t pairs, uint32_t unit, 
     return m;
 }
 
-/* Returns the weighted sum of one pixel's taps. */
-static inline struct packed_sum sum_seen(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps,
-                                         const struct light_mean *m, enum gap_cover cover)
+/* Adds a word of sums of a pair of taps. */
+static inline void add_pair(struct packed_sum *all, struct packed_sum a, struct packed_sum b, uint32_t weight)
+{
+    all->rb += weighted(halves_mean(a.rb, b.rb), weight);
+    all->gn += weighted(halves_mean(a.gn, b.gn), weight);
+}
+
+static inline uint32_t pair_weight(const struct light_mean *m, const struct gap_pairs *taps, int32_t pair)
+{
+    return pair + 1 == taps->pairs ? m->last : m->pair;
+}
+
+/* Returns the weighted sum of one pixel's taps, which all count what is there. */
+static inline struct packed_sum sum_uncovered(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps,
+                                              const struct light_mean *m)
 {
     const struct packed_sum here = packed_sum_at(&p->sums, at);
-    bool hides = cover != COVER_NONE && p->depth[at] > p->nearest;
+    if (taps->pairs == 0)
+        return here;
+    struct packed_sum all = { weighted(here.rb, m->own), weighted(here.gn, m->own) };
+    for (int32_t i = 0; i < taps->pairs; i++)
+        add_pair(&all, packed_sum_at(&p->sums, at - taps->offset[i]), packed_sum_at(&p->sums, at + taps->offset[i]),
+                 pair_weight(m, taps, i));
+    return all;
+}
+
+/* Returns the weighted sum of one pixel's taps, which count as gap_pairs says. */
+static SMEAR_RARE struct packed_sum sum_covered(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps,
+                                                const struct light_mean *m)
+{
+    const struct packed_sum here = packed_sum_at(&p->sums, at);
     if (taps->pairs == 0)
         return here;
     struct packed_sum all = { weighted(here.rb, m->own), weighted(here.gn, m->own) }, still = all;
+    bool hides = p->depth[at] > p->nearest;
     for (int32_t i = 0; i < taps->pairs; i++) {
-        const uint32_t weight = i + 1 == taps->pairs ? m->last : m->pair;
-        const int32_t before = at - taps->offset[i], after = at + taps->offset[i];
-        struct packed_sum a, b;
-        if (cover == COVER_NONE) {
-            a = packed_sum_at(&p->sums, before);
-            b = packed_sum_at(&p->sums, after);
-        } else {
-            a = gap_tap(p, at, before, taps->instant, &hides);
-            b = gap_tap(p, at, after, taps->instant, &hides);
-            still.rb += weighted(here.rb, weight);
-            still.gn += weighted(here.gn, weight);
-        }
-        all.rb += weighted(halves_mean(a.rb, b.rb), weight);
-        all.gn += weighted(halves_mean(a.gn, b.gn), weight);
+        add_pair(&all, gap_tap(p, at, at - taps->offset[i], taps->instant, &hides),
+                 gap_tap(p, at, at + taps->offset[i], taps->instant, &hides), pair_weight(m, taps, i));
+        add_pair(&still, here, here, pair_weight(m, taps, i));
     }
     return hides ? still : all;
 }
@@ -202,7 +217,11 @@ void smear_light_means_reference(const struct gap_planes *p, int32_t at, int32_t
 {
     const struct light_mean m = *mean;
     for (int32_t i = at; i < at + n; i++) {
-        const struct packed_sum sum = sum_seen(p, i, taps, &m, cover);
+        struct packed_sum sum = sum_uncovered(p, i, taps, &m);
+        if (sum.gn >> 16 == 0)
+            continue;
+        if (cover != COVER_NONE && sum.gn >> 16 != m.full)
+            sum = sum_covered(p, i, taps, &m);
         const uint32_t c = p->color[i], rest = m.full - (sum.gn >> 16);
         if (sum.gn >> 16 != 0)
             p->color[i] = mean_code(sum.rb >> 16, c >> 16 & 0xffu, rest, &m) << 16
@@ -276,14 +295,6 @@ static struct gap_sums4 covered4(const struct gap_planes *p, int32_t at, const s
     return (struct gap_sums4){ v4u_choose(c.hides, still.rb, all.rb), v4u_choose(c.hides, still.gn, all.gn) };
 }
 
-/* Whether what moves hides the background throughout at four pixels and their taps. */
-static inline bool is_full4(smear_v4u gn, uint32_t full)
-{
-    return !v4u_any((gn >> 16) ^ ((smear_v4u){ 0, 0, 0, 0 } + full));
-}
-
-/* Pixels that show what moves and their taps, too, at all instants, or that are seen evenly where nothing is beyond
- * `nearest`: no depth matters. */
 static void means_linear(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                          const struct light_mean *mean, enum gap_cover cover)
 {
@@ -293,10 +304,8 @@ static void means_linear(const struct gap_planes *p, int32_t at, int32_t n, cons
         struct gap_sums4 sum = uncovered4(p->sums.rb + at, p->sums.gn + at, taps, &m);
         if (!v4u_any(sum.gn >> 16))
             continue;
-        if ((cover == COVER_ALL && gap_is_hidden4(p, at, taps))
-            || (cover != COVER_NONE && !is_full4(sum.gn, m.full)
-                && gap_seen4(p->sums.gn + at, taps) == SEEN_UNEVENLY))
-            sum = covered4(p, at, taps, &m);
+        if (cover != COVER_NONE && gap_may_hide4(p, at, taps, sum.gn >> 16, m.full, cover))
+            sum = gap_choose4(sum, m.full, covered4(p, at, taps, &m));
         mean4(p->color + at, &sum, &m);
     }
     smear_light_means_reference(p, at, end - at, taps, &m, cover);
