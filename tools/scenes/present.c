@@ -374,6 +374,7 @@ static void fill_mesh(smear_mesh *mesh, const struct part *part, const struct pl
                           .vertex_count = (uint16_t)part->vertex_count, .shift = (int8_t)shift,
                           .uv_shift = (uint8_t)part->uv_shift, .scale = scale };
     memcpy(mesh->offset, plan->grid.offset, sizeof mesh->offset);
+    memcpy(mesh->bounds, part->bounds, sizeof mesh->bounds);
 }
 
 static bool add_part(struct presenter *p, const struct converted *c, const struct part *part,

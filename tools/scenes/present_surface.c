@@ -393,6 +393,9 @@ static bool finish_part(struct builder *b, struct converted *c, int *room, struc
     memcpy(part->index, b->part.index, corners * sizeof *part->index);
     part->uv_shift = b->uv.shift;
     quantise_positions(part->position, s->position, part, &c->grid);
+    smear_mesh mesh = { .position = part->position, .vertex_count = (uint16_t)part->vertex_count };
+    smear_mesh_find_bounds(&mesh);
+    memcpy(part->bounds, mesh.bounds, sizeof part->bounds);
     if (part->normal != NULL)
         quantise_normals(part->normal, s->normal, part);
     for (size_t i = 0; i < vertices * 2 && textured; i++) {

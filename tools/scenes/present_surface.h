@@ -35,6 +35,7 @@ struct part {
     uint16_t *index;
     int first_triangle;             /* of the surface: parts take its triangles in order */
     int uv_shift;
+    int16_t bounds[6];              /* smear_mesh.bounds of `position` */
 };
 
 struct converted {
