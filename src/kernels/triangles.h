@@ -80,6 +80,9 @@ static inline bool triangle_look(struct smear_triangles *out, int k, const struc
     }
     int32_t area = x[0] * y[1] - x[1] * y[0];
     const bool back = s->both_sides && area < 0;
+    area = back ? -area : area;
+    if (area <= 0)
+        return false;
     for (int i = 0; i < 3; i++) {
         low[0] = min_i32(low[0], pair_x(p[i]->first));
         low[1] = min_i32(low[1], pair_y(p[i]->first));
@@ -91,8 +94,7 @@ static inline bool triangle_look(struct smear_triangles *out, int k, const struc
     low[1] = max_i32(low[1], pair_y(s->low));
     high[0] = min_i32(high[0], pair_x(s->high));
     high[1] = min_i32(high[1], pair_y(s->high));
-    area = back ? -area : area;
-    if (area <= 0 || low[0] >= high[0] || low[1] >= high[1])
+    if (low[0] >= high[0] || low[1] >= high[1])
         return false;
     out->area[k] = area;
     out->low[k] = pair_of(low[0], low[1]);
