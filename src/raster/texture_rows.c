@@ -46,24 +46,6 @@ static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup
     }
 }
 
-/* Along a block: its curvature is what changes lose. */
-SMEAR_INLINE void run_texcoord(struct texel_run *r, struct texcoord c)
-{
-#if TEXELS_PACKED
-    const struct smear_texture_run run = texcoord_packed(c);
-    r->uv = run.at;
-    r->duv = run.step;
-    r->dduv = run.curvature;
-#else
-    r->u = c.u;
-    r->v = c.v;
-    r->du = c.du;
-    r->dv = c.dv;
-    r->ddu = 0u - c.curvature_u;
-    r->ddv = 0u - c.curvature_v;
-#endif
-}
-
 /* ------------------------------------------------------------------ blocks */
 
 /* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
@@ -94,7 +76,7 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
     k->u = u;
     k->v = v;
     k->place = to;
-    run_texcoord(&k->run, c);
+    texcoord_run(&k->run, c);
 }
 
 /* With few registers functions of their own: the loops over pixels take them all. */
@@ -522,7 +504,7 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
         return NULL;
     if (s->segment->shade != SHADE_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (segment_gouraud(s->segment) && !s->even_color)
-            return NULL;
+            return SMEAR_SHADED_ROWS ? smear_shaded_rows_choose(s) : NULL;
 #if SMEAR_DIRECT
         if (narrow)
             return is_curved ? curves_lit_narrow : rows_lit_narrow;

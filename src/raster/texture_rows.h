@@ -39,6 +39,18 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 /* Interpolated colours without a texture, opaque: color_rows.c. */
 smear_rows_fn smear_rows_shade;
 
+/* Interpolated light over a texture has rows of its own, of the same bits: not on cores whose flash has no room for them. */
+#ifndef SMEAR_SHADED_ROWS
+#ifdef __ARM_ARCH_6M__
+#define SMEAR_SHADED_ROWS 0
+#else
+#define SMEAR_SHADED_ROWS (SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD && SMEAR_WITH_TEXTURE)
+#endif
+#endif
+
+/* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
+smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
+
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {
