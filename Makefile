@@ -353,7 +353,8 @@ faults-injected: $(BUILD)/faults-injected
 FUZZ_CC := clang-14
 FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -I. -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC))
+FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c \
+    $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
 
 build/fuzz/obj/%.o: %.c
 	$(call say,CC,$<)
@@ -363,12 +364,12 @@ build/fuzz/obj/%.o: %.c
 build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	$(call say,LD)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm -lpthread
 
 -include $(FUZZ_OBJ:.o=.d)
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
-## fuzzers of blobs, models, pictures and the library (needs clang-14), FUZZ_SECONDS=10 each
+## fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
 	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \

@@ -292,6 +292,12 @@ claim "a box is no tent" differ flag-box.ppm reconstruct.ppm
 claim "clips by name" render "$plate" $small --time 0.25 --clip spin -o spin.ppm
 claim "clips by index" render "$plate" $small --time 0.25 --clip 1 -o one.ppm
 claim "are the same" same spin.ppm one.ppm
+turned="$plate $small --clip none --shutter 0"
+claim "a camera that goes round" render $turned --frames 0-3 --orbit 1 -o round%d.ppm
+claim "a quarter of the way" render $turned --orbit 0.25 -o quarter.ppm
+claim "is there in the second of four frames" eval 'works compare round1.ppm quarter.ppm && is_true "$(value_of rmse) < 1"'
+claim "and begins where it is without" eval 'render $turned -o begin.ppm && works compare round0.ppm begin.ppm && is_true "$(value_of rmse) < 1"'
+claim "which is elsewhere" differ begin.ppm quarter.ppm
 claim "no clip" render "$plate" $small --time 0.25 --clip none -o still.ppm --stats still.json
 claim "holds still" equals "$(stat_of still.json still)" "$(stat_of still.json none)"
 claim "all clips" render "$plate" $small --time 0.25 --clip all -o all.ppm
@@ -680,6 +686,8 @@ usage two render one two
 usage --frob render "$plate" --frob
 usage -x render "$plate" -x
 usage -oout.png render "$plate" -oout.png
+usage --orbit render "$plate" --orbit 0
+usage --orbit render "$plate" --orbit 101
 usage --size render "$plate" --size
 usage --loop render "$plate" --loop=yes
 for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' \

@@ -30,7 +30,8 @@ for size in ${*:-10000000 1000000}; do
         *)
             claim "$kind of $size bytes: info" within_limits info "$file"
             claim "$kind of $size bytes: render" within_limits render "$file" -o x.png --depth x.pfm
-            claim "$kind of $size bytes: view" within_limits view "$file" --out null --frames 1
+            [ "$size" -lt 10000000 ] ||     # draws what render draws
+                claim "$kind of $size bytes: view" within_limits view "$file" --out null --frames 1
             claim "$kind of $size bytes: convert" within_limits convert "$file" -o x.smr
             ;;
         esac

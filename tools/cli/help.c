@@ -49,6 +49,8 @@ static const char *const render_help[] = {
     "  --camera NAME|INDEX   of the file [the first; without any, one that sees everything]\n"
     "  --eye X,Y,Z --look X,Y,Z [--fov DEG]\n"
     "                        another camera, its vertical field of view [45]\n"
+    "  --orbit TURNS         the camera goes so often round what it looks at, over all frames; a single\n"
+    "                        frame is seen from there\n"
     "  --filter nearest|bilinear\n"
     "                        texels [nearest]\n"
     "  --clear RRGGBB        background [000000]\n"

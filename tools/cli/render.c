@@ -11,6 +11,7 @@
 #include "tools/options/say.h"
 #include "tools/options/setup.h"
 #include "tools/player/stats.h"
+#include "tools/view/orbit.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +20,7 @@ struct render {
     struct render_options options;
     struct source source;
     struct setup setup;
+    struct orbit orbit;                 /* with --orbit */
     struct presenter *presenter;
     struct device device;               /* what is measured */
     struct exact exact;                 /* with --exact */
@@ -52,8 +54,33 @@ static bool open_devices(struct render *r, struct failure *f)
     r->spare = calloc(repeat, sizeof *r->spare);
     if (r->times == NULL || r->spare == NULL)
         return fail(f, "out of memory");
-    r->presenter = presenter_new(&r->source.scene, f);
+    r->presenter = presenter_new(o->orbit != 0.0 ? &r->orbit.scene : &r->source.scene, f);
     return r->presenter != NULL;
+}
+
+/* The time of a frame, in seconds. */
+static double time_of(const struct render *r, long frame)
+{
+    const struct render_options *o = &r->options;
+    return o->has_frames                         ? (double)frame / r->setup.present.fps
+         : o->has_time || r->source.is_file ? o->time
+                                            : r->source.scene.time;
+}
+
+/* About what the camera sees in the first frame, so that the last one leads to the first again. A single frame is
+ * turned. */
+static bool start_orbit(struct render *r, struct failure *f)
+{
+    const struct render_options *o = &r->options;
+    double angle = 2.0 * 3.14159265358979323846 * o->orbit;
+    if (o->orbit == 0.0)
+        return true;
+    orbit_open(&r->orbit, &r->source.scene);
+    if (o->has_frames)
+        r->orbit.spin = angle * r->setup.present.fps / (double)(o->last - o->first + 1);
+    else
+        r->orbit.yaw = angle;
+    return orbit_find_focus(&r->orbit, time_of(r, o->first), f);
 }
 
 /* ------------------------------------------------------------------ a frame */
@@ -163,13 +190,9 @@ static int render_frame(struct render *r, long frame, double time)
 static int render_frames(struct render *r)
 {
     const struct render_options *o = &r->options;
-    const struct scene *scene = &r->source.scene;
     int status = STATUS_OK;
     for (long frame = o->first; frame <= o->last && status == STATUS_OK; frame++) {
-        double time = o->has_frames ? (double)frame / r->setup.present.fps
-                    : o->has_time || r->source.is_file ? o->time
-                                                       : scene->time;
-        status = render_frame(r, frame, time);
+        status = render_frame(r, frame, time_of(r, frame));
         say_progress(frame - o->first + 1, o->last - o->first + 1, "frame");
     }
     say_progress_end();
@@ -201,7 +224,7 @@ static int render_scene(struct render *r)
     if (status != STATUS_OK)
         return status;
     r->options.picture_sink.fps = r->setup.present.fps;
-    if (!open_devices(r, &f))
+    if (!start_orbit(r, &f) || !open_devices(r, &f))
         return say_bad_input(r->source.name, &f);
     if (r->options.stats != NULL && !stats_open(&r->stats, r->options.stats, &f))
         return say_bad_input(r->options.stats, &f);

@@ -399,7 +399,7 @@ static int check(const struct view_options *w, const struct render_options *o)
     } only_render[] = {
         { "-o", o->output != NULL }, { "--depth", o->depth != NULL },
         { "--velocity", o->velocity != NULL }, { "--stats", o->stats != NULL },
-        { "--repeat", o->repeat > 0 }, { "--exact", o->exact },
+        { "--orbit", o->orbit != 0.0 }, { "--repeat", o->repeat > 0 }, { "--exact", o->exact },
     };
     for (size_t i = 0; i < sizeof only_render / sizeof *only_render; i++)
         if (only_render[i].given)

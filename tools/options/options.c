@@ -56,6 +56,15 @@ static const char *read_loop(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_orbit(void *to, const char *value)
+{
+    double turns;
+    if (!read_number(value, -100.0, 100.0, &turns) || turns == 0.0)
+        return "needs turns from -100 to 100, not 0";
+    ((struct render_options *)to)->orbit = turns;
+    return NULL;
+}
+
 static const char *read_outside(void *to, const char *value)
 {
     (void)value;
@@ -376,6 +385,7 @@ static const struct option table[] = {
     { "--time", true, read_time },
     { "--clip", true, read_clip },
     { "--loop", false, read_loop },
+    { "--orbit", true, read_orbit },
     { "--outside", false, read_outside },
     { "--camera", true, read_camera },
     { "--eye", true, read_eye },

@@ -46,6 +46,7 @@ struct render_options {
     smear_light_space light;
     unsigned clear;
 
+    double orbit;               /* turns of the camera about what it sees, over all frames; 0: none */
     int reach_px, tile;         /* 0: not given */
     double reach_percent;       /* 0: not given */
     const char *motion[OPTIONS_MAX_MOTIONS];
