@@ -603,17 +603,15 @@ static inline bool add_four(struct batch *b, const struct places *r, const struc
     for (uint32_t all = four->seen | four->far; all != 0; all &= all - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(all);
         const uint16_t *const corner = index + 3 * k;
-        struct seen t = { r, four, k, { corner[0], corner[r->setup.second], corner[r->setup.third] }, triangle + k, false };
+        const uint32_t index1 = corner[r->setup.second], index2 = corner[r->setup.third];
         if ((four->far >> k & 1u) != 0) {
-            if (!add_far(b, &t))
+            const struct seen far = { r, four, k, { corner[0], index1, index2 }, triangle + k, false };
+            if (!add_far(b, &far))
                 return false;
             continue;
         }
-        if ((four->back >> k & 1u) != 0) {
-            t.back = true;
-            t.index[1] = corner[r->setup.third];
-            t.index[2] = corner[r->setup.second];
-        }
+        const bool back = (four->back >> k & 1u) != 0;
+        const struct seen t = { r, four, k, { corner[0], back ? index2 : index1, back ? index1 : index2 }, triangle + k, back };
         add_seen(b, &t);
     }
     return true;

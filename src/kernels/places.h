@@ -143,7 +143,7 @@ static inline smear_v4i place_scaled(smear_v4i a, int shift)
 {
     if (shift < 0) {
         const int down = min_i32(-shift, 31);
-        return (a + (1 << (down - 1))) >> down;
+        return (a + v4i_all(1 << (down - 1))) >> down;
     }
     return v4i_min(a, v4i_all(INT32_MAX >> shift)) << shift;
 }
@@ -159,8 +159,9 @@ static inline bool places_vector(struct smear_place out[4], const int16_t v[12],
     if (v4i_signs((smear_v4i)(beyond | other)) != 0 || down <= 0 || s->depth_shift + zeros > PLACES_UP_MOST)
         return false;
     const smear_v4i r = place_recip((smear_v4u)w << zeros);
-    const smear_v4i x = ((v4i_mulh(place_row_of(&rows->row[0], xy, yz), r) + (1 << (down - 1))) >> down) + s->x;
-    const smear_v4i y = ((v4i_mulh(place_row_of(&rows->row[1], xy, yz), r) + (1 << (down - 1))) >> down) + s->y;
+    const smear_v4i half = v4i_all(1 << (down - 1));
+    const smear_v4i x = ((v4i_mulh(place_row_of(&rows->row[0], xy, yz), r) + half) >> down) + s->x;
+    const smear_v4i y = ((v4i_mulh(place_row_of(&rows->row[1], xy, yz), r) + half) >> down) + s->y;
     smear_v4i depth = place_scaled(v4i_mulh(v4i_all(s->depth_mantissa), r), s->depth_shift + zeros);
     depth = v4i_max(v4i_min(depth, v4i_all(s->depth_most)), v4i_all(s->depth_least));
     const smear_v4u first = v8i_pairs(v4i_narrow((x + 127) >> 8, (y + 127) >> 8));
