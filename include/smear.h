@@ -81,6 +81,8 @@ typedef enum smear_result {
     SMEAR_ERR_MEMORY = -2,      /* fewer than smear_memory_size() bytes, or not 8-byte aligned */
     SMEAR_ERR_ORDER  = -3,      /* a call out of turn: submit before begin, render twice */
     SMEAR_ERR_FULL   = -4,      /* more draws in a frame than desc.max_draws; this one is not drawn */
+    SMEAR_ERR_ROOM   = -5,      /* SMEAR_TIMEMASK: the moving triangles of a tile do not find room at once: more
+                                 * max_triangles, or another method, which draws them in parts */
     SMEAR_ERR_FIELD  = -100     /* and below: SMEAR_ERR_ARG, with the field that is wrong */
 } smear_result;
 
@@ -549,10 +551,11 @@ typedef struct smear_fill {
 } smear_fill;
 
 typedef struct smear_stats {
-    /* submitted; covering a pixel; left out for want of memory or for a bad index. In a frame drawn in parts
-     * the last two count a triangle once per part. */
+    /* submitted; covering a pixel; left out for a bad index. In a frame drawn in parts the last two count a triangle once
+     * per part. */
     uint32_t triangles_in, triangles_drawn, triangles_dropped;
-    uint32_t parts_added;               /* times a part of the frame was halved because a list was full */
+    uint32_t parts_added;               /* times a list was full: a part of the frame was halved, or a tile row's
+                                         * triangles were gone through in turns */
     uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or
                                          * (but with camera_step) the camera did */
     uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
@@ -603,8 +606,10 @@ int smear_begin(smear_context *ctx, const smear_frame *frame);
 int smear_submit(smear_context *ctx, const smear_draw *draw);
 
 /* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and
- * pixels. A full triangle list is no error: the frame is drawn in parts (stats.parts_added counts them).
- * Returns SMEAR_OK, what flush returned if negative, or SMEAR_ERR_ORDER (no frame has been begun). */
+ * pixels. A full triangle list is no error: the frame is drawn in parts (stats.parts_added counts them), down to a tile row
+ * whose triangles are assembled again and again, a few at a time: the same picture, whatever it costs. Only time masks
+ * need all of a tile's at once. Returns SMEAR_OK, what flush returned if negative, SMEAR_ERR_ROOM, or SMEAR_ERR_ORDER (no
+ * frame has been begun). */
 int smear_render(smear_context *ctx);
 
 /* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another

@@ -288,6 +288,21 @@ static bool static_is_disturbed(const struct smear_context *c)
 /* Which draws are assembled. */
 enum draws { DRAWS_ALL, DRAWS_MOVING, DRAWS_STATIC };
 
+/* The kind of draw that a fill takes. */
+static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
+{
+    if (has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP)
+        return FILL_GROUP;
+    return c->raster_draw[i].alpha == SMEAR_BLEND ? FILL_BLENDED : c->raster_draw[i].moves ? FILL_MOVING : FILL_STATIC;
+}
+
+/* Whether draw `i`, number `k` in the order, is among those that a fill still lacks. */
+static bool fill_lacks(const struct smear_context *c, const struct smear_refill *f, uint32_t k, uint32_t i)
+{
+    const uint8_t kind = fill_kind(c, i);
+    return k >= f->draw && (f->kinds & kind) != 0 && (kind != FILL_GROUP || c->layers->group_of[i] == f->group);
+}
+
 static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
 {
     return (kind == DRAWS_ALL || draw_is_static(c, i) == (kind == DRAWS_STATIC))
@@ -295,7 +310,7 @@ static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kin
 }
 
 static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, uint32_t i,
-                          const struct smear_instant *instant, bool drop)
+                          const struct smear_instant *instant)
 {
     struct smear_assembly a;
     const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
@@ -308,21 +323,30 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
         return true;
     }
     if (group != NULL)
-        return smear_groups_assemble(c->layers, &c->assembler, &a, drop);
-    return assembly_has_path(&a) ? smear_assemble_path(as, &a, drop) : smear_assemble(as, &a, drop);
+        return smear_groups_assemble(c->layers, &c->assembler, &a);
+    return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
 }
 
-/* Assembles draws into what `as` names. False when the store is full. */
+/* Assembles draws into what `as` names. False when the store is full: of a fill, the rest is noted. */
 static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
-                          bool drop, enum draws kind)
+                          struct smear_refill *f, enum draws kind)
 {
     struct smear_tile_box *seen = NULL;
     for (uint32_t k = 0; k < c->draw_count; k++) {
         const uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
-        if (!is_of_kind(c, i, kind) || (kind == DRAWS_STATIC && !is_damaged(c->damage, &seen)))
+        if (!is_of_kind(c, i, kind) || (kind == DRAWS_STATIC && !is_damaged(c->damage, &seen))
+            || (f != NULL && !fill_lacks(c, f, k, i)))
             continue;
-        if (!assemble_draw(c, as, i, instant, drop))
-            return false;
+        if (f != NULL && k == f->draw)
+            as->resume = (struct smear_resume){ f->triangle, f->parts };
+        if (assemble_draw(c, as, i, instant))
+            continue;
+        if (f != NULL) {
+            f->draw = k;
+            f->triangle = as->resume.triangle;
+            f->parts = as->resume.parts;
+        }
+        return false;
     }
     return true;
 }
@@ -330,19 +354,28 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
 /* Assembles all draws. Where the display keeps tiles, what moves comes first: it says in which of them something must
  * be drawn. */
 static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
-                           bool drop)
+                           struct smear_refill *f)
 {
     if (!assembler_has_damage(as))
-        return assemble_kind(c, as, instant, drop, DRAWS_ALL);
+        return assemble_kind(c, as, instant, f, DRAWS_ALL);
     c->damage->tiles.only = false;
     c->damage->tiles.seen = NULL;
-    return assemble_kind(c, as, instant, drop, DRAWS_MOVING)
-        && assemble_kind(c, as, instant, drop, DRAWS_STATIC);
+    if (f == NULL || f->pass == 0) {
+        if (!assemble_kind(c, as, instant, f, DRAWS_MOVING))
+            return false;
+        if (f != NULL) {
+            f->pass = 1;
+            f->draw = f->triangle = 0;
+            f->parts = 0;
+        }
+    }
+    return assemble_kind(c, as, instant, f, DRAWS_STATIC);
 }
 
 #if SMEAR_FAST_STACK
 /* Assembles with the assembler's state on the stack, where that is faster. */
-static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant, bool drop)
+static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant,
+                                         struct smear_refill *f)
 {
     enum { VERTICES = 64 };
     struct smear_cached_vertex cache[VERTICES];
@@ -353,7 +386,7 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct s
     as.cache_mask = VERTICES - 1;
     as.serial = 0;
     smear_assembler_reset(&as);
-    const bool done = assemble_draws(c, &as, instant, drop);
+    const bool done = assemble_draws(c, &as, instant, f);
     c->rows.bins = bins;
     c->assembler.path_count = as.path_count;
     c->assembler.path_static_count = as.path_static_count;
@@ -407,10 +440,10 @@ static bool assemble_range(const struct assembly_parts *all, struct assembly_par
         return true;
     }
     if (assembly_has_path(&a))      /* is not cut: it belongs to where it begins */
-        return first != 0 || smear_assemble_path(&p->as, &a, false);
+        return first != 0 || smear_assemble_path(&p->as, &a);
     a.first = first;
     a.end = end;
-    return smear_assemble(&p->as, &a, false);
+    return smear_assemble(&p->as, &a);
 }
 
 static void assemble_job(void *argument, int job, int worker)
@@ -548,24 +581,27 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
 }
 #endif
 
-/* Assembles all draws for the tile rows [first, end). False when the store is full. */
+/* Assembles all draws for the tile rows [first, end), or those of a fill. False when the store is full. */
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
-                                         const struct smear_instant *instant, bool drop)
+                                         const struct smear_instant *instant, struct smear_refill *f)
 {
     smear_bins_reset(&c->rows.bins, first, end);
+    c->assembler.refills = f != NULL;
+    c->assembler.path_x0 = f != NULL ? (int16_t)f->path_x0 : 0;
+    c->assembler.path_x1 = f != NULL ? (int16_t)f->path_x1 : INT16_MAX;
 #if SMEAR_FAST_STACK
     if (!has_layers(c))
-        return assemble_fast(c, instant, drop);
+        return assemble_fast(c, instant, f);
 #endif
     smear_assembler_reset(&c->assembler);
 #if SMEAR_ASSEMBLY_JOBS
-    if (!drop && has_parts(c)) {
+    if (f == NULL && has_parts(c)) {
         if (assemble_parts(c, instant))
             return true;
         smear_bins_reset(&c->rows.bins, first, end);
     }
 #endif
-    return assemble_draws(c, &c->assembler, instant, drop);
+    return assemble_draws(c, &c->assembler, instant, f);
 }
 
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
@@ -599,17 +635,47 @@ static void begin_lists(struct smear_rows *rows, int top, int first)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
 }
 
-int smear_draws_assemble(struct smear_context *c, int *top, int least, int first, int end,
-                         const struct smear_instant *instant)
+/* Fills the store with the next triangles of a row that is refilled, and begins its lists. Statistics count what a kind of
+ * draws has on the first way through it. */
+static void fill(struct smear_refill *f)
+{
+    struct smear_context *c = (struct smear_context *)f->context;
+    struct smear_rows *rows = &c->rows;
+    const uint32_t start = stage_start(rows), drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
+    const smear_stats stats = c->stats;
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
+    c->in_parts = false;
+    f->more = !assemble_rows(c, f->row, f->row + 1, (const struct smear_instant *)f->instant, f);
+    note_fills(c);
+    if ((f->kinds & ~f->counted) == 0) {
+        c->assembler.triangles_drawn = drawn;
+        c->assembler.triangles_dropped = dropped;
+        c->stats.draws_beside = stats.draws_beside;
+    }
+    f->counted |= f->more ? 0 : f->kinds;
+    if (static_is_disturbed(c))
+        damage_forget(c->damage);
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
+    begin_lists(rows, f->row, f->row);
+    rows->opaque = row_advance(rows, rows->bins.opaque_last, SMEAR_NO_TRIANGLE, f->row);
+    rows->blend = row_advance(rows, rows->bins.blend_last, SMEAR_NO_TRIANGLE, f->row);
+    if (rows->bins.moving_last != NULL && !has_layers(c))
+        rows->moving = row_advance(rows, rows->bins.moving_last, SMEAR_NO_TRIANGLE, f->row);
+    stage_end(rows, &c->stats.time.submit, start);
+}
+
+int smear_draws_assemble(struct smear_context *c, int top, int first, int end, const struct smear_instant *instant,
+                         struct smear_refill *refill)
 {
     const uint32_t start = stage_start(&c->rows);
-    bool drop = false;
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
-    for (;;) {
+    c->rows.refill = NULL;
+    for (bool again = true; again;) {
         const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        const bool last = end - first <= 1 && *top == least, done = assemble_rows(c, *top, end, instant, drop);
+        const bool done = assemble_rows(c, top, end, instant, NULL);
         note_fills(c);
-        if (done && !static_is_disturbed(c))
+        again = !done || static_is_disturbed(c);
+        if (!again)
             break;
         c->assembler.triangles_drawn = drawn;
         c->assembler.triangles_dropped = dropped;
@@ -617,18 +683,16 @@ int smear_draws_assemble(struct smear_context *c, int *top, int least, int first
             damage_forget(c->damage);
             continue;
         }
-        if (last) {
-            drop = true;
-            continue;
-        }
-        if (end - first > 1)
-            end = first + (end - first) / 2;
-        else
-            ++*top;
         c->stats.parts_added++;
+        if (end - first == 1) {
+            *refill = (struct smear_refill){ .fill = fill, .context = c, .instant = instant };
+            c->rows.refill = refill;
+            again = false;
+        }
+        end = first + max_i32((end - first) / 2, 1);
     }
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
-    begin_lists(&c->rows, *top, first);
+    begin_lists(&c->rows, top, c->rows.refill == NULL ? first : top);
     stage_end(&c->rows, &c->stats.time.submit, start);
     return end;
 }

@@ -18,10 +18,10 @@ void smear_draws_find_layers(struct smear_context *c, const struct smear_instant
 /* Finds out whether what is static is the last frame's. */
 void smear_draws_find_damage(struct smear_context *c);
 
-/* Assembles as many tile rows of [first, end) as find room, at an instant; returns their end. Rows above are included
- * for what is finished a row late: from *top on, at most from `least` on where room is short. When that is too much,
- * triangles are dropped and counted. */
-int smear_draws_assemble(struct smear_context *c, int *top, int least, int first, int end,
-                         const struct smear_instant *instant);
+/* Assembles as many tile rows of [first, end) as find room, at an instant; returns their end. Rows from `top` on, above
+ * `first`, are included for what is finished a row late. When a single row is too much, rows.refill is `refill`, by which
+ * the method draws it from several fills of the store. */
+int smear_draws_assemble(struct smear_context *c, int top, int first, int end, const struct smear_instant *instant,
+                         struct smear_refill *refill);
 
 #endif

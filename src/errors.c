@@ -5,22 +5,23 @@
 
 #if SMEAR_WITH_ERROR_TEXT
 
-/* One after the other, each with its end: the kinds from SMEAR_OK down to SMEAR_ERR_FULL, then the faults. */
+/* One after the other, each with its end: the kinds from SMEAR_OK down to SMEAR_ERR_ROOM, then the faults. */
 #define TEXT(name, text) text "\0"
 static const char texts[] = "no error\0"
                             "a required argument is missing\0"
                             "memory: too little, or not 8-byte aligned\0"
                             "a call out of turn\0"
-                            "more draws than desc.max_draws\0" SMEAR_FAULTS(TEXT) "unknown error";
+                            "more draws than desc.max_draws\0"
+                            "desc.max_triangles: too few for a time mask\0" SMEAR_FAULTS(TEXT) "unknown error";
 #undef TEXT
 
 /* How many are kinds; how many there are before the last. */
-enum { KINDS = 1 - SMEAR_ERR_FULL, TEXTS = KINDS + (int)SMEAR_FAULT_COUNT };
+enum { KINDS = 1 - SMEAR_ERR_ROOM, TEXTS = KINDS + (int)SMEAR_FAULT_COUNT };
 
 const char *smear_error_text(int result)
 {
     int number = TEXTS;
-    if (result <= 0 && result >= SMEAR_ERR_FULL)
+    if (result <= 0 && result >= SMEAR_ERR_ROOM)
         number = -result;
     else if (result < SMEAR_ERR_FIELD && result >= SMEAR_ERR_FIELD - (int)SMEAR_FAULT_COUNT)
         number = (int)KINDS + SMEAR_ERR_FIELD - 1 - result;

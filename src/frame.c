@@ -22,8 +22,8 @@ static int render_temporal(struct smear_context *c)
     int result = SMEAR_OK;
     smear_draws_find_damage(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
-        int top = row;
-        end = smear_draws_assemble(c, &top, row, row, c->rows.window.rows, &middle);
+        struct smear_refill refill;
+        end = smear_draws_assemble(c, row, row, c->rows.window.rows, &middle, &refill);
         result = smear_temporal_rows(&c->temporal, &c->rows, row, end);
     }
     if (SMEAR_WITH_DAMAGE && c->damage != NULL && result == SMEAR_OK)
@@ -37,8 +37,8 @@ static int render_sharp(struct smear_context *c)
 {
     int result = SMEAR_OK;
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
-        int top = row;
-        end = smear_draws_assemble(c, &top, row, row, c->rows.window.rows, &smear_instant_now);
+        struct smear_refill refill;
+        end = smear_draws_assemble(c, row, row, c->rows.window.rows, &smear_instant_now, &refill);
         result = smear_sharp_rows(&c->rows, c->direct, row, end);
     }
     return result;
@@ -53,8 +53,8 @@ static int render_layered(struct smear_context *c)
     int result = SMEAR_OK;
     smear_draws_find_layers(c, &middle);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
-        int top = row;
-        end = smear_draws_assemble(c, &top, row, row, c->rows.window.rows, &middle);
+        struct smear_refill refill;
+        end = smear_draws_assemble(c, row, row, c->rows.window.rows, &middle, &refill);
         result = smear_layered_rows(c->layers, &c->rows, c->frame.samples, row, end);
     }
     return result;
@@ -78,8 +78,8 @@ static int render_filtered(struct smear_context *c)
                              c->rows.window.width, c->rows.window.height);
     }
     for (int row = 0, end; row < rows && result == SMEAR_OK; row = end) {
-        int top = max_i32(row - late, 0);
-        end = smear_draws_assemble(c, &top, top, row, rows, &middle);
+        struct smear_refill refill;
+        end = smear_draws_assemble(c, max_i32(row - late, 0), row, rows, &middle, &refill);
         result = smear_filtered_rows(&c->filtered, &c->rows, row, end);
     }
     return result;
@@ -95,7 +95,8 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_instant instant = smear_instant_at(&c->shot, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
         for (int row = first; row < end;) {
-            int top = row, part = smear_draws_assemble(c, &top, row, row, end, &instant);
+            struct smear_refill refill;
+            const int part = smear_draws_assemble(c, row, row, end, &instant, &refill);
             for (; row < part; row++) {
                 smear_sharp_draw_row(&c->rows, row, NULL);
                 smear_row_blend(&c->rows, row);
@@ -145,6 +146,7 @@ static void prepare_stages(struct smear_context *c, bool filters)
     c->assembler.keep_paths = smear_method_is_temporal(method);
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
+    rows->refill = NULL;
     c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc, c->filtered.ports != NULL);
 }
 

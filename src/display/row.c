@@ -67,10 +67,53 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
     t->x1 = min_i32(t->x1, job_right(r));
     if (t->x0 >= t->x1)
         return false;
-    smear_row_clear(t, rows->clear, velocity);
+    if (r->steps & ROW_CLEAR)
+        smear_row_clear(t, rows->clear, velocity);
+    t->over = rows->refill != NULL;
     t->cache = smear_raster_cache_of(&rows->cache, job);
-    smear_raster_list(&rows->raster, t, rows->opaque);
+    if (r->steps & ROW_DRAW)
+        smear_raster_list(&rows->raster, t, rows->opaque);
     return true;
+}
+
+bool smear_row_fill(struct smear_rows *rows, int row, int kinds)
+{
+    return smear_row_fill_columns(rows, row, kinds, 0, INT16_MAX);
+}
+
+bool smear_row_fill_columns(struct smear_rows *rows, int row, int kinds, int32_t x0, int32_t x1)
+{
+    struct smear_refill *f = rows->refill;
+    f->row = row;
+    f->path_x0 = x0;
+    f->path_x1 = x1;
+    f->kinds = (uint8_t)kinds;
+    f->pass = 0;
+    f->draw = f->triangle = 0;
+    f->parts = 0;
+    f->fill(f);
+    return true;
+}
+
+bool smear_row_fill_next(struct smear_rows *rows)
+{
+    if (!rows->refill->more)
+        return false;
+    rows->refill->fill(rows->refill);
+    return true;
+}
+
+void smear_row_run(struct smear_rows *rows, smear_job_fn *job, struct row_job *argument, int kinds)
+{
+    argument->steps = rows->refill == NULL ? ROW_ALL : ROW_CLEAR;
+    smear_jobs_run(&rows->jobs, job, argument, rows->jobs.workers);
+    if (rows->refill == NULL)
+        return;
+    argument->steps = ROW_DRAW;
+    for (bool any = smear_row_fill(rows, argument->row, kinds); any; any = smear_row_fill_next(rows))
+        smear_jobs_run(&rows->jobs, job, argument, rows->jobs.workers);
+    argument->steps = ROW_FINISH;
+    smear_jobs_run(&rows->jobs, job, argument, rows->jobs.workers);
 }
 
 static void blend_job(void *argument, int job, int worker)
@@ -80,7 +123,7 @@ static void blend_job(void *argument, int job, int worker)
     (void)worker;
     smear_row_target(r->rows, r->row, &t);
     smear_job_columns(r->rows, job, &t.x0, &t.x1);
-    if (t.x0 < t.x1)
+    if (t.x0 < t.x1 && (r->steps & ROW_DRAW))
         smear_raster_list(&r->rows->raster, &t, r->rows->blend);
 }
 
@@ -89,6 +132,7 @@ void smear_row_blend(struct smear_rows *rows, int row)
     if (!SMEAR_WITH_ALPHA || !rows->blends)
         return;
     struct row_job job = { .rows = rows, .row = row };
-    rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
-    smear_jobs_run(&rows->jobs, blend_job, &job, rows->jobs.workers);
+    if (rows->refill == NULL)
+        rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+    smear_row_run(rows, blend_job, &job, FILL_BLENDED);
 }

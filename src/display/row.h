@@ -19,6 +19,32 @@ struct smear_bands {
     unsigned sent;              /* of them reported by smear_band_done */
 };
 
+/* Which draws a fill of the store takes. */
+enum {
+    FILL_STATIC = 1, FILL_MOVING = 2,           /* opaque and cut out */
+    FILL_BLENDED = 4,
+    FILL_GROUP = 8                              /* those of a group of a layer, and no others */
+};
+
+/* How a tile row is drawn whose triangles do not find room at once: the store is filled with some, then with the next ones
+ * in their order, as often as it takes, and all over again for each picture that is drawn of them. */
+struct smear_refill {
+    void (*fill)(struct smear_refill *self);    /* draws.c */
+    void *context;
+    const void *instant;
+    int row;
+    uint8_t kinds;              /* FILL_STATIC | ... */
+    uint8_t counted;            /* those that statistics have */
+    uint16_t group;
+    int32_t path_x0, path_x1;   /* as in struct smear_assembler */
+    /* What the fill had no room for comes next; more than that: */
+    bool more;
+    uint8_t pass;
+    bool failed;                /* a tile cannot be drawn of several fills */
+    uint32_t draw, triangle;
+    uint16_t parts;
+};
+
 struct smear_rows {
     const smear_desc *desc;     /* defaults filled in */
     smear_stats *stats;
@@ -30,6 +56,7 @@ struct smear_rows {
     struct smear_bands bands;
     /* lists of the row that is drawn and of the row that is finished; SMEAR_NO_TRIANGLE before the first */
     uint32_t opaque, blend, moving;
+    struct smear_refill *refill;        /* null: the lists hold all triangles of the row */
     bool blends;                /* some draw is blended */
     bool keeps_motion;          /* triangles that move write velocities into the window */
     uint32_t clear;             /* 0x00RRGGBB */
@@ -94,7 +121,10 @@ struct row_job {
                                  * whose tiles lie one after the other */
     int32_t y0, y1;
     int32_t x0, x1;             /* of a temporal method */
+    uint8_t steps;              /* ROW_CLEAR | ...: those that a job does, see smear_row_run */
 };
+
+enum { ROW_CLEAR = 1, ROW_DRAW = 2, ROW_FINISH = 4, ROW_ALL = 7 };
 
 static inline int32_t job_left(const struct row_job *r) { return SMEAR_WITH_SUBFRAMES && r->x1 != 0 ? r->x0 : 0; }
 
@@ -123,6 +153,20 @@ static inline uint32_t row_advance(const struct smear_rows *rows, const uint32_t
 {
     return smear_bins_advance(&rows->bins, last, head, row);
 }
+
+/* Fills the store with triangles of a row that is refilled, and begins their lists: from the first one on; with the next
+ * ones, if there are any left.
+ *
+ *     for (bool any = smear_row_fill(rows, row, kinds); any; any = smear_row_fill_next(rows)) */
+bool smear_row_fill(struct smear_rows *rows, int row, int kinds);
+bool smear_row_fill_next(struct smear_rows *rows);
+
+/* Begins with the first one on, too, without what moves beside columns [x0, x1). */
+bool smear_row_fill_columns(struct smear_rows *rows, int row, int kinds, int32_t x0, int32_t x1);
+
+/* Runs a job for each cut of columns on the row's triangles of `kinds`: once, with all steps; where the row is refilled,
+ * to clear, then for each fill to draw, then to finish. */
+void smear_row_run(struct smear_rows *rows, smear_job_fn *job, struct row_job *argument, int kinds);
 
 /* Draws the job's share of the row's opaque triangles over cleared rows of the target, whose x0 and x1 it sets. False
  * where the share is empty. */

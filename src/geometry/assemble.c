@@ -21,6 +21,7 @@ static void forget_all(struct smear_assembler *a)
 void smear_assembler_reset(struct smear_assembler *a)
 {
     a->path_count = 0;
+    a->resume = (struct smear_resume){ 0, 0 };
     if (a->serial == 0)         /* after that, serial numbers tell old vertices from new ones */
         forget_all(a);
 }
@@ -296,9 +297,8 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     return area == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
 }
 
-/* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room for one that is not
- * dropped. */
-static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end, bool drop)
+/* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room. */
+static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
 {
     struct smear_assembler *a = b->a;
     const struct smear_assembly *d = b->d;
@@ -307,7 +307,7 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end, bool 
             forget_all(a);
         b->tag = ++a->serial << 16;
 #if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
-        if (d->mesh->vertex_count <= a->cache_mask + 1u)
+        if (d->mesh->vertex_count <= a->cache_mask + 1u && a->resume.triangle == 0)
             find_all(a, d, b->tag);
 #endif
     }
@@ -330,9 +330,8 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end, bool 
         if (v2->tag != tag2)
             v2 = miss(a, d, tag2, v0, v1, &spare[2]);
         if (!add_triangle(b, v0, v1, v2, i)) {
-            if (!drop)
-                return false;
-            a->triangles_dropped++;
+            a->resume = (struct smear_resume){ i, b->parts };
+            return false;
         }
     }
     return true;
@@ -658,7 +657,7 @@ static bool assemble_places(struct batch *b)
             return false;
         if (reached < last || last == i) {
             const uint32_t next = min_u32(reached + PLACES_BLOCK, end);
-            if (!assemble_cached(b, reached, next, false))
+            if (!assemble_cached(b, reached, next))
                 return false;
             reached = next;
         }
@@ -668,18 +667,18 @@ static bool assemble_places(struct batch *b)
 }
 #endif
 
-bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
-    if (b.segment == NULL) {
-        if (drop)
-            a->triangles_dropped += d->end - d->first;
-        return drop;
-    }
+    if (b.segment == NULL)
+        return false;
     batch_start(&b);
 #if SMEAR_PLACES
-    if (!drop)          /* else the cache decides what finds room, as it does on every machine */
+    if (!a->refills)
         return assemble_places(&b);
 #endif
-    return assemble_cached(&b, d->first, d->end, drop);
+    const bool done = assemble_cached(&b, max_u32(d->first, a->resume.triangle), d->end);
+    if (done)
+        a->resume = (struct smear_resume){ 0, 0 };
+    return done;
 }

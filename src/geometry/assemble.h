@@ -8,9 +8,8 @@
 /* Call before the draws of a frame, or of a part of it. */
 void smear_assembler_reset(struct smear_assembler *a);
 
-/* Adds the draw's triangles to the geometry. Returns false when the store is full: what
- * was added stays, and the caller draws the frame in parts. With `drop`, triangles that
- * find no room are counted and left out instead. */
-bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *draw, bool drop);
+/* Adds the draw's triangles to the geometry, from a->resume on. Returns false when the store is full: what was added
+ * stays, and a->resume tells what comes next. An empty store has room for something of any triangle. */
+bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *draw);
 
 #endif

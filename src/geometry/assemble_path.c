@@ -90,7 +90,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
     const bool large = min_i32(box.x1, a->viewport.width) - max_i32(box.x0, 0) > PATH_LARGE_PX
                     || min_i32(box.y1, a->viewport.height) - max_i32(box.y0, 0) > PATH_LARGE_PX;
     box_cut(&box, a);
-    if (box_is_empty(&box))
+    if (box_is_empty(&box) || (!is_blend(d) && (box.x0 >= a->path_x1 || box.x1 <= a->path_x0)))
         return false;
     *b = (struct smear_path_bounds){
         .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
@@ -119,6 +119,8 @@ struct path_batch {
     const struct smear_assembly *d;
     struct smear_segment *segment;      /* the newest */
     bool shares;                        /* all faces of a vertex share its record */
+    uint16_t parts;                     /* of the triangle at hand: those that have been added, now or before */
+    uint16_t parts_before;              /* before: they are left out */
     int32_t apart;                      /* nothing of the draw that is nearer is seen: find_apart(); 0: not known yet */
 };
 
@@ -157,6 +159,14 @@ static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bou
     return &list[bins_row(g, bounds->y0)];
 }
 
+/* Whether the next part of the triangle has been added already. */
+static bool is_added(struct path_batch *b)
+{
+    const bool added = b->parts < b->parts_before;
+    b->parts = (uint16_t)(b->parts + added);
+    return added;
+}
+
 static bool has_room(struct path_batch *b)
 {
     struct smear_segment *s = make_room(b->a, b->d, b->segment, 2);
@@ -191,6 +201,7 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
         t->vertex[i] = vertex[i];
     t->segment = (uint16_t)(b->segment - g->segment);
     t->color = color;
+    b->parts++;
     b->a->path_count++;
     b->a->path_static_count += is_static(bounds);
     if (assembler_has_damage(b->a))
@@ -205,7 +216,7 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
 {
     const struct smear_screen *const corner[3] = { v0->screen, v1->screen, v2->screen };
     struct smear_path_bounds bounds;
-    if (!find_bounds(&bounds, b->a, b->d, corner))
+    if (!find_bounds(&bounds, b->a, b->d, corner) || is_added(b))
         return true;
     if (!has_room(b))
         return false;
@@ -297,6 +308,8 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
         return true;
     /* Rounding may turn over a sliver of the fan: at instants that is seen, among what is static it is not. */
     if (is_static(&bounds) && area_of(&corner[0][MIDDLE], &corner[1][MIDDLE], &corner[2][MIDDLE]) <= 0)
+        return true;
+    if (is_added(b))
         return true;
     if (!has_room(b))
         return false;
@@ -642,37 +655,35 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         && (!behind || !d->material->double_sided || add_triangle(b, v[0], v2, v1, triangle, true));
 }
 
-bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d, bool drop)
+bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d)
 {
-    struct path_batch b = { a, d, smear_vertex_segment(a, d), false, 0 };
-    if (b.segment == NULL) {
-        if (drop)
-            a->triangles_dropped += d->mesh->triangle_count;
-        return drop;
-    }
+    struct path_batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
+    if (b.segment == NULL)
+        return false;
     b.shares = shares_vertices(d, b.segment);
     uint32_t mask;
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
-    const uint16_t *index = d->mesh->index;
+    const uint16_t *index = d->mesh->index + 3 * a->resume.triangle;
 #ifndef __OPTIMIZE_SIZE__
-    if (d->mesh->vertex_count <= mask + 1u)     /* one after the other they cost less */
+    if (d->mesh->vertex_count <= mask + 1u && a->resume.triangle == 0)      /* one after the other they cost less */
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
             find_vertex(&cache[i], a, d, tag + i);
 #endif
-    bool added = true;
-    for (uint32_t i = 0; i < d->mesh->triangle_count && added; i++, index += 3) {
+    for (uint32_t i = a->resume.triangle; i < d->mesh->triangle_count; i++, index += 3) {
         struct path_vertex *v[3];
         v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
         v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);
         v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2]);
-        added = add_seen(&b, v, i);
-        if (!added && drop) {
-            a->triangles_dropped++;
-            added = true;
+        b.parts = 0;
+        b.parts_before = (uint16_t)parts_before(a, i);
+        if (!add_seen(&b, v, i)) {
+            a->resume = (struct smear_resume){ i, b.parts };
+            return false;
         }
     }
-    return added;
+    a->resume = (struct smear_resume){ 0, 0 };
+    return true;
 }
 
 #endif

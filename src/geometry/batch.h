@@ -49,6 +49,7 @@ struct batch {
     bool double_sided;
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
+    uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
 };
 
 /* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */

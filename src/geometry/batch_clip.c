@@ -88,8 +88,8 @@ static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
     return (uint16_t)(word - s->base);
 }
 
-/* Adds the triangle of corners 0, i - 1 and i. Returns false where there is no room. */
-static bool add_fan(struct batch *b, struct clipped *c, int i)
+/* Adds the triangle of corners 0, i - 1 and i, which clipping left of `triangle`. Returns false where there is no room. */
+static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle)
 {
     const struct smear_screen *place[3] = { &c->screen[0], &c->screen[i - 1], &c->screen[i] };
     const int64_t area = area_of(place[0], place[1], place[2]);
@@ -100,10 +100,15 @@ static bool add_fan(struct batch *b, struct clipped *c, int i)
     box_cut(&box, b->a);
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
+    if (b->parts < parts_before(b->a, triangle)) {
+        b->parts++;
+        return true;
+    }
     struct smear_segment *s = make_room(b->a, b->d, b->segment, 1);
     if (s == NULL)
         return false;
     b->segment = s;
+    b->parts++;
     const uint16_t first = store_corner(b, c, 0), second = store_corner(b, c, i - 1), third = store_corner(b, c, i);
     struct smear_bins *g = b->a->bins;
     struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
@@ -133,7 +138,8 @@ bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *
     if (colored && back)
         clip_and_project(&c, b, corner);
     for (int i = 2; i < c.polygon.count; i++)
-        if (!add_fan(b, &c, i))
+        if (!add_fan(b, &c, i, triangle))
             return false;
+    b->parts = 0;
     return true;
 }

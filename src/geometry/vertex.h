@@ -69,6 +69,13 @@ static inline void tile_box_add(struct smear_tile_box *all, struct smear_tile_bo
     all->y1 = box.y1 > all->y1 ? box.y1 : all->y1;
 }
 
+/* Where in a draw to begin, or where the store was full: a triangle, of which some parts (a side, triangles that clipping
+ * left) are there already. */
+struct smear_resume {
+    uint32_t triangle;
+    uint16_t parts;
+};
+
 /* What all draws of a frame share. */
 struct smear_assembler {
     struct smear_viewport viewport;
@@ -79,9 +86,12 @@ struct smear_assembler {
     bool cache_has_paths;           /* it holds vertices of assemble_path.c */
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
+    bool refills;                   /* the store takes what finds room from `resume` on */
     uint32_t path_count, path_limit;    /* triangles with a path: listed, and at most */
     uint32_t path_static_count;     /* those of them whose path has no length: they are listed among the static ones */
     uint32_t triangles_drawn, triangles_dropped;
+    struct smear_resume resume;
+    int16_t path_x0, path_x1;       /* what moves, and is not blended, is left out where it is beside these columns */
     const struct smear_damaged_tiles *damaged;  /* where moving triangles mark their tiles; null without buffer_age */
 };
 
@@ -133,6 +143,12 @@ static inline bool assembler_keeps_paths(const struct smear_assembler *a)
 static inline bool assembler_has_damage(const struct smear_assembler *a)
 {
     return SMEAR_WITH_DAMAGE && a->damaged != NULL;
+}
+
+/* Returns how many parts of a triangle have been added already. */
+static inline uint32_t parts_before(const struct smear_assembler *a, uint32_t triangle)
+{
+    return triangle == a->resume.triangle ? a->resume.parts : 0;
 }
 
 static inline bool assembly_has_path(const struct smear_assembly *d) { return SMEAR_WITH_SUBFRAMES && d->path; }

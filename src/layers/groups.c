@@ -161,8 +161,7 @@ void smear_groups_end(struct smear_layers *l, uint32_t draw_count)
 }
 
 /* Triangles of layers lie in the store at the places that layer.h tells. */
-bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a,
-                           bool drop)
+bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a)
 {
     struct smear_bins *g = assembler->bins;
     const struct smear_viewport viewport = assembler->viewport;
@@ -171,7 +170,7 @@ bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assem
     assembler->viewport = (struct smear_viewport){ l->rows.width, l->rows.height };
     g->opaque_last = g->moving_last;
     g->row_end = end + g->moving_rows;
-    const bool added = smear_assemble(assembler, a, drop);
+    const bool added = smear_assemble(assembler, a);
     g->row_end = end;
     g->opaque_last = opaque;
     assembler->viewport = viewport;
@@ -211,7 +210,7 @@ static void extend(struct smear_group *group, const struct smear_bins *g, const 
     group->farthest = (uint16_t)min_u32(group->farthest, code_of(low));
 }
 
-void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint32_t head)
+void smear_groups_list_begin(struct smear_layers *l)
 {
     for (uint32_t i = 0; i < l->group_count; i++) {
         struct smear_group *group = &l->group[i];
@@ -221,6 +220,28 @@ void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint3
         group->nearest = 0;
         group->farthest = UINT16_MAX;
     }
+}
+
+void smear_groups_list_add(struct smear_group *group, const struct smear_bins *g, uint32_t head)
+{
+    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
+        group->head = i;
+        extend(group, g, bins_triangle(g, i));
+    }
+}
+
+void smear_groups_list_end(struct smear_layers *l)
+{
+    for (uint32_t i = 0; i < l->group_count; i++) {
+        struct smear_group *group = &l->group[i];
+        group->x0 = max_i32(group->x0, 0) & ~15;        /* cuts of columns lie on multiples of 16 */
+        group->x1 = min_i32((group->x1 + 15) & ~15, l->rows.width);
+    }
+}
+
+void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint32_t head)
+{
+    smear_groups_list_begin(l);
     struct smear_group *group = l->group;
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE;) {
         const struct smear_triangle *t = bins_triangle(g, i);
@@ -232,11 +253,7 @@ void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint3
         extend(group, g, t);
         i = t->next;
     }
-    for (uint32_t i = 0; i < l->group_count; i++) {
-        group = &l->group[i];
-        group->x0 = max_i32(group->x0, 0) & ~15;        /* cuts of columns lie on multiples of 16 */
-        group->x1 = min_i32((group->x1 + 15) & ~15, l->rows.width);
-    }
+    smear_groups_list_end(l);
 }
 
 static int32_t reach_of(int32_t reach, const struct smear_group *group)

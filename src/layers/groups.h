@@ -21,11 +21,16 @@ void smear_groups_add(struct smear_layers *l, uint32_t index, const smear_draw *
 void smear_groups_end(struct smear_layers *l, uint32_t draw_count);
 
 /* Assembles a draw of a group into lists of its own. Returns false where there is no room. */
-bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a,
-                           bool drop);
+bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assembler, const struct smear_assembly *a);
 
 /* Finds each group's part of the moving triangles' list, from `head` on. */
 void smear_groups_list(struct smear_layers *l, const struct smear_bins *bins, uint32_t head);
+
+/* Does so where a tile row is drawn from several fills of the store: begins, adds triangles of a group, from `head` on, and
+ * ends. A group that has none keeps no head. */
+void smear_groups_list_begin(struct smear_layers *l);
+void smear_groups_list_add(struct smear_group *group, const struct smear_bins *bins, uint32_t head);
+void smear_groups_list_end(struct smear_layers *l);
 
 /* Finds where groups lie in part behind others that are merged before them; returns false where none does. `reach` is
  * that of filters. */

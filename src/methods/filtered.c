@@ -141,6 +141,13 @@ static uint32_t filter_half(const struct filter_job *r, uint32_t *tile, int colu
     return samples;
 }
 
+static uint32_t filter_any(const struct filter_job *r, uint32_t *tile, int column, int worker)
+{
+    return SMEAR_WITH_FILTERS && r->filtered->window == r->filtered->half
+             ? filter_half(r, tile, column, worker)
+             : filter_tile(r->filtered, tile, r->row.row, column, r->row.y0, r->row.y1);
+}
+
 static void tile_job(void *argument, int column, int worker)
 {
     const struct filter_job *r = (const struct filter_job *)argument;
@@ -151,10 +158,19 @@ static void tile_job(void *argument, int column, int worker)
         return;
     }
     uint32_t *tile = rows->scratch + worker * rows->window.tile * rows->desc->band_rows;
-    rows->samples[worker] += SMEAR_WITH_FILTERS && f->window == f->half
-                               ? filter_half(r, tile, column, worker)
-                               : filter_tile(f, tile, r->row.row, column, r->row.y0, r->row.y1);
+    rows->samples[worker] += filter_any(r, tile, column, worker);
     if (rows->blend != SMEAR_NO_TRIANGLE)
+        smear_band_blend_tile(&r->row, column, tile);
+    smear_band_convert_tile(&r->row, column, tile);
+}
+
+/* Finishes a tile over which more is blended than the store holds at once. */
+static void finish_refilled(const struct filter_job *r, int column)
+{
+    struct smear_rows *rows = r->row.rows;
+    uint32_t *tile = rows->scratch;
+    rows->samples[0] += filter_any(r, tile, column, 0);
+    for (bool any = smear_row_fill(rows, r->row.row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
         smear_band_blend_tile(&r->row, column, tile);
     smear_band_convert_tile(&r->row, column, tile);
 }
@@ -229,17 +245,21 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
     if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG && f->ports->passes > 1)
         end = run_passes(f, rows, known);
     fill_row_table(f, row, end);
-    if (rows->blends)
+    if (rows->blends && rows->refill != NULL)
+        smear_row_fill(rows, row, FILL_BLENDED);
+    else if (rows->blends)
         rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+    const bool refilled = rows->blends && rows->refill != NULL && rows->refill->more;
 
     struct filter_job job = { .row = { .rows = rows, .row = row }, .filtered = f };
     int result = SMEAR_OK;
     while (result == SMEAR_OK && smear_band_next(&job.row)) {
         const uint32_t start = stage_start(rows);
-        if (tiles_share_bytes(rows->desc))
-            for (int column = 0; column < w->columns; column++)
-                tile_job(&job, column, 0);
-        else
+        for (int column = 0; refilled && column < w->columns; column++)
+            finish_refilled(&job, column);
+        for (int column = 0; !refilled && tiles_share_bytes(rows->desc) && column < w->columns; column++)
+            tile_job(&job, column, 0);
+        if (!refilled && !tiles_share_bytes(rows->desc))
             smear_jobs_run(&rows->jobs, tile_job, &job, w->columns);
         stage_end(rows, &rows->stats->time.blur, start);
         result = smear_band_flush(&job.row);

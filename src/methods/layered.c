@@ -57,7 +57,7 @@ static void background_job(void *argument, int job, int worker)
     (void)worker;
     if (!smear_row_draw_opaque(&r->row, job, &t, 0))
         return;
-    for (int32_t y = t.y0; r->mixes && y < t.y1; y++)
+    for (int32_t y = t.y0; r->mixes && (r->row.steps & ROW_CLEAR) && y < t.y1; y++)
         pixels_fill(r->layers->rows.over + target_row(&t.window_rows, &t, y) + t.x0, 0, t.x1 - t.x0);
 }
 
@@ -92,6 +92,16 @@ static void copy_columns(const struct smear_raster_target *t, int32_t row, int32
         __builtin_memcpy(t->velocity16 + 2 * to, t->velocity16 + 2 * from, n * 4);
 }
 
+/* Takes over the rows that are there, and clears the others. */
+static void clear_rows(const struct layers_row *r, const struct smear_raster_target *t)
+{
+    const struct smear_layer_rows *rows = &r->layers->rows;
+    for (int32_t row = 0; row < r->kept; row++)
+        copy_columns(t, row, r->down, rows->held.x0, rows->held.x1);
+    for (int32_t row = r->kept; row < r->area.rows; row++)
+        clear_columns(t, row, t->x0, t->x1);
+}
+
 /* Draws the group's rows, in as many cuts of columns as there are workers. */
 static void draw_job(void *argument, int job, int worker)
 {
@@ -103,12 +113,11 @@ static void draw_job(void *argument, int job, int worker)
     t.x0 = x0 + units * job / n * 16;
     if (t.x0 >= t.x1)
         return;
-    const struct smear_layer_rows *rows = &r->layers->rows;
-    for (int32_t row = 0; row < r->kept; row++)
-        copy_columns(&t, row, r->down, rows->held.x0, rows->held.x1);
-    for (int32_t row = r->kept; row < r->area.rows; row++)
-        clear_columns(&t, row, t.x0, t.x1);
-    smear_raster_list(&r->frame, &t, r->group->head);
+    if (r->row.steps & ROW_CLEAR)
+        clear_rows(r, &t);
+    t.over = r->row.rows->refill != NULL;
+    if (r->row.steps & ROW_DRAW)
+        smear_raster_list(&r->frame, &t, r->group->head);
 }
 
 /* Makes pixels of rows [y0, y1) say whether they are covered by what is on top: texels have written something else
@@ -152,15 +161,51 @@ static void find_extents(const struct layers_row *r)
         clear_tops(rows, r->kept, r->area.rows);
 }
 
+/* Begins or goes on with the triangles of a group in a row that is refilled; false when there are none left. A tile row
+ * above and below belongs to that of groups. */
+static bool fill_group(const struct layers_row *r, const struct smear_group *group, bool next)
+{
+    struct smear_rows *rows = r->row.rows;
+    const int row = r->row.row;
+    rows->refill->group = (uint16_t)(group - r->layers->group);
+    if (next ? !smear_row_fill_next(rows) : !smear_row_fill(rows, row, FILL_GROUP))
+        return false;
+    rows->moving = SMEAR_NO_TRIANGLE;
+    for (int i = row; i <= row + 2; i++)
+        rows->moving = smear_bins_merge(&rows->bins, rows->bins.moving_last, rows->moving, i, row_top(rows, row));
+    return true;
+}
+
+static void draw_refilled(struct layers_row *r)
+{
+    struct smear_rows *rows = r->row.rows;
+    r->row.steps = ROW_CLEAR;
+    smear_jobs_run(&rows->jobs, draw_job, r, rows->jobs.workers);
+    r->row.steps = ROW_DRAW;
+    for (bool any = fill_group(r, r->group, false); any; any = fill_group(r, r->group, true)) {
+        r->group->head = rows->moving;
+        smear_jobs_run(&rows->jobs, draw_job, r, rows->jobs.workers);
+    }
+}
+
 /* Draws the group's triangles: its part of the list of moving ones. */
-static void draw_group(struct layers_row *r)
+static void draw_listed(struct layers_row *r)
 {
     struct smear_jobs *jobs = &r->row.rows->jobs;
     struct smear_triangle *tail = bins_triangle(&r->row.rows->bins, r->group->tail);
     const uint32_t after = tail->next;
     tail->next = SMEAR_NO_TRIANGLE;
+    r->row.steps = ROW_ALL;
     smear_jobs_run(jobs, draw_job, r, jobs->workers);
     tail->next = after;
+}
+
+static void draw_group(struct layers_row *r)
+{
+    if (r->row.rows->refill != NULL)
+        draw_refilled(r);
+    else
+        draw_listed(r);
     find_extents(r);
 }
 
@@ -318,7 +363,7 @@ static void blend_job(void *argument, int job, int worker)
     struct smear_raster_target t = r->background;
     (void)worker;
     smear_job_columns(r->row.rows, job, &t.x0, &t.x1);
-    if (t.x0 < t.x1)
+    if (t.x0 < t.x1 && (r->row.steps & ROW_DRAW))
         smear_raster_list(&r->row.rows->raster, &t, r->row.rows->blend);
 }
 
@@ -347,10 +392,19 @@ static void list_row(const struct layers_row *r, bool first)
 {
     struct smear_rows *rows = r->row.rows;
     const int row = r->row.row;
+    struct smear_layers *l = r->layers;
+    if (rows->refill != NULL) {
+        smear_groups_list_begin(l);
+        for (uint32_t i = 0; i < l->group_count; i++)
+            for (bool any = fill_group(r, &l->group[i], false); any; any = fill_group(r, &l->group[i], true))
+                smear_groups_list_add(&l->group[i], &rows->bins, rows->moving);
+        smear_groups_list_end(l);
+        return;
+    }
     rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     for (int next = first ? row : row + 2; next <= row + 2; next++)
         rows->moving = smear_bins_merge(&rows->bins, rows->bins.moving_last, rows->moving, next, row_top(rows, row));
-    smear_groups_list(r->layers, &rows->bins, rows->moving);
+    smear_groups_list(l, &rows->bins, rows->moving);
 }
 
 static void merge_row(struct layers_row *r)
@@ -367,8 +421,9 @@ static void merge_row(struct layers_row *r)
     count_tiles(rows);
     if (!rows->blends)
         return;
-    rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, r->row.row);
-    smear_jobs_run(&rows->jobs, blend_job, r, rows->jobs.workers);
+    if (rows->refill == NULL)
+        rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, r->row.row);
+    smear_row_run(rows, blend_job, &r->row, FILL_BLENDED);
 }
 
 static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t samples, int row, bool first)
@@ -380,7 +435,7 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
         = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
     list_row(&r, first);
     r.mixes = smear_groups_find_mixed(l, rows->window.reach);
-    smear_jobs_run(&rows->jobs, background_job, &r, rows->jobs.workers);
+    smear_row_run(rows, background_job, &r.row, FILL_STATIC | FILL_MOVING);
     stage_end(rows, &rows->stats->time.raster, start);
     start = stage_start(rows);
     merge_row(&r);

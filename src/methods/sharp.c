@@ -28,7 +28,8 @@ static void draw_job(void *argument, int job, int worker)
         t.velocity16 = w->velocity16;
         t.inspect = rows->inspect;
     }
-    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth)
+    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth
+        || !(r->row.steps & ROW_FINISH))
         return;
     const struct smear_camera_store store = { rows->raster.velocity_scale, rows->raster.inspect_scale,
                                               rows->raster.reach_q3, rows->inspect };
@@ -50,10 +51,11 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
 {
     struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
     const uint32_t start = stage_start(rows);
-    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    if (rows->refill == NULL)
+        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     for (int32_t i = 0; i < rows->window.columns; i++)
         rows->window.moving[i] = 0;
-    smear_jobs_run(&rows->jobs, draw_job, &job, rows->jobs.workers);
+    smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_INSPECT && rows->inspect != NULL)
         inspect_row(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
@@ -108,7 +110,7 @@ int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
 {
     int result = SMEAR_OK;
     for (int row = first; row < end && result == SMEAR_OK; row++) {
-        if (SMEAR_DIRECT && direct) {
+        if (SMEAR_DIRECT && direct && rows->refill == NULL) {
             result = draw_direct_row(rows, row);
         } else {
             smear_sharp_draw_row(rows, row, NULL);

@@ -41,7 +41,7 @@ static void background_job(void *argument, int job, int worker)
 }
 
 /* Draws blended triangles over a tile without moving ones. */
-static void blend_static(const struct smear_tile_run *t, const struct smear_rows *rows)
+static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
 {
     const struct smear_raster_target *s = &t->background;
     for (int32_t y = s->y0; y < s->y1; y++) {
@@ -52,7 +52,37 @@ static void blend_static(const struct smear_tile_run *t, const struct smear_rows
     struct smear_raster_target over = *s;
     over.color = t->out;
     over.color_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
-    smear_raster_list(&rows->raster, &over, t->blend);
+    if (t->fill == NULL)
+        smear_raster_list(&rows->raster, &over, t->blend);
+    else
+        for (bool any = t->fill(t, FILL_BLENDED, false); any; any = t->fill(t, FILL_BLENDED, true))
+            smear_raster_list(&rows->raster, &over, t->blend);
+}
+
+/* Fills the store with the first or next triangles of the row: smear_tile_run.fill. */
+static bool fill_tiles(struct smear_tile_run *t, int kinds, bool next)
+{
+    const struct finish *f = (const struct finish *)t->fill_of;
+    struct smear_rows *rows = f->row.rows;
+    struct smear_row_moving *moving = &f->self->moving;
+    if (next ? !smear_row_fill_next(rows)
+             : !smear_row_fill_columns(rows, f->row.row, kinds, tile_left(rows, t->column), tile_right(rows, t->last_column)))
+        return false;
+    smear_list_again(moving, &rows->bins, &rows->window, rows->moving);
+    t->moving_count = moving->count;
+    t->blend = rows->blend;
+    return true;
+}
+
+/* Where the row is refilled: fills the store with what the tiles need. When that is all of it, they are drawn as ever. */
+static void refill_tiles(struct smear_tile_run *t, const struct finish *f)
+{
+    struct smear_rows *rows = f->row.rows;
+    if (rows->refill == NULL)
+        return;
+    t->fill_of = f;
+    fill_tiles(t, FILL_MOVING | FILL_BLENDED, false);
+    t->fill = rows->refill->more ? fill_tiles : NULL;
 }
 
 /* Describes tiles [first, end) of the row to a method. */
@@ -136,6 +166,7 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     const bool fills = smear_shutter_is_box(&self->shutter);
     if (fills)
         widen(&t, f, step);
+    refill_tiles(&t, f);
     f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, fills ? step : NULL);
     hand_on(f, &t);
     return next;
@@ -145,7 +176,13 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
+    refill_tiles(&t, f);
     if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
+        /* Samples of pixels are merged by depth, all at once. */
+        if (t.fill != NULL) {
+            rows->refill->failed = true;
+            return;
+        }
         rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask);
         travel_set_method(&f->self->moving.travel[column], TILE_TIMEMASK);
     } else {
@@ -215,22 +252,43 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     finish.row.x1 = tile_right(rows, run->end - 1);
     smear_row_target(rows, row, &finish.background);
     if (!static_is_cached(self->damage))
-        smear_jobs_run(&rows->jobs, background_job, &finish, rows->jobs.workers);
+        smear_row_run(rows, background_job, &finish.row, FILL_STATIC | FILL_MOVING);
     stage_end(rows, &rows->stats->time.raster, start);
 
     start = stage_start(rows);
     finish.row.band = smear_band_begin(rows);
+    const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run))
         finish_static(&finish, run->first, run->end);
-    else
-        smear_jobs_run(&rows->jobs, finish_job, &finish, (rows->window.width + self->strip - 1) / self->strip);
+    else if (rows->refill == NULL)
+        smear_jobs_run(&rows->jobs, finish_job, &finish, strips);
+    for (int strip = 0; rows->refill != NULL && strip < strips; strip++)
+        finish_job(&finish, strip, 0);
     stage_end(rows, &rows->stats->time.blur, start);
+    if (rows->refill != NULL && rows->refill->failed)
+        return SMEAR_ERR_ROOM;
     return smear_band_flush(&finish.row);
+}
+
+/* Finds what moves and is blended in a row that is refilled. */
+static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, int row)
+{
+    for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
+        smear_list_moving(&self->moving, &rows->bins, &rows->window, rows->moving, row_top(rows, row));
+    if (!rows->blends)
+        return;
+    for (bool any = smear_row_fill(rows, row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
+        smear_list_blended(&self->moving, &rows->bins, &rows->window, rows->blend, row_top(rows, row));
 }
 
 static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_bins *bins = &rows->bins;
+    smear_list_begin(&self->moving, &rows->window);
+    if (rows->refill != NULL) {
+        list_refilled(self, rows, row);
+        return;
+    }
     rows->opaque = row_advance(rows, bins->opaque_last, rows->opaque, row);
     rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
     smear_list_moving(&self->moving, bins, &rows->window, rows->moving, row_top(rows, row));
@@ -258,12 +316,18 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
 }
 
 /* Returns the error that tile rows [first, end) may have, for their share of the frame's budget. */
-static int32_t target_within_budget(const struct smear_temporal *self, const struct smear_rows *rows, int first, int end)
+static int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
     const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
     struct smear_travel_areas areas = { .interval_area = 0 };
-    for (int row = first; row < end; row++)
-        smear_add_areas(&areas, &rows->bins, rows->bins.moving_last[row]);
+    for (int row = first; rows->refill == NULL && row < end; row++) {
+        const uint32_t last = rows->bins.moving_last[row];
+        if (last != SMEAR_NO_TRIANGLE)
+            smear_add_areas(&areas, &rows->bins, bins_triangle(&rows->bins, last)->next, last);
+    }
+    if (rows->refill != NULL)
+        for (bool any = smear_row_fill(rows, first, FILL_MOVING); any; any = smear_row_fill_next(rows))
+            smear_add_areas(&areas, &rows->bins, rows->moving, SMEAR_NO_TRIANGLE);
     uint32_t work;
     const int32_t target = smear_tile_method_target(&self->chooser, &areas, budget / all * part + budget % all * part / all,
                                                     &work);

@@ -174,7 +174,7 @@ static inline void draw_point(const struct smear_raster_frame *frame,
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head)
 {
-    bool moved = false;
+    bool moved = target->over;
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);

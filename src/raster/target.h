@@ -38,6 +38,7 @@ struct smear_raster_target {
     int32_t *inspect;               /* x y in 1/256 px per frame, before clamp and packing; or null */
     struct smear_raster_cache cache;        /* of these columns, from target to target */
     uint8_t *moving;                /* per column of tiles: set when a moving triangle was drawn there */
+    bool over;                      /* triangles were drawn before the list, moving ones maybe */
     uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
 };
 

@@ -28,6 +28,10 @@ struct smear_tile_run {
     uint32_t *out;                              /* finished working pixels, rows `pitch` apart */
     int32_t pitch;
     int32_t tile;                               /* edge, pixels */
+    /* Where the row's triangles do not find room at once (display/row.h), else null: `moving` and `blend` are only some of
+     * them, the first ones or, with `next`, those after; false when there are none left. `kinds`: FILL_MOVING ... */
+    bool (*fill)(struct smear_tile_run *t, int kinds, bool next);
+    const void *fill_of;
     void *work;                                 /* memory of the worker's own */
     uint32_t work_bytes;                        /* read by the time mask: 0 is what it asks for */
 };

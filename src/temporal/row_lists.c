@@ -270,21 +270,33 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
     }
 }
 
-void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
-                       uint32_t head, int32_t top)
+void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w)
 {
-    const int shift = w->tile_shift;
     for (int32_t i = 0; i < w->columns; i++)
         r->travel[i] = (struct smear_tile_travel){
             .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX, .y1 = INT16_MIN
         };
+}
+
+void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
+                       uint32_t head, int32_t top)
+{
+    smear_list_again(r, g, w, head);
+    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
+        const struct smear_path_bounds *b = bins_bounds(g, i);
+        const struct displacements d = displacements_of(g, i);
+        add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top);
+    }
+}
+
+void smear_list_again(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w, uint32_t head)
+{
+    const int shift = w->tile_shift;
     r->count = 0;
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_path_bounds *b = bins_bounds(g, i);
         r->moving[r->count++] = (struct smear_moving_triangle){ i, (uint8_t)(b->x0 >> shift),
                                                                 (uint8_t)((b->x1 - 1) >> shift), b->nearest };
-        const struct displacements d = displacements_of(g, i);
-        add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top);
     }
 }
 
@@ -308,10 +320,9 @@ static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
     return area < box ? (uint32_t)area + 1 : box;
 }
 
-void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *g, uint32_t last)
+void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *g, uint32_t head, uint32_t last)
 {
-    for (uint32_t i = last; i != SMEAR_NO_TRIANGLE;) {
-        i = bins_triangle(g, i)->next;
+    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_path_bounds *b = bins_bounds(g, i);
         const int32_t length = min_i32((b->travel + b->curvature) >> TRAVEL_CLASS_SHIFT, TRAVEL_CLASSES - 1);
         uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[length], area = moving_area(g, i);

@@ -12,15 +12,22 @@ struct smear_row_moving {
     struct smear_tile_travel *travel;           /* per tile */
 };
 
-/* Lists the moving triangles from `head` on, for the tile row whose first pixel row is `top`. */
+/* Begins a tile row: nothing moves in its tiles so far. */
+void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w);
+
+/* Lists the moving triangles from `head` on, for the tile row whose first pixel row is `top`, and adds what they mean for
+ * its tiles; or lists them again, when that is known. */
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
                        uint32_t head, int32_t top);
+
+void smear_list_again(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
+                      uint32_t head);
 
 /* Marks the tiles of blended draws, from `head` on. */
 void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
                         uint32_t head, int32_t top);
 
-/* Adds the areas of a ring of moving triangles, before it is opened: `last` is its last. */
-void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *bins, uint32_t last);
+/* Adds the areas of moving triangles from `head` to `last`, or to the list's end. */
+void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *bins, uint32_t head, uint32_t last);
 
 #endif

@@ -28,6 +28,7 @@ static inline bool subframe_box_is_empty(const struct subframe_box *b)
 
 struct subframes {
     const struct smear_tile_run *t;
+    struct smear_tile_run *refilled;    /* the same where its triangles come in several fills, or null */
     struct smear_raster_target work;    /* the tile at an instant: finished pixels, depth of its own */
     struct packed_sums sums;            /* of what is not background: of codes, or of light (light_sums.h) */
     bool blends;                /* blended draws change the background, too */

@@ -12,6 +12,7 @@
  *     average     sums over the gap between instants, and means over the background (subframe_gap.c) */
 #include "temporal/subframes.h"
 
+#include "display/row.h"
 #include "geometry/shutter.h"
 #include "raster/raster.h"
 #include "temporal/subframe_background.h"
@@ -58,6 +59,23 @@ static void note(struct subframes *f, const struct smear_moving_triangle *m)
     box_add(&f->area, &path);
 }
 
+static void begin_list(struct subframes *f, const struct subframe_box *whole)
+{
+    const struct depth_range depths = smear_subframe_depths(f, whole, 0);
+    f->lowest = depths.least;
+    f->highest = depths.most;
+    f->nearest = 0;
+    f->area = no_box;
+}
+
+static void end_list(struct subframes *f, const struct subframe_box *whole)
+{
+    if (f->blends) {
+        f->nearest = UINT16_MAX;
+        f->area = *whole;
+    }
+}
+
 /* Lists what may be seen. True when something moves. */
 static SMEAR_NOINLINE bool list(struct subframes *f)
 {
@@ -66,11 +84,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     uint32_t n = 0;
     bool moves = false;
     const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
-    const struct depth_range depths = smear_subframe_depths(f, &whole, 0);
-    f->lowest = depths.least;
-    f->highest = depths.most;
-    f->nearest = 0;
-    f->area = no_box;
+    begin_list(f, &whole);
     for (f->moving_rest = 0; f->moving_rest < t->moving_count && n < LISTED; f->moving_rest++) {
         const struct smear_moving_triangle *m = &t->moving[f->moving_rest];
         if (is_seen(f, m)) {
@@ -94,11 +108,48 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
-    if (f->blends) {
-        f->nearest = UINT16_MAX;
-        f->area = whole;
-    }
+    end_list(f, &whole);
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
+}
+
+/* ------------------------------------------------------------------ several fills */
+
+/* Begins to go through triangles of the tiles that come in several fills, or goes on: then none are listed. */
+static bool fill(struct subframes *f, int kinds, bool next)
+{
+    if (!f->refilled->fill(f->refilled, kinds, next))
+        return false;
+    f->moving_listed = f->all_listed = f->moving_rest = 0;
+    f->blend_rest = f->refilled->blend;
+    return true;
+}
+
+/* Finds out what list() does, where nothing can be listed. */
+static SMEAR_RARE bool list_refilled(struct subframes *f)
+{
+    const struct smear_tile_run *t = f->t;
+    const struct smear_bins *g = t->frame->bins;
+    bool moves = false, touched = false, any_blended = false;
+    uint32_t seen = 0;
+    const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
+    begin_list(f, &whole);
+    for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
+        for (uint32_t i = 0; i < t->moving_count; i++)
+            if (is_seen(f, &t->moving[i])) {
+                note(f, &t->moving[i]);
+                seen++;
+            }
+    for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
+        for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
+            any_blended = true;
+            if (!touches(f, i))
+                continue;
+            touched = true;
+            moves = moves || g->segment[bins_triangle(g, i)->segment].path;
+        }
+    f->blends = touched || (any_blended && seen >= LISTED);
+    end_list(f, &whole);
+    return moves || any_blended || seen != 0;
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -117,13 +168,22 @@ static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, i
     }
 }
 
-static void draw_moving(const struct subframes *f, int32_t time, struct subframe_box *all)
+static void draw_listed(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     for (uint32_t i = 0; i < f->moving_listed; i++)
         draw_moving_triangle(f, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)
         if (is_seen(f, &f->t->moving[i]))
             draw_moving_triangle(f, f->t->moving[i].triangle, time, all);
+}
+
+static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
+{
+    if (f->refilled == NULL)
+        draw_listed(f, time, all);
+    else
+        for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
+            draw_listed(f, time, all);
 }
 
 enum blend_pass {
@@ -146,14 +206,24 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
         draw(&p, f, target);
 }
 
-static SMEAR_RARE void blend(const struct subframes *f, int32_t time, enum blend_pass pass,
-                             const struct smear_raster_target *target, struct subframe_box *all)
+static SMEAR_RARE void blend_listed(const struct subframes *f, int32_t time, enum blend_pass pass,
+                                    const struct smear_raster_target *target, struct subframe_box *all)
 {
     for (uint32_t i = f->moving_listed; i < f->all_listed; i++)
         blend_one(f, f->listed[i], time, pass, target, all);
     for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE;
          i = bins_triangle(f->t->frame->bins, i)->next)
         blend_one(f, i, time, pass, target, all);
+}
+
+static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_pass pass,
+                             const struct smear_raster_target *target, struct subframe_box *all)
+{
+    if (f->refilled == NULL)
+        blend_listed(f, time, pass, target, all);
+    else
+        for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
+            blend_listed(f, time, pass, target, all);
 }
 
 /* The work planes within a box. */
@@ -169,7 +239,7 @@ static struct smear_raster_target within(const struct subframes *f, const struct
 }
 
 /* Draws everything that moves, and what is blended over it; returns where. */
-static struct subframe_box draw_instant(const struct subframes *f, int32_t time)
+static struct subframe_box draw_instant(struct subframes *f, int32_t time)
 {
     struct subframe_box all = no_box;
     draw_moving(f, time, &all);
@@ -184,7 +254,7 @@ static struct subframe_box draw_instant(const struct subframes *f, int32_t time)
 }
 
 /* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
-static uint32_t draw_instants(const struct subframes *f, struct subframe_box *all)
+static uint32_t draw_instants(struct subframes *f, struct subframe_box *all)
 {
     const int32_t instants = (int32_t)f->instants;
     uint32_t samples = 0;
@@ -223,8 +293,13 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 
     struct subframe_box all;
+    struct smear_tile_run own;
+    if (t->fill != NULL) {
+        own = *t;
+        f.t = f.refilled = &own;
+    }
     smear_subframe_take_background(&f);
-    const uint32_t samples = list(&f) ? draw_instants(&f, &all) : 0;
+    const uint32_t samples = (f.refilled != NULL ? list_refilled(&f) : list(&f)) ? draw_instants(&f, &all) : 0;
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
     if (samples != 0)

@@ -173,6 +173,7 @@ static bool draw(struct device *device, const struct presented *presented, uint3
     *submit_ticks = clock_ticks(NULL) - start;
     if (result == SMEAR_OK)
         result = crew_render(device->crew, device->ctx);
+    device->result = result;
     return result == SMEAR_OK || fail(f, "the library refused the frame: %s", smear_error_text(result));
 }
 

@@ -45,6 +45,7 @@ struct device {
     struct crew *crew;                  /* the other threads; null for one thread */
     bool is_timed;                      /* bands are thrown away */
     uint32_t submit_ticks;              /* of the frame drawn last */
+    int result;                         /* what the library made of it */
     uint8_t *pixels;                    /* the frame in the display's format, row after row */
     size_t stride, size;                /* bytes; of a page of 8 rows with SMEAR_L1_PAGES */
 };

@@ -7,16 +7,23 @@
 /* What the search may draw: triangles and, for 16 of them, pixels. */
 static const double max_work = 5e6;
 
+/* Draws the frame with room for so many triangles; a method that has too little is not done in one either. */
 static bool draws_in_one(struct device *device, const struct presented *presented,
                          uint32_t triangles, smear_stats *stats, double *work, struct failure *f)
 {
+    struct failure why = { "" };
     if (*work > max_work)
         return fail(f, "its frame takes too long to be measured");
     device->setup.max_triangles = triangles;
-    if (!device_fit(device, presented, f) || !device_draw(device, presented, f))
+    if (!device_fit(device, presented, f))
         return false;
+    if (!device_draw(device, presented, &why) && device->result != SMEAR_ERR_ROOM) {
+        *f = why;
+        return false;
+    }
     smear_get_stats(device->ctx, stats);
     *work += (double)presented->triangle_count * (1 + stats->parts_added) + ((double)stats->pixels + stats->samples) / 16;
+    stats->parts_added += device->result == SMEAR_ERR_ROOM;
     return true;
 }
 
@@ -31,7 +38,7 @@ static bool find_smallest(struct device *device, const struct presented *present
     for (;; high *= 2) {
         if (!draws_in_one(device, presented, high, &stats, &work, f))
             return false;
-        if (stats.parts_added == 0 && stats.triangles_dropped == 0)
+        if (stats.parts_added == 0)
             break;
         low = high + 1;
         if (high > 4 * presented->triangle_count + 64)
@@ -42,7 +49,7 @@ static bool find_smallest(struct device *device, const struct presented *present
         uint32_t middle = low + (high - low) / 2;
         if (!draws_in_one(device, presented, middle, &stats, &work, f))
             return false;
-        if (stats.parts_added == 0 && stats.triangles_dropped == 0)
+        if (stats.parts_added == 0)
             high = middle;
         else
             low = middle + 1;

@@ -270,7 +270,7 @@ static bool draw_frame(struct view *v)
     if (!view_draw_main(v, v->at))
         return give_up(v, v->source->name, &v->why);
     if (v->main.stats.triangles_dropped > 0 && !v->told_dropped)
-        view_say(v, "the arena is too small: triangles are left out");
+        view_say(v, "triangles with vertices that the mesh does not have are left out");
     v->told_dropped = v->main.stats.triangles_dropped > 0;
     double drawn_us = clock_us() - start;
     v->times.draw_us += drawn_us;
