@@ -328,7 +328,7 @@ typedef enum smear_shutter_mode {
 typedef enum smear_exposure { SMEAR_CENTRED, SMEAR_TRAILING, SMEAR_LEADING } smear_exposure;
 
 /* What working values mean: linear light (products, interpolation and the mean over time are light, encoded once at
- * output), or sRGB codes throughout, which is cheaper. */
+ * output), or sRGB codes throughout, which is a little cheaper. */
 typedef enum smear_light_space { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear_light_space;
 
 /* Departures of SMEAR_RECONSTRUCT from the Post Processing Stack v2 filter, or-ed together. */

@@ -62,7 +62,7 @@
 #ifndef SMEAR_WITH_BILLBOARDS           /* draws that turn with the camera */
 #define SMEAR_WITH_BILLBOARDS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_LINEAR               /* linear light, and its table of 4 kB */
+#ifndef SMEAR_WITH_LINEAR               /* linear light, and its tables of 4.6 kB */
 #define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_ORTHOGRAPHIC         /* cameras without perspective */

@@ -159,7 +159,7 @@ struct light_mean smear_light_mean(uint32_t full, int32_t pairs, uint32_t unit, 
         m.full = weighted(full, m.own) + weighted(full, m.pair) * (uint32_t)(pairs - 1) + weighted(full, m.last);
     }
     m.factor = ((uint32_t)LIGHT_WHITE << 16) / m.full;
-    m.half = m.full / (2 * LIGHT_WHITE);
+    m.half = (m.full + LIGHT_WHITE) / (2 * LIGHT_WHITE) + (pairs != 0 ? (uint32_t)(pairs + 1) / 2 : 0);
     return m;
 }
 

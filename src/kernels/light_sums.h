@@ -65,7 +65,7 @@ struct light_mean {
     uint32_t own, pair, last;   /* of the pixel (0 where there are no pairs: one), of a pair's mean, of the last one's */
     uint32_t full;              /* the weighted sum of what is white throughout */
     uint32_t factor;            /* q16: `full` to LIGHT_WHITE */
-    uint32_t half;              /* of a step of light */
+    uint32_t half;              /* of a step of light, and what products of weights lose by their floors, about */
     bool linear;
 };
 

@@ -536,6 +536,36 @@ static void test_a_step_closes_the_gap_between_instants(void)
     }
 }
 
+static void test_light_of_one_colour_stays_that_colour(void)
+{
+    /* At all instants, and at none before a background of it, with and without taps beside the pixel. More than 16
+     * instants have less than 16 bits to round in. */
+    static const int32_t offset[] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    const uint16_t depth = 0;
+    for (uint32_t n = 1; n <= 1024; n += n < 40 ? 1 : 123)
+        for (int32_t pairs = 0; pairs <= 8; pairs += 4)
+            for (uint32_t code = 0; code < 256; code++) {
+                uint32_t memory_of_sum[2] = { 0, 0 }, color = code * 0x10101u, background = ~color & 0xffffffu;
+                const struct packed_sums sums = packed_sums_in(memory_of_sum, 1);
+                const struct light_mean mean = smear_light_mean(smear_light_full(n), pairs, 16, 7, true);
+                const struct gap_planes planes = { &color, &depth, sums, UINT16_MAX };
+                const struct gap_pairs taps = { offset, pairs, smear_light_most(n) };
+                smear_light_means(&planes, 0, 1, &taps, &mean, COVER_NONE);
+                if (!CHECK_EQ(color, code * 0x10101u))
+                    return;
+                for (uint32_t k = 0; k < n; k++) {
+                    const struct light_instant instant = smear_light_instant(k, n, true);
+                    uint32_t pixel = color;
+                    smear_light_add(&pixel, &background, sums, 1, &instant, true);
+                }
+                uint32_t mixed = background;
+                const struct gap_planes before = { &mixed, &depth, sums, UINT16_MAX };
+                smear_light_means(&before, 0, 1, &taps, &mean, COVER_NONE);
+                if (!CHECK_NEAR(mixed & 0xffu, code, n <= 16 ? 0 : 1))
+                    return;
+            }
+}
+
 static void test_wide_gaps_of_many_instants_keep_white(void)
 {
     /* White all over: sums of linear light are the largest there are. */
@@ -848,6 +878,7 @@ void suite_subframes(void)
     RUN(test_a_moving_edge_is_a_ramp);
     RUN(test_tiles_together_are_what_they_are_alone);
     RUN(test_a_step_closes_the_gap_between_instants);
+    RUN(test_light_of_one_colour_stays_that_colour);
     RUN(test_wide_gaps_of_many_instants_keep_white);
     RUN(test_gaps_at_a_border_close_with_what_lies_beyond_it);
     RUN(test_what_hides_movers_stays_as_it_is_beside_closed_gaps);

@@ -10,8 +10,10 @@ void suite_tables(void);
 
 static void test_every_code_survives_decoding_and_encoding(void)
 {
-    for (uint32_t code = 0; code < 256; code++)
+    for (uint32_t code = 0; code < 256; code++) {
         CHECK_EQ(smear_srgb_encode[smear_srgb_decode[code] >> 4], code);
+        CHECK_EQ(smear_srgb_encode[smear_srgb_light[code]], code);
+    }
 }
 
 static void test_light_rises_with_the_code_from_black_to_one(void)
