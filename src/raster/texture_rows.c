@@ -447,23 +447,55 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     }
 }
 
+#if TEXEL_TABLES
+/* Whether rows have so many pixels that a table for their light is worth it, of 32 and 64 levels. */
+static bool rows_are_many(const struct span_rows *r)
+{
+    int32_t pixels = 0;
+    for (int32_t i = 0; i < r->count; i++)
+        pixels += max_i32(r->side[i].right - r->side[i].left, 0);
+    return pixels >= 256;
+}
+
+#define LIGHT_TABLE(LIGHT, R) \
+    struct texel_table table; \
+    if ((LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 && rows_are_many(R)) { \
+        smear_texel_light_table(&table, &(LIGHT)); \
+        (LIGHT).table = &table; \
+    }
+#else
+#define LIGHT_TABLE(LIGHT, R) (void)(R);
+#endif
+
 #define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
     static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct row_list list; \
-        struct texel_light light; \
-        if (texels_are_lit(KIND)) \
-            light_start(&light, s); \
-        draw_blocks(s, r, &list, texels_are_lit(KIND) ? &light : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
+        draw_blocks(s, r, &list, NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
         if (list.count != 0) \
-            draw_places(s, r, &list, texels_are_lit(KIND) ? &light : NULL); \
+            draw_places(s, r, &list, NULL); \
+    } \
+    static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        draw_curves(s, r, NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
+    }
+#define LIT_ROWS(NAME, KIND) \
+    static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        struct row_list list; \
+        struct texel_light light; \
+        light_start(&light, s); \
+        LIGHT_TABLE(light, r) \
+        draw_blocks(s, r, &list, &light, ANY_WIDTH, ANY_HEIGHT, KIND); \
+        if (list.count != 0) \
+            draw_places(s, r, &list, &light); \
     } \
     static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct texel_light light; \
-        if (texels_are_lit(KIND)) \
-            light_start(&light, s); \
-        draw_curves(s, r, texels_are_lit(KIND) ? &light : NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
+        light_start(&light, s); \
+        LIGHT_TABLE(light, r) \
+        draw_curves(s, r, &light, ANY_WIDTH, ANY_HEIGHT, KIND); \
     }
 #define ANY_WIDTH  s->draw->sampler.log2_width
 #define ANY_HEIGHT s->draw->sampler.log2_height
@@ -481,13 +513,13 @@ ROWS(wide_64, 6, 6, TEXELS_WIDE)
 ROWS(wide_128, 7, 7, TEXELS_WIDE)
 ROWS(wide_256, 8, 8, TEXELS_WIDE)
 #endif
-ROWS(lit, ANY_WIDTH, ANY_HEIGHT, TEXELS_LIT)
+LIT_ROWS(lit, TEXELS_LIT)
 #if SMEAR_DIRECT
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
 ROWS(narrow_64, 6, 6, TEXELS_NARROW)
 ROWS(narrow_128, 7, 7, TEXELS_NARROW)
 ROWS(narrow_256, 8, 8, TEXELS_NARROW)
-ROWS(lit_narrow, ANY_WIDTH, ANY_HEIGHT, TEXELS_LIT_NARROW)
+LIT_ROWS(lit_narrow, TEXELS_LIT_NARROW)
 #endif
 
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
