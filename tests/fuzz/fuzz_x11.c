@@ -81,7 +81,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const struct screen_wish wish = { .title = "fuzz", .width = 1 + data[10], .height = 1 + data[11], .no_shared_memory = data[7] & 1 };
     struct screen *screen = screen_x11.open(&wish, &f);
     require(screen != NULL || f.text[0] != '\0');
-    for (int i = 0; i < 64 && screen != NULL; i++) {
+    for (int i = 0; i < 6 && screen != NULL; i++) {
         struct surface surface;
         struct event event;
         if (!screen_x11.surface(screen, &surface, &f))

@@ -24,7 +24,7 @@ enum {
 enum { SHIFT = 1, LOCK = 2 };
 enum { ATOM_ATOM = 4, ATOM_STRING = 31, ATOM_WM_NAME = 39, ATOM_WM_NORMAL_HINTS = 40,
        ATOM_WM_SIZE_HINTS = 41, ATOM_WM_CLASS = 67 };
-enum { Z_PIXMAP = 2, MAX_EDGE = 16384, PUT_IMAGE_HEAD = 24 };
+enum { Z_PIXMAP = 2, MAX_EDGE = 16384, MAX_PIXELS = 1 << 25, PUT_IMAGE_HEAD = 24 };
 
 struct window {
     struct screen screen;
@@ -394,7 +394,7 @@ static bool take_motion(struct window *w, const uint8_t *e, struct event *out)
 static bool take_size(struct window *w, const uint8_t *e, struct event *out)
 {
     int width = x11_get16(e + 20), height = x11_get16(e + 22);
-    if (width < 1 || height < 1 || width > MAX_EDGE || height > MAX_EDGE ||
+    if (width < 1 || height < 1 || width > MAX_EDGE || height > MAX_EDGE || width > MAX_PIXELS / height ||
         (width == w->screen.width && height == w->screen.height))
         return false;
     w->screen.width = width;
