@@ -102,10 +102,11 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t inde
     for (int pose = 0; pose < segment_moves(s); pose++) {
         struct smear_homogeneous h, now;
         pose_transform(&h, d, pose, index);
-        if (known == NULL)
+        if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
             placement_transform(&now, &d->at, index);
-        smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, known != NULL ? known : &now, screen,
-                                 &b->a->viewport);
+            known = &now;
+        }
+        smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, known, screen, &b->a->viewport);
     }
     return word;
 }

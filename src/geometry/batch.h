@@ -27,14 +27,11 @@ static inline const struct smear_homogeneous *cached_now(const struct smear_cach
 }
 
 /* Whether the display lacks one of the tiles that the box reaches into; notes where triangles are seen. */
+bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct box *box);
+
 static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
 {
-    if (!assembler_has_damage(a))
-        return true;
-    const struct smear_tile_box tiles = tile_box_of(a->damaged, box->x0, box->x1, box->y0, box->y1);
-    if (a->damaged->seen != NULL)
-        tile_box_add(a->damaged->seen, tiles);
-    return !a->damaged->only || tile_box_is_damaged(a->damaged, tiles);
+    return !assembler_has_damage(a) || smear_batch_is_damaged(a->damaged, box);
 }
 
 /* What the loop over a draw's triangles needs for each of them. */

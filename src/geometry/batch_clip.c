@@ -6,6 +6,14 @@
 #include "geometry/clip.h"
 #include "base/fixmath.h"
 
+bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct box *box)
+{
+    const struct smear_tile_box tiles = tile_box_of(d, box->x0, box->x1, box->y0, box->y1);
+    if (d->seen != NULL)
+        tile_box_add(d->seen, tiles);
+    return !d->only || tile_box_is_damaged(d, tiles);
+}
+
 static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
     const int64_t far_out = (1 << 27) - 1;
@@ -51,7 +59,7 @@ static void clip_and_project(struct clipped *c, const struct batch *b,
         struct smear_clip_vertex *v = &c->polygon.vertex[i];
         const uint32_t index = index_of(corner[i]);
         const struct smear_homogeneous *now = cached_now(corner[i]);
-        if (now != NULL)
+        if (!SMEAR_FAST_STACK)
             v->now = *now;
         else
             placement_transform(&v->now, &d->at, index);
