@@ -7,8 +7,8 @@
 
 #define DAY 0xa9d6efu
 
-/* Triangle lists have room for every frame of the loop, also with places at
- * three instants: nothing is drawn in parts. */
+/* Triangle lists have room for every frame of the loop, also with places at three instants: nothing is drawn in parts. Of
+ * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips, one for each core. */
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
@@ -26,12 +26,16 @@ const struct demo_screen demo_screens[] = {
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
+    { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
+                    .max_triangles = 520, .reuse.buffer_age = 1 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 320, .max_draws = DEMO_DRAWS,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 160, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
+                    .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 64, .max_draws = DEMO_DRAWS,
                     .max_triangles = 400, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16 },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,

@@ -34,6 +34,7 @@ static const struct model_screen screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2 } },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555 } },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
+    { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888 } },

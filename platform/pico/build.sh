@@ -35,7 +35,10 @@ if [ ! -f "$sdk/pico_sdk_init.cmake" ]; then
     exit 1
 fi
 
+# A folder is of one SDK.
+[ "$(cat "$folder/sdk" 2>/dev/null)" = "$sdk" ] || rm -rf "$folder/CMakeCache.txt" "$folder/CMakeFiles" "$folder/elf2uf2"
 mkdir -p "$folder"
+echo "$sdk" >"$folder/sdk"
 log=$folder/$program.log
 if ! cmake -S platform/pico -B "$folder" -DPICO_SDK_PATH="$sdk" -DSMEAR_BOARD="$board" -DSMEAR_MODEL="$model" \
     ${PICO_HOT:+-DSMEAR_HOT="$PICO_HOT"} >"$log" 2>&1; then

@@ -30,6 +30,7 @@ class Bus {
         this.misses = [0, 0];
         this.waits = [0, 0];
         this.miss = MISS;
+        this.lost = 0;                          // to misses of code, by the instruction that runs
         this.last = new Float64Array(16).fill(-1);      // of bank b by core c: [2 b + c]
     }
 
@@ -87,8 +88,8 @@ class Bus {
         tag[at + way] = line;
         this.older[line & 1023] = 1 - way;
         this.misses[index]++;
-        if (this.miss_profile)
-            this.miss_profile[this.chip.cores[index].signed[15] >>> 0] = 1;
+        if (is_code === 1)
+            this.lost += this.miss;
         this.free = cycles + this.miss;
         return cycles + this.miss;
     }

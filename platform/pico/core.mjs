@@ -72,6 +72,7 @@ export const core_class = CortexM0Core => class Core extends CortexM0Core {
 
         while (cycles < limit && live) {
             const began = cycles;
+            bus.lost = 0;
             let op;
             from = pc;
             if (pc >>> 28 === 2) {
@@ -755,6 +756,7 @@ export const core_class = CortexM0Core => class Core extends CortexM0Core {
                 const where = this.profile_at(from);
                 profile[where] += cycles - began;
                 this.executed[where]++;
+                this.lost[where] += bus.lost;
             }
         }
         this.cycles = cycles;
@@ -775,5 +777,6 @@ export const core_class = CortexM0Core => class Core extends CortexM0Core {
     start_profile() {
         this.profile = new Float64Array(0x800000 + 0x21000);
         this.executed = new Float64Array(0x800000 + 0x21000);
+        this.lost = new Float64Array(0x800000 + 0x21000);       // cycles for code that was not in the flash cache
     }
 };

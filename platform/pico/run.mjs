@@ -9,7 +9,7 @@
 //     --keys N:MASK,.. keys (enum display_key) that are held from frame N on
 //     --cost FILE      writes what each frame took: cycles of each core, misses of the flash cache, bytes sent
 //     --shot FILE      the panel's last picture, PPM
-//     --profile FILE   cycles and instructions by address, of both cores
+//     --profile FILE   by address, of both cores: cycles, instructions, cycles that waited for code from flash
 //     --exact 1        cores take turns by the cycle and wait for each other's banks of memory; else every 200 cycles
 //     --selftest N     the first N instructions of core 0 side by side with rp2040js's own interpreter
 // RP2040JS: the folder of npm's package; PICO_BOOTROM: the chip's boot ROM (a module that exports bootromB1, or 16 kB).
@@ -134,11 +134,11 @@ if (options.cost !== undefined)
 if (options.shot !== undefined)
     panel.save(options.shot);
 if (options.profile !== undefined) {
-    const sum = chip.cores.map(core => core.profile), n = chip.cores.map(core => core.executed), out = [];
-    for (let i = 0; i < sum[0].length; i++)
-        if (sum[0][i] + sum[1][i] > 0) {
+    const [a, b] = chip.cores, out = [];
+    for (let i = 0; i < a.profile.length; i++)
+        if (a.profile[i] + b.profile[i] > 0) {
             const address = i < 0x800000 ? 0x10000000 + 2 * i : 0x20000000 + 2 * (i - 0x800000);
-            out.push(`${address.toString(16)} ${sum[0][i] + sum[1][i]} ${n[0][i] + n[1][i]}\n`);
+            out.push([address.toString(16), ...['profile', 'executed', 'lost'].map(what => a[what][i] + b[what][i])].join(' ') + '\n');
         }
     fs.writeFileSync(options.profile, out.join(''));
 }

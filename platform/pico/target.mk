@@ -24,7 +24,7 @@ RUN_BENCH := sh platform/pico/cost.sh
 TARGET_TESTS :=
 
 PICO_WIDTH  := $(shell awk -F '[^A-Za-z0-9_]+' '$$1 == "BOARD" && $$2 == "$(BOARD)" { print $$4 }' platform/pico/boards.h)
-DEMO_SCREEN := $(if $(filter 240,$(PICO_WIDTH)),pico,pico-$(PICO_WIDTH))
+DEMO_SCREEN := pico-$(PICO_WIDTH)
 DEMO_LOOPS  := $(DEMO_SCREEN):24
 SHOW = $(SCREENSHOT)
 export SHOT        := sh platform/pico/shot.sh
@@ -36,3 +36,18 @@ export SHOT_KEY    := 16
 export LOOPS        := sh platform/pico/loops.sh
 export LOOPS_FRAMES := 144
 export LOOPS_KEYS   := 22:16,23:0,28:16,29:0,80:8,81:0,100:4,101:0,104:4,105:0,110:8,111:0,120:32,121:0,123:32,124:0
+
+# Chooses again what lies in RAM: HOT_BYTES of the functions that win most there, by profiles of blurred and of sharp frames.
+HOT_BYTES ?= 24000
+
+.PHONY: pico-hot
+## chooses again what lies in a Pico's RAM
+pico-hot: build/demo/props.c
+	@mkdir -p $(BUILD)/hot
+	echo '/* nothing */' > $(BUILD)/hot/hot.ld
+	PICO_HOT=$(abspath $(BUILD)/hot) $(PROJECT) $(BUILD)/hot/build demo $(BOARD)
+	for kind in 0:0 1:16; do \
+	    $(RUN) --frames 5 --keys $$kind --profile $(BUILD)/hot/$$kind $(BUILD)/hot/build/demo.elf cores=1 show pico || exit 1; \
+	done
+	sh platform/pico/hot.sh $(BUILD)/hot/build/demo.elf $(HOT_BYTES) $(BUILD)/hot/0:0 $(BUILD)/hot/1:16 > $(BUILD)/hot/hot.ld
+	mv $(BUILD)/hot/hot.ld platform/pico/hot.ld
