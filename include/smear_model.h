@@ -195,8 +195,8 @@ int smear_model_find_clip(const smear_model *model, const char *name);
 
 /* ------------------------------------------------------------------ actors */
 
-/* One model in one place, in `poses` poses: 1 for sharp frames; 2 keep the frame before; 3 for
- * smear_frame.shutter.poses. Several actors may share a model. */
+/* One model in one place, in `poses` poses: 1 for sharp frames; 2 keep the frame before; 3 that before it, too, which
+ * tells along which curves things move, or are for smear_frame.shutter.poses. Several actors may share a model. */
 typedef struct smear_actor smear_actor;
 
 typedef enum smear_pose { SMEAR_POSE_NOW, SMEAR_POSE_OPEN, SMEAR_POSE_CLOSE } smear_pose;
@@ -224,7 +224,8 @@ size_t smear_actor_memory(const smear_model *model, int poses);
  * trusted: it comes from a header or from smear_model_open. SMEAR_OK, SMEAR_ERR_ARG or SMEAR_ERR_MEMORY. */
 int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, void *memory, size_t bytes);
 
-/* Now becomes a frame ago (with 2 poses or more), and `play` is now. SMEAR_ERR_ARG, and nothing has changed,
+/* Now becomes a frame ago (with 2 poses or more), what was a frame ago (SMEAR_POSE_OPEN) two frames ago (with 3:
+ * SMEAR_POSE_CLOSE), and `play` is now. SMEAR_ERR_ARG, and nothing has changed,
  * when the model has clips, but not this one. Not between smear_actor_submit and smear_render. */
 int smear_actor_advance(smear_actor *actor, const smear_play *play);
 

@@ -48,7 +48,8 @@ static bool frame_is_curved(struct smear_context *c)
     struct smear_track track;
     bool curved = c->shot.camera_moves && smear_cameras_are_curved(&c->shot, c->shot.camera, c->shot.has_older);
     for (uint32_t i = 0; i < c->draw_count && !curved; i++)
-        curved = find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track);
+        curved = (find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track))
+              || (SMEAR_WITH_DEFORM && smear_draw_bends(&c->submitted[i].draw, &c->shot));
     return curved || layers_are_curved(c);
 }
 
@@ -77,11 +78,15 @@ void smear_draws_find_curves(struct smear_context *c)
     for (int i = 0; i < own_cameras(c); i++)
         if (c->layers->setting[i].has_camera)
             smear_cameras_bend(&c->shot, c->layers->setting[i].camera, c->layers->setting[i].has_older);
-    for (uint32_t i = 0; i < c->draw_count; i++)
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        smear_draw *draw = &c->submitted[i].draw;
+        if (!SMEAR_WITH_DEFORM || !smear_draw_bends(draw, &c->shot))
+            draw->close_position = NULL;
         if (find_track(&track, c, &c->submitted[i])) {
             smear_track_bend(&track, &c->shot);
-            c->submitted[i].draw.close = &c->submitted[i].pose[2];
+            draw->close = &c->submitted[i].pose[2];
         }
+    }
 }
 
 /* ------------------------------------------------------------------ what draws are */

@@ -201,7 +201,7 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
 }
 
 void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
-                      const smear_transform *now, int32_t time)
+                      const smear_transform *now, int32_t time, uint32_t angle)
 {
     int32_t m[3][3], turned[9], rest[9];
     for (int i = 0; i < 9; i++)
@@ -215,7 +215,7 @@ void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const sme
     for (int i = 0; i < 9; i++)
         basis[i] = rest[i];
     if (turn->turns) {
-        rotation(m, turn->axis, turn_angle(turn, time));
+        rotation(m, turn->axis, angle);
         turn_basis(basis, m, rest);
     }
 }
@@ -232,7 +232,7 @@ void smear_arc_between(smear_transform *out, const smear_transform *before, cons
     smear_turn_find(&turn, before, now);
     for (int i = 0; i < 3; i++)
         origin[i] = extended(before->origin[i], now->origin[i], time);
-    smear_turn_basis(out->basis, &turn, before, now, time);
+    smear_turn_basis(out->basis, &turn, before, now, time, turn_angle(&turn, time));
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }

@@ -32,9 +32,9 @@ static inline int32_t extended(int32_t before, int32_t now, int32_t time)
     return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
 }
 
-/* Finds the basis of the pose at a time, as smear_arc_between does. */
+/* Finds the basis of the pose at a time, as smear_arc_between does. `angle` is what it has turned since now. */
 void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
-                      const smear_transform *now, int32_t time);
+                      const smear_transform *now, int32_t time, uint32_t angle);
 
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis

@@ -51,10 +51,30 @@ static int64_t length_of(const int32_t v[3])
     return most + ((x + y + z - most) * 3 >> 3);
 }
 
+/* Finds how much faster it turns than in the frame before, where it turned about the same axis, nearly as fast. It is
+ * steady where the two turns hardly differ: keys of an animation, where speeds jump, are met in other frames. */
+static void find_faster(struct smear_curve *c, const smear_transform *older)
+{
+    struct smear_turn before;
+    int64_t along = 0;
+    c->is_steady = !c->turn.turns;
+    if (older == NULL || !c->turn.turns)
+        return;
+    smear_turn_find(&before, older, c->last);
+    if (!before.turns)
+        return;
+    for (int i = 0; i < 3; i++)
+        along += (int64_t)c->turn.axis[i] * before.axis[i] >> 30;
+    const int64_t faster = (int64_t)c->turn.angle - (before.angle * along >> 30);
+    if (along > (1 << 30) - (1 << 26) && magnitude(faster) <= c->turn.angle / 4)
+        c->faster = (int32_t)faster;
+    c->is_steady = along > (1 << 30) - (1 << 22) && magnitude(faster) <= c->turn.angle / 16;
+}
+
 /* Chooses the second difference of the origin's places. Without a third pose the origin goes straight. With one it takes
  * the curve that leads through it, unless the motion was another in the last frame: then both a straight line and a
- * screw foretell it badly, by more than half of the displacement. It goes straight then, too, unless the screw is
- * clearly better. */
+ * screw foretell it badly, by more than half of the displacement, or a quarter where it is not steady. It goes straight
+ * then, too, unless the screw is clearly better. */
 static void choose_second(struct smear_curve *c, const int32_t first[3], const smear_transform *older)
 {
     int32_t screw[3] = { 0, 0, 0 }, beside[3];
@@ -68,7 +88,7 @@ static void choose_second(struct smear_curve *c, const int32_t first[3], const s
     }
     const int64_t straight_error = length_of(c->second), screw_error = length_of(beside);
     const int64_t least = screw_error < straight_error ? screw_error : straight_error;
-    if (least * 2 > length_of(first))
+    if (least * (c->is_steady ? 2 : 4) > length_of(first))
         for (int i = 0; i < 3; i++)
             c->second[i] = screw_error * 2 < straight_error ? screw[i] : 0;
 }
@@ -85,8 +105,10 @@ bool smear_curve_find(struct smear_curve *c, const smear_transform *now, const s
         first[i] = narrow_sat((int64_t)last->origin[i] - now->origin[i]);
     if (path == SMEAR_PATH_SCREW && c->turn.turns)
         screw_second(c->second, &c->turn, first);
-    else if (path != SMEAR_PATH_ORIGIN)
+    else if (path != SMEAR_PATH_ORIGIN) {
+        find_faster(c, older);
         choose_second(c, first, older);
+    }
     /* Rounded poses of an even motion differ by as much. */
     const int64_t least = length_of(first) >> 6;
     if (!c->turn.turns && length_of(c->second) <= (least > 8 ? least : 8))
@@ -151,7 +173,8 @@ void smear_curve_at(smear_transform *out, const struct smear_curve *c, int32_t t
         return;
     }
     origin_at(origin, c, time);
-    smear_turn_basis(out->basis, &c->turn, c->last, c->now, time);
+    const uint32_t angle = turn_angle(&c->turn, time) + (uint32_t)((c->faster >> 2) * (parabola(time) >> 4) >> 18);
+    smear_turn_basis(out->basis, &c->turn, c->last, c->now, time, angle);
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }

@@ -20,6 +20,8 @@ struct smear_curve {
     const smear_transform *now, *last;
     struct smear_turn turn;     /* from last to now */
     int32_t second[3];          /* difference of the origin's places, q16 world units */
+    bool is_steady;             /* it turned alike in the two frames */
+    int32_t faster;             /* what it turned in the last frame, less what in that before it, q32 turns */
 };
 
 /* Finds the curve through `now`, `last` (a frame ago) and, if it is not null, `older` (two frames ago), as smear_path

@@ -215,12 +215,10 @@ static void weigh(struct smear_projection *p, int32_t weight, int scale, int dis
     p->distance_scale = (int16_t)distance_scale;
 }
 
-void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
+void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count, int room,
                             const smear_camera *camera)
 {
-    /* Weights of a 3600-degree shutter reach 11 and -10: four bits of room;
-     * more where deformation is scaled as well. */
-    int scale = projection[0].scale, distance_scale = projection[0].distance_scale, room = 4;
+    int scale = projection[0].scale, distance_scale = projection[0].distance_scale;
     uint32_t sum = 0;           /* q20: each is below 2^7 */
     for (int i = 0; i < count; i++)
         sum += (uint32_t)abs_i32(weight[i]) >> 4;

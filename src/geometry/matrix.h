@@ -49,9 +49,13 @@ void smear_projection_make(struct smear_projection *projection, const struct sme
 
 /* Makes the terms of a pose between known ones: the sum of weight[i] x projection[i], which is linear in clip space.
  * The `count` projections are of one draw; weights in q24 add up to one. All projections get one scale, with room for
- * the sum of vertices that differ from pose to pose; the distances of projection[0] then hold for the sum. */
-void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count,
+ * the sum of vertices that differ from pose to pose: `room` bits less, or more where large weights ask for them. The
+ * distances of projection[0] then hold for the sum. */
+void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count, int room,
                             const smear_camera *camera);
+
+/* Weights of a 3600-degree shutter reach 11 and -10: four bits of room. Within the poses of an exposure one will do. */
+enum { ROOM_USUAL = 4, ROOM_WITHIN = 1 };
 
 /* Adds the rows of `b` to `a`, for draws whose vertices are the same in both poses. */
 void smear_projection_add(struct smear_projection *a, const struct smear_projection *b);

@@ -135,6 +135,26 @@ static void turn_billboard(struct smear_draw_poses *p, bool upright)
     }
 }
 
+#if SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM
+bool smear_draw_bends(const smear_draw *d, const struct smear_shot *shot)
+{
+    enum { SAMPLES = 64 };
+    const uint32_t count = d->mesh->vertex_count, step = 1u + count / SAMPLES;
+    const uint8_t path = d->path != SMEAR_PATH_DEFAULT ? d->path : shot->path;
+    uint32_t straight = 0, bent = 0;
+    if (path != SMEAR_PATH_CURVE || d->open_position == NULL || d->close_position == NULL || d->cut
+        || d->motion != SMEAR_MOTION_FULL || (d->open_count != 0 && d->open_count != count)
+        || (d->close_count != 0 && d->close_count != count) || shot->half_exposure > 1 << 24)
+        return false;
+    for (uint32_t i = 0; i < 3 * count; i += i % 3 == 2 ? 3 * step - 2 : 1) {
+        const int32_t first = d->open_position[i] - d->mesh->position[i];
+        straight += (uint32_t)abs_i32(first);
+        bent += (uint32_t)abs_i32(d->close_position[i] - d->open_position[i] - first);
+    }
+    return bent != 0 && bent * 5 <= 2 * straight;
+}
+#endif
+
 /* Poses of the object alone. */
 static void object_poses(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d)
 {
@@ -146,7 +166,7 @@ static void object_poses(struct smear_draw_poses *p, const struct smear_shot *sh
         p->object[1] = d->open;
     if (shot_spans_exposure(shot) && d->close != NULL)
         p->object[2] = d->close;
-    if (shot->shutter_poses) {
+    if (shot_spans_exposure(shot)) {
         if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
             p->position[2] = d->close_position;
     }
@@ -198,7 +218,8 @@ static bool deformation_is_scaled(const struct smear_draw_poses *p, int k)
     return SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM && p->deform != 256 && p->position[k] != p->position[0];
 }
 
-/* Whether vertices go straight from where they were a frame ago while the pose follows a curve. */
+/* Whether vertices move in the mesh while the pose follows a curve: straight from where they were a frame ago, or along the
+ * parabola through a third place. */
 static bool deforms_on_curve(const struct smear_draw_poses *p, const struct smear_shot *shot)
 {
     return SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM && shot_is_curved(shot) && p->position[1] != p->position[0];
@@ -210,16 +231,22 @@ static int32_t part_at(const struct smear_draw_poses *p, int32_t time)
     return (int32_t)((int64_t)-time * p->deform >> 8);
 }
 
-/* Shares a placement between the mesh's vertices and those a frame ago. */
-static void place_deformed(struct smear_placement *out, const struct smear_draw_poses *p, int32_t part)
+/* Shares a placement between the mesh's vertices and those of frames ago. */
+static void place_deformed(struct smear_placement *out, const struct smear_draw_poses *p, int32_t time)
 {
-    struct smear_projection both[2] = { out->now, out->now };
-    const int32_t weight[2] = { (1 << 24) - part, part };
-    smear_projection_weigh(both, weight, 2, p->camera[0]);
-    out->now = both[0];
-    out->extra[0] = both[1];
-    out->extra_position[0] = p->position[1];
-    out->extra_count = 1;
+    struct smear_projection term[3] = { out->now, out->now, out->now };
+    /* The parabola's share of each: 1, -2, 1 times t (t + 1) / 2. */
+    const bool bends = p->position[2] != p->position[0];
+    const int32_t bend = bends ? (int32_t)(((int64_t)time * time + ((int64_t)time << 24)) >> 25) : 0;
+    const int32_t older = part_at(p, -bend), last = part_at(p, time) - 2 * older;
+    const int32_t weight[3] = { (1 << 24) - last - older, last, older };
+    out->extra_count = bends ? 2 : 1;
+    smear_projection_weigh(term, weight, out->extra_count + 1, ROOM_WITHIN, p->camera[0]);
+    out->now = term[0];
+    for (int i = 0; i < out->extra_count; i++) {
+        out->extra[i] = term[i + 1];
+        out->extra_position[i] = p->position[i + 1];
+    }
 }
 
 void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,
@@ -251,7 +278,7 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         }
     }
     if (count > 1)
-        smear_projection_weigh(sum, weight, count, p->camera[0]);
+        smear_projection_weigh(sum, weight, count, shot_is_curved(shot) ? ROOM_WITHIN : ROOM_USUAL, p->camera[0]);
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
@@ -264,7 +291,7 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         }
     }
     if (deforms_on_curve(p, shot) && instant->time != 0)
-        place_deformed(out, p, part_at(p, instant->time));
+        place_deformed(out, p, instant->time);
 }
 
 void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, const struct smear_shot *shot, int k)
@@ -280,7 +307,7 @@ void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, 
                                 : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
     const int32_t weight[2] = { part, (1 << 24) - part };
     a->has_rest = a->has_rest || weight[1] != 0;
-    smear_projection_weigh(both, weight, 2, p->camera[0]);
+    smear_projection_weigh(both, weight, 2, curves ? ROOM_WITHIN : ROOM_USUAL, p->camera[0]);
     a->pose[i] = both[0];
     a->rest[i] = both[1];
 }

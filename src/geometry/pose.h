@@ -26,6 +26,10 @@ struct smear_draw_poses {
 void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *draw,
                            const smear_camera *camera);
 
+/* Whether the vertices of a draw that deforms move along the parabola through where they were two frames ago
+ * (close_position): where a straight line foretells that to two fifths of their displacement. */
+bool smear_draw_bends(const smear_draw *draw, const struct smear_shot *shot);
+
 /* Whether the determinant is negative. */
 bool smear_transform_is_mirrored(const smear_transform *t);
 

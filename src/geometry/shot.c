@@ -140,7 +140,8 @@ void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const sme
     }
     shot->camera_moves = open != NULL || (frame->shutter.poses && close != NULL);
     shot->has_older = !frame->shutter.poses && open != NULL && close != NULL && smear_camera_is_of_kind(close, now);
-    if ((open != NULL && !smear_camera_is_of_kind(open, now)) || (frame->shutter.poses && close != NULL && !smear_camera_is_of_kind(close, now))) {
+    if ((open != NULL && !smear_camera_is_of_kind(open, now))
+        || (frame->shutter.poses && close != NULL && !smear_camera_is_of_kind(close, now))) {
         shot->camera_moves = shot->has_older = false;
         open = close = NULL;
     }

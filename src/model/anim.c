@@ -434,12 +434,11 @@ int smear_actor_advance(smear_actor *a, const smear_play *play)
 {
     if (!can_play(a, play))
         return SMEAR_ERR_ARG;
-    if (a->pose_count > 1) {
-        struct actor_pose before = a->pose[SMEAR_POSE_OPEN];
-        a->pose[SMEAR_POSE_OPEN] = a->pose[SMEAR_POSE_NOW];
-        a->pose[SMEAR_POSE_NOW] = before;
-        a->known = (a->known & 1u << SMEAR_POSE_NOW) != 0 ? 1u << SMEAR_POSE_OPEN : 0u;
-    }
+    const struct actor_pose oldest = a->pose[a->pose_count - 1];
+    for (int i = a->pose_count - 1; i > 0; i--)
+        a->pose[i] = a->pose[i - 1];
+    a->pose[SMEAR_POSE_NOW] = oldest;
+    a->known = (uint8_t)((a->known << 1) & ((1u << a->pose_count) - 1u));
     return smear_actor_set(a, SMEAR_POSE_NOW, play);
 }
 

@@ -2,6 +2,7 @@
 /* test_curve.c - curves through two and three poses, against motion in double precision; and what is kept for them. */
 #include "geometry/curve.h"
 #include "geometry/history.h"
+#include "geometry/pose.h"
 #include "geometry/shot.h"
 
 #include <math.h>
@@ -252,6 +253,50 @@ static void test_wild_poses_do_no_harm(void)
     }
 }
 
+static void test_a_turn_that_grows_faster_goes_on_so(void)
+{
+    struct motion m = { .axis = { 0, 0, 1 } };
+    static const double angle[3] = { 0, -0.5, -0.9 };       /* 0.1 more in each frame */
+    smear_transform t[3];
+    struct smear_curve c;
+    for (int i = 0; i < 3; i++) {
+        m.angle = -angle[i];
+        t[i] = pose(&m, -1);
+    }
+    for (int three = 0; three < 2; three++) {
+        smear_curve_find(&c, &t[0], &t[1], three ? &t[2] : NULL, SMEAR_PATH_CURVE);
+        m.angle = three ? 0.5 * 0.5 + 0.1 * 0.5 * 1.5 / 2 : 0.5 * 0.5;     /* half a frame on */
+        m.angle /= 0.5;
+        CHECK_CLOSE(error_at(&c, &m, 0.5).basis, 0.0, 4.0);
+    }
+    /* From rest it starts: that is no steady change. */
+    smear_curve_find(&c, &t[0], &t[1], &t[1], SMEAR_PATH_CURVE);
+    CHECK_EQ(c.faster, 0);
+}
+
+/* ------------------------------------------------------------------ deforming meshes */
+
+static void test_vertices_bend_where_a_line_nearly_foretells_them(void)
+{
+    static const int16_t now[] = { 0, 0, 0, 400, 0, 0 }, last[] = { -100, 0, 0, 300, 0, 0 };
+    static const int16_t steady[] = { -200, 0, 0, 200, 0, 0 }, falling[] = { -200, 30, 0, 200, 30, 0 };
+    static const int16_t back[] = { 0, 0, 0, 400, 0, 0 };
+    const struct { const int16_t *older; bool bends; } cases[] = {
+        { steady, false }, { falling, true }, { back, false }, { NULL, false },
+    };
+    const struct smear_shot shot = { .path = SMEAR_PATH_CURVE, .half_exposure = ONE / 4 };
+    const smear_mesh mesh = { .position = now, .vertex_count = 2 };
+    for (int i = 0; i < 4; i++) {
+        smear_draw d = { .mesh = &mesh, .open_position = last, .close_position = cases[i].older };
+        CHECK_EQ(smear_draw_bends(&d, &shot), cases[i].bends);
+        d.path = SMEAR_PATH_LINE;
+        CHECK(!smear_draw_bends(&d, &shot));
+        d.path = SMEAR_PATH_DEFAULT;
+        d.close_count = 3;
+        CHECK(!smear_draw_bends(&d, &shot));
+    }
+}
+
 /* ------------------------------------------------------------------ tracks */
 
 /* A camera that turns, goes and zooms, at the times of each exposure. */
@@ -361,6 +406,8 @@ void suite_curve(void)
     RUN(test_what_goes_evenly_and_does_not_turn_has_no_curve);
     RUN(test_poses_are_met_exactly);
     RUN(test_wild_poses_do_no_harm);
+    RUN(test_a_turn_that_grows_faster_goes_on_so);
+    RUN(test_vertices_bend_where_a_line_nearly_foretells_them);
     RUN(test_cameras_are_where_the_exposure_asks);
     RUN(test_two_poses_are_kept_of_each_id);
     RUN(test_no_curve_leads_over_a_cut);

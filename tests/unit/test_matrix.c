@@ -209,7 +209,7 @@ static double worst_sum(bool orthographic, bool apart)
             rest -= weight[k];
         }
         weight[0] = rest;
-        smear_projection_weigh(p, weight, count, &camera[0]);
+        smear_projection_weigh(p, weight, count, ROOM_USUAL, &camera[0]);
         for (int k = 1; k < count; k++) {
             CHECK_EQ(p[k].scale, p[0].scale);
             if (!apart)
@@ -289,7 +289,7 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
             weight[2] = -7 * back;
         }
         weight[0] = (1 << 24) - weight[1] - weight[2];
-        smear_projection_weigh(p, weight, count, &camera[0]);
+        smear_projection_weigh(p, weight, count, ROOM_USUAL, &camera[0]);
         for (int row = 0; row < (orthographic ? 4 : 3); row++) {
             int64_t sum = 0;
             for (int k = 0; k < count; k++)
