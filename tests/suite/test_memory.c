@@ -64,6 +64,7 @@ static smear_desc pick_desc(uint16_t methods)
     }
     if ((all & SMEAR_SET(SMEAR_PINGPONG)) != 0)
         d.filter.passes = (uint8_t)pick(0, 3);
+    d.reuse.one_pose = (uint8_t)(d.width & 1);
     d.filter.scatter = has_window && is_plain && !has_ports && pick(0, 2) == 0;
     pick_geometry(&d, has_window || has_layers, is_temporal,
                   has_window && is_plain && (all & SMEAR_SET(SMEAR_HALF)) == 0 && !d.filter.scatter);
@@ -72,7 +73,7 @@ static smear_desc pick_desc(uint16_t methods)
 
 #define VALUES(d) (d).width, (d).height, (d).max_triangles, (d).max_draws, (d).methods, (d).tile, (d).reach, (d).strip, \
     (d).band_rows, (d).bands, (d).format, (d).workers, (d).vertex_cache, (d).reuse.cache_static, (d).reuse.buffer_age, \
-                  (d).filter.passes, (d).filter.scatter
+                  (d).filter.passes, (d).filter.scatter, (d).reuse.one_pose
 
 static void describe(const smear_desc *d, size_t room, size_t need)
 {
