@@ -35,12 +35,11 @@ static int own_cameras(const struct smear_context *c)
 /* Whether one of these moves along a curve. */
 static bool layers_are_curved(struct smear_context *c)
 {
-    bool curved = false;
-    for (int i = 0; i < own_cameras(c) && !curved; i++) {
-        struct smear_layer_setting *s = &c->layers->setting[i];
-        curved = s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older);
-    }
-    return curved;
+    struct smear_layer_setting *s = own_cameras(c) != 0 ? c->layers->setting : NULL;
+    for (int i = 0; i < own_cameras(c); i++, s++)
+        if (s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older))
+            return true;
+    return false;
 }
 
 static bool frame_is_curved(struct smear_context *c)
@@ -56,14 +55,12 @@ static bool frame_is_curved(struct smear_context *c)
 /* What stays where it is before the camera does so at every moment, whatever the curves of both are. */
 static void find_attached(struct smear_context *c)
 {
-    const smear_camera *camera = c->shot.camera;
-    for (uint32_t i = 0; c->shot.camera_moves && i < c->draw_count; i++) {
-        struct smear_submitted *s = &c->submitted[i];
-        struct smear_track track;
+    struct smear_submitted *s = c->submitted;
+    struct smear_track track;
+    for (uint32_t i = 0; c->shot.camera_moves && i < c->draw_count; i++, s++)
         if (find_track(&track, c, s) && s->draw.open_position == NULL && track.scale == 256
-            && smear_pose_is_attached(&s->pose[1], &camera[1], &s->pose[0], &camera[0]))
+            && smear_pose_is_attached(&s->pose[1], &c->shot.camera[1], &s->pose[0], &c->shot.camera[0]))
             s->draw.motion = SMEAR_MOTION_NONE;
-    }
 }
 
 void smear_draws_find_curves(struct smear_context *c)
@@ -79,13 +76,13 @@ void smear_draws_find_curves(struct smear_context *c)
         if (c->layers->setting[i].has_camera)
             smear_cameras_bend(&c->shot, c->layers->setting[i].camera, c->layers->setting[i].has_older);
     for (uint32_t i = 0; i < c->draw_count; i++) {
-        smear_draw *draw = &c->submitted[i].draw;
-        if (!SMEAR_WITH_DEFORM || !smear_draw_bends(draw, &c->shot))
-            draw->close_position = NULL;
-        if (find_track(&track, c, &c->submitted[i])) {
-            smear_track_bend(&track, &c->shot);
-            draw->close = &c->submitted[i].pose[2];
-        }
+        struct smear_submitted *s = &c->submitted[i];
+        if (!SMEAR_WITH_DEFORM || !smear_draw_bends(&s->draw, &c->shot))
+            s->draw.close_position = NULL;
+        if (!find_track(&track, c, s))
+            continue;
+        smear_track_bend(&track, &c->shot);
+        s->draw.close = &s->pose[2];
     }
 }
 
