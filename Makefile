@@ -377,6 +377,24 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	        build/fuzz/found-$$name tests/fuzz/corpus/$$name || exit 1; \
 	done
 
+# Cases of a generator over the whole interface, drawn twice each by different workers, parts and caches (tests/fuzz/frames.c).
+build/fuzz/frames: tests/fuzz/frames.c tests/fuzz/cases.c $(LIB_SRC)
+	$(call say,LD)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -D_GNU_SOURCE -fsanitize=address,undefined -fno-sanitize-recover=all -o $@ $^ -lpthread
+
+build/fuzz/frames-threads: tests/fuzz/frames.c tests/fuzz/cases.c $(LIB_SRC)
+	$(call say,LD)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -D_GNU_SOURCE -fsanitize=thread -o $@ $^ -lpthread
+
+.PHONY: fuzz
+## valid and wild frames under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames valid N: one
+fuzz: build/fuzz/frames build/fuzz/frames-threads
+	build/fuzz/frames valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
+	build/fuzz/frames wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
+	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
+
 include platform/programs.mk
 include tools/web/web.mk
 

@@ -126,6 +126,7 @@ if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
 fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s $jobs fuzz-corpus
+    suite fuzz-frames $make -s $jobs fuzz MINUTES=1
 fi
 
 add_up

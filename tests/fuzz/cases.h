@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* cases.h - a number becomes a case: a desc, meshes, textures, and a few frames over the whole interface.
+ *
+ * Values of a valid case lie within the ranges that smear.h states, though many are extreme: every call must succeed. In a
+ * wild one, some lie anywhere: calls may refuse them. Arrays have exactly the size that the library may read. */
+#ifndef SMEAR_FUZZ_CASES_H
+#define SMEAR_FUZZ_CASES_H
+
+#include "smear.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* ------------------------------------------------------------------ numbers */
+
+struct source {
+    uint64_t state;
+};
+
+uint32_t source_word(struct source *s);
+/* low .. high, both included */
+int32_t source_range(struct source *s, int32_t low, int32_t high);
+/* True once in so many calls. */
+bool source_chance(struct source *s, int one_in);
+
+/* ------------------------------------------------------------------ cases */
+
+enum { CASE_TEXTURES = 3, CASE_MESHES = 4, CASE_DRAWS = 8, CASE_BLOCKS = 64 };
+
+struct fuzz_case {
+    struct source source;
+    bool wild;
+    bool extreme;                       /* numbers of any size are frequent */
+    int frames;
+    smear_desc desc;                    /* without callbacks */
+    smear_texture texture[CASE_TEXTURES];
+    smear_mesh mesh[CASE_MESHES];
+    int16_t *position[CASE_MESHES];     /* as in the mesh: may be changed with `refresh` */
+    const int16_t *other[CASE_MESHES][2];
+    smear_material material[CASE_DRAWS];
+    smear_transform pose[CASE_DRAWS][3];
+    smear_draw draw[CASE_DRAWS];
+    int draws;
+    smear_camera camera[3], layer_camera[3];
+    smear_layer layer[SMEAR_LAYERS_MAX];
+    smear_light light;
+    uint8_t curve[SMEAR_SHUTTER_POINTS];
+    smear_frame frame;
+    void *block[CASE_BLOCKS];
+    int blocks;
+};
+
+/* Makes case `number` up to its desc and scene. */
+void case_make(struct fuzz_case *c, uint64_t number, bool wild);
+
+/* Makes frame `k` of it: settings, cameras, poses. */
+void case_frame(struct fuzz_case *c, int k);
+
+/* Puts anything into some fields of a wild case: of the desc, or of what a frame is made of. */
+void case_spoil_desc(struct fuzz_case *c);
+void case_spoil_frame(struct fuzz_case *c);
+
+/* Another desc that must draw the same pictures: other workers, parts, caches, bands. */
+smear_desc case_other_desc(struct fuzz_case *c);
+
+void case_free(struct fuzz_case *c);
+
+#endif
