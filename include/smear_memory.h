@@ -124,7 +124,7 @@
 /* Moving triangles and tiles of a row; sums and depths of instants, or time samples and lists, of a worker. */
 #define SMEAR_TEMPORAL_(m, t, T, columns, k, tiles) \
     (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * 18u) \
-                                  + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 18u) + 512u, \
+                                  + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 10u) + 512u, \
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)
 #define SMEAR_DAMAGE_(d, c, a, columns, rows) \

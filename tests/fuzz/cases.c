@@ -311,9 +311,19 @@ static void make_draw(struct fuzz_case *c, int i)
     make_pose(c, &c->pose[i][0]);
     for (int k = 1; k < 3; k++)
         make_moved(c, &c->pose[i][k], &c->pose[i][0]);
-    c->draw[i] = (smear_draw){
-        .id = kind & 1 ? (uint32_t)i + 1 : 0, .mesh = &c->mesh[mesh], .material = kind & 2 ? m : NULL, .now = kind & 12 ? &c->pose[i][0] : NULL, .open = kind & 16 ? &c->pose[i][1] : NULL, .close = kind & 32 ? &c->pose[i][2] : NULL, .open_position = kind & 192 ? NULL : c->other[mesh][0], .close_position = kind & 768 ? NULL : c->other[mesh][1], .motion = (uint8_t)(kind & 7168 ? SMEAR_MOTION_FULL : source_range(s, 0, SMEAR_MOTION_NONE)), .cut = source_chance(s, 16), .billboard = (uint8_t)(kind >> 13 & 7 ? SMEAR_BILLBOARD_NONE : source_range(s, 0, SMEAR_BILLBOARD_UPRIGHT)), .layers = (uint8_t)option(s, 3, 1, 255)
-    };
+    c->draw[i] =
+        (smear_draw){ .id = kind & 1 ? (uint32_t)i + 1 : 0,
+                      .mesh = &c->mesh[mesh],
+                      .material = kind & 2 ? m : NULL,
+                      .now = kind & 12 ? &c->pose[i][0] : NULL,
+                      .open = kind & 16 ? &c->pose[i][1] : NULL,
+                      .close = kind & 32 ? &c->pose[i][2] : NULL,
+                      .open_position = kind & 192 ? NULL : c->other[mesh][0],
+                      .close_position = kind & 768 ? NULL : c->other[mesh][1],
+                      .motion = (uint8_t)(kind & 7168 ? SMEAR_MOTION_FULL : source_range(s, 0, SMEAR_MOTION_NONE)),
+                      .cut = source_chance(s, 16),
+                      .billboard = (uint8_t)(kind >> 13 & 7 ? SMEAR_BILLBOARD_NONE : source_range(s, 0, SMEAR_BILLBOARD_UPRIGHT)),
+                      .layers = (uint8_t)option(s, 3, 1, 255) };
     if (kind >> 16 & 1)
         c->draw[i].material = m;
 }
@@ -371,9 +381,17 @@ static void make_desc(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     smear_desc *d = &c->desc;
-    *d = (smear_desc){
-        .width = (int16_t)source_range(s, 1, 70), .height = (int16_t)source_range(s, 1, 50), .max_triangles = (uint32_t)(source_chance(s, 16) ? source_range(s, 1, 12) : source_range(s, 20, 600)), .max_draws = CASE_DRAWS, .methods = (uint16_t)sets[source_range(s, 0, (int32_t)(sizeof sets / sizeof *sets) - 1)], .format = (uint8_t)source_range(s, 0, SMEAR_L1_PAGES), .dither = (uint8_t)source_range(s, 0, SMEAR_DITHER_BLUE), .bands = (uint8_t)source_range(s, 0, 2), .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0), .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)), .debug.crc = source_chance(s, 3)
-    };
+    *d = (smear_desc){ .width = (int16_t)source_range(s, 1, 70),
+                       .height = (int16_t)source_range(s, 1, 50),
+                       .max_triangles = (uint32_t)(source_chance(s, 16) ? source_range(s, 1, 12) : source_range(s, 20, 600)),
+                       .max_draws = CASE_DRAWS,
+                       .methods = (uint16_t)sets[source_range(s, 0, (int32_t)(sizeof sets / sizeof *sets) - 1)],
+                       .format = (uint8_t)source_range(s, 0, SMEAR_L1_PAGES),
+                       .dither = (uint8_t)source_range(s, 0, SMEAR_DITHER_BLUE),
+                       .bands = (uint8_t)source_range(s, 0, 2),
+                       .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0),
+                       .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)),
+                       .debug.crc = source_chance(s, 3) };
     if (source_chance(s, 60)) {
         d->width = (int16_t)source_range(s, 1, 2048);
         d->height = (int16_t)source_range(s, 1, 65536 / d->width < 2048 ? 65536 / d->width : 2048);
@@ -455,9 +473,12 @@ static void make_filter(struct fuzz_case *c)
         .weights = (uint8_t)source_range(s, 0, SMEAR_WEIGHTS_JIMENEZ),
         .camera_step = (uint8_t)(1 << source_range(s, 0, 3) >> 1)
     };
-    f->pingpong = (smear_pingpong){
-        .passes = (uint8_t)source_range(s, 1, passes), .taps = (uint8_t)option(s, 2, 2, 64), .base = (uint8_t)option(s, 2, 2, 64), .jitter = (uint8_t)option(s, 2, 1, 128), .bias = (uint8_t)option(s, 2, 1, 255), .spread = source_chance(s, 3)
-    };
+    f->pingpong = (smear_pingpong){ .passes = (uint8_t)source_range(s, 1, passes),
+                                    .taps = (uint8_t)option(s, 2, 2, 64),
+                                    .base = (uint8_t)option(s, 2, 2, 64),
+                                    .jitter = (uint8_t)option(s, 2, 1, 128),
+                                    .bias = (uint8_t)option(s, 2, 1, 255),
+                                    .spread = source_chance(s, 3) };
 }
 
 static uint16_t a_scale(struct source *s)
@@ -477,9 +498,14 @@ static void make_layers(struct fuzz_case *c)
     for (int i = 0; i < c->frame.layer_count; i++) {
         const uint8_t method[4] = { SMEAR_DEFAULT_METHOD, SMEAR_NONE, SMEAR_OBJECT, SMEAR_LAYERED };
         const bool camera = source_chance(s, 3);
-        c->layer[i] = (smear_layer){
-            .mask = (uint8_t)source_range(s, 1, 255), .method = method[source_range(s, 0, 3)], .over = source_chance(s, 3), .two_camera = source_chance(s, 4), .shutter_degrees = (uint16_t)option(s, 3, 1, 3600), .camera = camera ? &c->layer_camera[0] : NULL, .open = camera && source_chance(s, 2) ? &c->layer_camera[1] : NULL, .close = camera && source_chance(s, 2) ? &c->layer_camera[2] : NULL
-        };
+        c->layer[i] = (smear_layer){ .mask = (uint8_t)source_range(s, 1, 255),
+                                     .method = method[source_range(s, 0, 3)],
+                                     .over = source_chance(s, 3),
+                                     .two_camera = source_chance(s, 4),
+                                     .shutter_degrees = (uint16_t)option(s, 3, 1, 3600),
+                                     .camera = camera ? &c->layer_camera[0] : NULL,
+                                     .open = camera && source_chance(s, 2) ? &c->layer_camera[1] : NULL,
+                                     .close = camera && source_chance(s, 2) ? &c->layer_camera[2] : NULL };
     }
 }
 
@@ -499,9 +525,15 @@ static void make_settings(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     const uint8_t method = a_method(s, &c->desc);
-    c->frame = (smear_frame){
-        .camera = &c->camera[0], .open = source_chance(s, 3) ? &c->camera[1] : NULL, .close = source_chance(s, 3) ? &c->camera[2] : NULL, .method = method, .light_space = (uint8_t)source_range(s, 0, SMEAR_LIGHT_ENCODED), .cut = source_chance(s, 12), .samples = some_samples(c, method), .clear = source_word(s), .light = source_chance(s, 4) ? &c->light : NULL
-    };
+    c->frame = (smear_frame){ .camera = &c->camera[0],
+                              .open = source_chance(s, 3) ? &c->camera[1] : NULL,
+                              .close = source_chance(s, 3) ? &c->camera[2] : NULL,
+                              .method = method,
+                              .light_space = (uint8_t)source_range(s, 0, SMEAR_LIGHT_ENCODED),
+                              .cut = source_chance(s, 12),
+                              .samples = some_samples(c, method),
+                              .clear = source_word(s),
+                              .light = source_chance(s, 4) ? &c->light : NULL };
     make_shutter(c);
     make_filter(c);
     if (source_chance(s, 3))

@@ -278,9 +278,11 @@ for exposure in trailing leading; do
     claim "may be $exposure" differ filter-$exposure.ppm out.ppm
 done
 turning="$plate $small --time 0.5 --clip spin --method accumulate"
-claim "the pose a frame ago" render $turning --poses previous -o previous.ppm
+claim "the pose a frame ago, joined by lines" render $turning --poses previous --path line -o previous.ppm
+claim "and by a curve" render $turning --poses previous -o curve.ppm
 claim "the poses of the shutter" render $turning --poses shutter -o poses.ppm
 claim "are different things for what turns" differ previous.ppm poses.ppm
+claim "but a curve turns as evenly" same curve.ppm poses.ppm
 
 for flag in fence corner box direction uniform fence,corner,box,direction,uniform; do
     claim "--reconstruct $flag" render $moving --method reconstruct --reconstruct $flag -o "flag-$flag.ppm"

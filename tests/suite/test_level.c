@@ -237,7 +237,8 @@ static void test_level_draws_find_as_much_room_as_others(void)
     CHECK(t.split > 0);
     free(t.picture);
     for (unsigned m = 0; m < sizeof methods; m++)
-        compare(&desc, methods[m], SMEAR_LIGHT_ENCODED, 0, mesh, &material);
+        if (methods[m] != SMEAR_TIMEMASK)               /* which needs all of a tile's at once */
+            compare(&desc, methods[m], SMEAR_LIGHT_ENCODED, 0, mesh, &material);
 }
 
 /* In linear light what is interpolated may round to other codes; alpha may be interpolated. */
