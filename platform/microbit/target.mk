@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # BBC micro:bit: Cortex-M0, 256 kB of flash, 16 kB of RAM. The smallest firmware that blurs (tiny.c),
-# held to 24 kB of flash without its mesh and 12 kB of RAM.
+# held to 26 kB of flash without its mesh and 12 kB of RAM.
 CORE   := -mcpu=cortex-m0 -mthumb
 BOARD  := -M microbit
 LAYOUT := tiny.ld
@@ -19,7 +19,7 @@ SYMBOLS_PROGRAMS = $(BUILD)/tiny$(EXE)
 FILE_SRC     := platform/microbit/file.c
 $(BUILD)/platform/tiny.o: CFLAGS += -DTINY_MEMORY=$(TINY_MEMORY)
 # smear_memory_size() of its desc, exactly.
-TINY_MEMORY := 9608
+TINY_MEMORY := 9440
 
 # The library is optimized as a whole, 1 kB less, and tells who calls whom, for the worst stack.
 AR      := arm-none-eabi-gcc-ar

@@ -129,7 +129,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
     return true;
 }
 
-bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
+SMEAR_NOINLINE bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
 {
     struct clipped c;
     const bool colored = segment_colored(b->segment);

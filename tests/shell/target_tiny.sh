@@ -3,7 +3,7 @@
 # target_tiny.sh FOLDER PROGRAM HOST-PROGRAM
 # The smallest firmware: frames it writes through semihosting are the host's, which has all of the
 # library, to the bit; blurred frames differ from sharp ones; and what it takes. Its linker script holds it
-# to 24 kB of flash and 12 kB of RAM; RUN runs a program on the board, SIZE is the target's size.
+# to 26 kB of flash and 12 kB of RAM; RUN runs a program on the board, SIZE is the target's size.
 set -u
 . "$(dirname "$0")/lib.sh"
 base=$1 program=$2 host=$3
@@ -31,7 +31,7 @@ build=$(dirname "$program")
 worst=$(awk -v root=reset_handler -f platform/stack.awk "$program".*.ci "$build"/platform/tiny.ci "$build"/platform/*/*.ci |
     awk '{ print $1 + 28 }')
 claim "the call graph's stack ($worst) is as deep as what is used ($stack)" [ "${worst:-0}" -ge "$stack" ]
-claim "there is room for it" [ "${worst:-0}" -le 2504 ]      # what tiny.ld has left
+claim "there is room for it" [ "${worst:-0}" -le 2648 ]      # what tiny.ld has left
 $SIZE -A "$program" | awk -v worst="${worst:-0}" -v stack="$stack" '
     $1 == ".text" || $1 == ".data" { flash += $2 }
     $1 == ".mesh" { mesh = $2 }

@@ -50,7 +50,7 @@ $(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
 $(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -Oz -fno-builtin
 $(foreach v,scalar simd,$(WEB)/$(v)/tools/web/libc/libc.o): WEB_OPT = -O2 -fno-builtin
 # Loops over pixels that the compiler makes vectors of; nothing else gains.
-WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/weights.c src/display/pixel_format.c src/display/band.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
+WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/weights.c src/display/pixel_format.c src/display/band.c src/kernels/pixel_rows.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
 $(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
 
 $(WEB)/scalar/%.o: %.c
@@ -79,7 +79,7 @@ $(WEB)/unlzma.wasm: tools/web/unlzma.c
 	$(WEB_CC) --target=wasm32 -std=c11 -ffreestanding -Oz -Wall -Wextra -c -o $(WEB)/unlzma.o $<
 	$(WEB_LD) --no-entry --strip-all --gc-sections -O2 -o $@ $(WEB)/unlzma.o
 
-$(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c))
+$(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c interrupt.c output.c place.c))
 	$(call say,LD)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
