@@ -32,7 +32,7 @@
 #define SMEAR_DAMAGE_BYTES 56u              /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
 #define SMEAR_OLDER_BYTES 52u               /* the pose of an id before that: not with reuse.one_pose */
-#define SMEAR_OLDER_CAMERA_BYTES 72u
+#define SMEAR_OLDER_CAMERA_BYTES 80u
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36 bytes

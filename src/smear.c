@@ -182,7 +182,7 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     copy_pose(&s->draw.now, &s->pose[0]);
     copy_pose(&s->draw.open, &s->pose[1]);
     copy_pose(&s->draw.close, &s->pose[2]);
-    smear_transform past[2];
+    smear_transform past[2] = { s->pose[0], s->pose[0] };
     const bool cut = draw->cut || c->shot.cut;
     const int known = smear_history_keep(&c->history, draw->id, s->draw.now, cut, past);
     if (draw->open != NULL || c->shot.shutter_poses)

@@ -7,7 +7,10 @@ void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint3
     const bool two = SMEAR_WITH_CURVES && !one_pose;
     h->room = SMEAR_BLURS ? max_draws : 0;
     h->kept = SMEAR_BLURS ? arena_take(a, max_draws, sizeof *h->kept) : NULL;
-    h->older = two ? arena_take(a, 1, sizeof *h->older + max_draws * sizeof *h->older->pose) : NULL;
+    h->older = two ? arena_take(a, 1, sizeof *h->older) : NULL;
+    struct smear_older_pose *pose = two ? arena_take(a, max_draws, sizeof *pose) : NULL;
+    if (h->older != NULL)
+        h->older->pose = pose;
 }
 
 void smear_history_clear(struct smear_history *h)

@@ -23,7 +23,7 @@ struct smear_older_pose {
 struct smear_older {
     bool has_camera;
     smear_camera camera;
-    struct smear_older_pose pose[]; /* beside those of smear_history.kept */
+    struct smear_older_pose *pose;  /* beside those of smear_history.kept */
 };
 
 struct smear_history {

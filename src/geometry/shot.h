@@ -55,7 +55,7 @@ struct smear_shutter_order {
 static inline struct smear_shutter_order smear_shot_order(const struct smear_shot *shot)
 {
     static const struct smear_shutter_order order[] = { { 1, 0, 2 }, { 1, 2, 0 }, { 0, 1, 2 } };
-    return order[shot_is_curved(shot) ? shot->exposure : SMEAR_CENTRED];
+    return order[shot_is_curved(shot) ? shot->exposure : (uint8_t)SMEAR_CENTRED];
 }
 
 /* Returns the time of a pose of a curved shot, q24 frames from now. */

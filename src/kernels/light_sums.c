@@ -150,7 +150,7 @@ static inline uint32_t halves_mean(uint32_t a, uint32_t b)
 
 struct light_mean smear_light_mean(uint32_t full, int32_t pairs, uint32_t unit, uint32_t last, bool linear)
 {
-    struct light_mean m = { .linear = linear, .full = full };
+    struct light_mean m = { .full = full, .linear = linear };
     if (pairs != 0) {
         const uint32_t whole = unit * (2 * (uint32_t)pairs - 1) + 2 * last;
         m.own = min_u32((unit << 16) / whole, 65535);

@@ -231,8 +231,6 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
 /* ------------------------------------------------------------------ 16 bits, in lanes */
 
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
-typedef uint16_t smear_v8u __attribute__((vector_size(16)));
-
 static inline smear_v8u v8u_all(uint16_t a) { return (smear_v8u){ a, a, a, a, a, a, a, a }; }
 
 /* Eight pixels: blue and red of four by turns, of the other four; green of all. */

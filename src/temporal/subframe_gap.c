@@ -11,6 +11,11 @@
 #include "kernels/light_sums.h"
 #include "temporal/subframe_background.h"
 
+union gap_mean {
+    struct packed_mean packed;
+    struct light_mean light;
+};
+
 /* A tile's gap, centred on a pixel: weights in `unit` of a pixel, of which the ends get what is left. Taps are in
  * pairs, which count only together: where one lies outside the tiles the gap is closed by less, but nothing is
  * shifted. */
@@ -22,10 +27,7 @@ struct gap {
                                                  * the last pair's */
     int unit_log2;
     uint32_t weight[GAP_PAIRS_MAX + 1];         /* of all taps at all instants, by pairs that count */
-    union gap_mean {
-        struct packed_mean packed;
-        struct light_mean light;
-    } mean[GAP_PAIRS_MAX + 1];                  /* made where they are needed: */
+    union gap_mean mean[GAP_PAIRS_MAX + 1];     /* made where they are needed: */
     uint32_t made;                              /* a bit for each that is */
 };
 

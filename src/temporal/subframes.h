@@ -9,7 +9,7 @@
 /* Instants of which codes add up in 16 bits: without SMEAR_WITH_LINEAR there are no more. */
 enum {
     SMEAR_PACKED_INSTANTS = PACKED_INSTANTS_MAX,
-    SMEAR_SUBFRAMES_MOST = SMEAR_WITH_LINEAR ? LIGHT_INSTANTS_MAX : PACKED_INSTANTS_MAX
+    SMEAR_SUBFRAMES_MOST = SMEAR_WITH_LINEAR ? (int)LIGHT_INSTANTS_MAX : (int)PACKED_INSTANTS_MAX
 };
 
 /* How all moving triangles of a tile go on from one instant to the next, nearly, in 1/16 px. */

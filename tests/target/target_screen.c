@@ -110,9 +110,9 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     if (memory == NULL)
         return false;
     player.shutter_degrees = shutter;
-    int result = demo_player_frame(&player, (frame + DEMO_LOOP - 1) % DEMO_LOOP, false);
-    if (result == SMEAR_OK)
-        result = demo_player_frame(&player, frame, true);
+    int result = SMEAR_OK;
+    for (uint32_t before = 3; before-- > 0 && result == SMEAR_OK;)      /* poses of two frames ago tell the curves */
+        result = demo_player_frame(&player, (frame + DEMO_LOOP - before) % DEMO_LOOP, before == 0);
     free(memory);
     return result == SMEAR_OK || fail(f, "the library refused the frame: %s", smear_error_text(result));
 }
