@@ -450,7 +450,7 @@ static bool assemble_range(const struct assembly_parts *all, struct assembly_par
 
 static void assemble_job(void *argument, int job, int worker)
 {
-    struct assembly_parts *all = argument;
+    struct assembly_parts *all = (struct assembly_parts *)argument;
     struct assembly_part *p = &all->part[job];
     uint32_t at = 0;
     (void)worker;

@@ -121,7 +121,7 @@ bool smear_curve_find(struct smear_curve *c, const smear_transform *now, const s
 /* Returns t (t + 1) / 2 of a time, q24. */
 static int64_t parabola(int32_t time)
 {
-    return ((int64_t)time * time + ((int64_t)time << 24)) >> 25;
+    return ((int64_t)time * time + (int64_t)time * (1 << 24)) >> 25;
 }
 
 /* Finds B(t) as a complex number, q24. With (w - 1)^2 = -4 sin^2(angle / 2) w it is -(w^-t - 1 + t (w - 1)) / w over

@@ -145,7 +145,7 @@ static inline void triangles_corner_load(struct triangles_corner *c, const struc
 static inline smear_v8i pairs_turned(smear_v8i a)
 {
     const smear_v4u swapped = (smear_v4u)a >> 16 | (smear_v4u)a << 16, upper = v4u_all(0xffff0000u);
-    return (smear_v8i)(swapped ^ upper) - (smear_v8i)upper;
+    return (smear_v8i)((smear_v8u)(swapped ^ upper) - (smear_v8u)upper);
 }
 
 /* Returns dy 2^16 - dx for pairs (dx, dy). */

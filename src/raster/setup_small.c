@@ -142,10 +142,10 @@ static inline void curve_make(struct curve *c, const struct slopes *g, const str
     c->dxx = xx;
     c->dxy = xy;
     c->dyy = yy;
-    c->dx = add_wrap(dx, (2 * xx * fx + xy * fy) >> 8);
-    c->dy = add_wrap(dy, (2 * yy * fy + xy * fx) >> 8);
-    c->at = add_wrap(shl_wrap(u0, 15), add_wrap(part_of(add_wrap(dx, (xx * fx + xy * fy) >> 8), fx),
-                                                part_of(add_wrap(dy, yy * fy >> 8), fy)));
+    c->dx = add_wrap(dx, add_wrap(mul_wrap(2 * fx, xx), mul_wrap(xy, fy)) >> 8);
+    c->dy = add_wrap(dy, add_wrap(mul_wrap(2 * fy, yy), mul_wrap(xy, fx)) >> 8);
+    c->at = add_wrap(shl_wrap(u0, 15), add_wrap(part_of(add_wrap(dx, add_wrap(mul_wrap(xx, fx), mul_wrap(xy, fy)) >> 8), fx),
+                                                part_of(add_wrap(dy, mul_wrap(yy, fy) >> 8), fy)));
 }
 
 /* As the raster wants it: turns q32, those of v in steps of CURVE_STEP; or mesh units q14. */
