@@ -141,6 +141,9 @@ static inline void triangles_corner_load(struct triangles_corner *c, const struc
     c->first = (smear_v8i)v4i_lasts(a, b, d, e);
 }
 
+/* Returns a - b, which wraps where nobody asks for it. */
+static inline smear_v4i v4i_less(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a - (smear_v4u)b); }
+
 /* Turns pairs (x, y) into (y, -x). */
 static inline smear_v8i pairs_turned(smear_v8i a)
 {
@@ -149,17 +152,17 @@ static inline smear_v8i pairs_turned(smear_v8i a)
 }
 
 /* Returns dy 2^16 - dx for pairs (dx, dy). */
-static inline smear_v4i pairs_slope(smear_v8i a)
+static inline smear_v4u pairs_slope(smear_v8i a)
 {
-    return (smear_v4i)((smear_v4u)a & 0xffff0000u) - ((smear_v4i)((smear_v4u)a << 16) >> 16);
+    return ((smear_v4u)a & 0xffff0000u) - (smear_v4u)((smear_v4i)((smear_v4u)a << 16) >> 16);
 }
 
-static inline smear_v4i pairs_x256(smear_v8i a) { return (smear_v4i)((smear_v4u)a << 16) >> 8; }
-static inline smear_v4i pairs_y256(smear_v8i a) { return ((smear_v4i)a >> 16) * 256; }
+static inline smear_v4u pairs_x256(smear_v8i a) { return (smear_v4u)((smear_v4i)((smear_v4u)a << 16) >> 8); }
+static inline smear_v4u pairs_y256(smear_v8i a) { return (smear_v4u)((smear_v4i)a >> 16) << 8; }
 
-static inline smear_v4u centre_bit(smear_v4i e0, smear_v4i e1, smear_v4i e2, uint32_t bit)
+static inline smear_v4u centre_bit(smear_v4u e0, smear_v4u e1, smear_v4u e2, uint32_t bit)
 {
-    return (smear_v4u)((e0 | e1 | e2) >= 0) & bit;
+    return (smear_v4u)((smear_v4i)(e0 | e1 | e2) >= 0) & bit;
 }
 
 /* Finds which centres of tiny boxes are covered, as triangle_cover does. Pairs fit halves there; what others give is
@@ -169,21 +172,22 @@ static inline smear_v4u triangles_cover(struct smear_triangles *out, const struc
 {
     const smear_v8i at = v4i_narrow((smear_v4i)((smear_v4u)corner->place01 << 16) >> 16,
                                     (smear_v4i)((smear_v4u)corner->place23 << 16) >> 16);
-    const smear_v8i centre = (smear_v8i)((smear_v8u)low << 8) + v8i_all(128) - at, turned = pairs_turned(centre);
-    const smear_v4i slope1 = pairs_slope(edge1), slope2 = pairs_slope(edge2);
-    smear_v4i e2 = v8i_dot(edge1, turned), e1 = -v8i_dot(edge2, turned), e0 = area - e1 - e2;
-    e0 += (smear_v4i)(slope2 - slope1 >= 0);
-    e1 += (smear_v4i)(slope2 <= 0);
-    e2 += (smear_v4i)(slope1 >= 0);
-    v4u_store((uint32_t *)out->e1, (smear_v4u)e1);
-    v4u_store((uint32_t *)out->e2, (smear_v4u)e2);
-    const smear_v4i x1 = pairs_x256(edge1), y1 = pairs_y256(edge1), x2 = pairs_x256(edge2), y2 = pairs_y256(edge2);
+    const smear_v8i centre = (smear_v8i)(((smear_v8u)low << 8) + (smear_v8u)v8i_all(128) - (smear_v8u)at);
+    const smear_v8i turned = pairs_turned(centre);
+    const smear_v4u slope1 = pairs_slope(edge1), slope2 = pairs_slope(edge2);
+    smear_v4u e2 = (smear_v4u)v8i_dot(edge1, turned), e1 = -(smear_v4u)v8i_dot(edge2, turned), e0 = (smear_v4u)area - e1 - e2;
+    e0 += (smear_v4u)((smear_v4i)(slope2 - slope1) >= 0);
+    e1 += (smear_v4u)((smear_v4i)slope2 <= 0);
+    e2 += (smear_v4u)((smear_v4i)slope1 >= 0);
+    v4u_store((uint32_t *)out->e1, e1);
+    v4u_store((uint32_t *)out->e2, e2);
+    const smear_v4u x1 = pairs_x256(edge1), y1 = pairs_y256(edge1), x2 = pairs_x256(edge2), y2 = pairs_y256(edge2);
     smear_v4u bits = centre_bit(e0, e1, e2, 1u) | centre_bit(e0 + (y1 - y2), e1 + y2, e2 - y1, 2u);
     e0 += x2 - x1;
     e1 -= x2;
     e2 += x1;
     bits |= centre_bit(e0, e1, e2, 4u) | centre_bit(e0 + (y1 - y2), e1 + y2, e2 - y1, 8u);
-    const smear_v4u two = (smear_v4u)((smear_v8i)(high - low) > v8i_all(1));
+    const smear_v4u two = (smear_v4u)((smear_v8i)((smear_v8u)high - (smear_v8u)low) > v8i_all(1));
     const smear_v4u wide = (smear_v4u)((smear_v4i)(two << 16) >> 16), tall = (smear_v4u)((smear_v4i)two >> 16);
     bits &= 1u | (wide & 2u) | (tall & 4u) | (wide & tall & 8u);
     v4u_store(out->covered, bits);
@@ -197,8 +201,8 @@ SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct sme
     triangles_corner_load(&c0, place, index);
     triangles_corner_load(&c1, place, index + s->second);
     triangles_corner_load(&c2, place, index + s->third);
-    smear_v8i edge1 = v4i_narrow(c1.place01 - c0.place01, c1.place23 - c0.place23);
-    smear_v8i edge2 = v4i_narrow(c2.place01 - c0.place01, c2.place23 - c0.place23);
+    smear_v8i edge1 = v4i_narrow(v4i_less(c1.place01, c0.place01), v4i_less(c1.place23, c0.place23));
+    smear_v8i edge2 = v4i_narrow(v4i_less(c2.place01, c0.place01), v4i_less(c2.place23, c0.place23));
     const smear_v8i end = ((edge1 ^ (edge1 >> 15)) == v8i_all(INT16_MAX)) | ((edge2 ^ (edge2 >> 15)) == v8i_all(INT16_MAX));
     const smear_v4i far = (smear_v4i)end != 0;
     smear_v4i area = v8i_dot(edge1, pairs_turned(edge2));
@@ -208,11 +212,11 @@ SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct sme
         const smear_v4u first = v4u_choose(back, (smear_v4u)edge2, (smear_v4u)edge1);
         edge2 = (smear_v8i)v4u_choose(back, (smear_v4u)edge1, (smear_v4u)edge2);
         edge1 = (smear_v8i)first;
-        area = (area ^ back) - back;
+        area = v4i_less(area ^ back, back);
         out->back = v4i_signs(back);
     }
     smear_v8i low = v8i_min(c0.first, v8i_min(c1.first, c2.first)), high = v8i_max(c0.first, v8i_max(c1.first, c2.first));
-    const smear_v4i large = (smear_v4i)((smear_v8i)(high - low) > v8i_all(2)) != 0;
+    const smear_v4i large = (smear_v4i)((smear_v8i)((smear_v8u)high - (smear_v8u)low) > v8i_all(2)) != 0;
     low = v8i_max(low, (smear_v8i)v4u_all(s->low));
     high = v8i_min(high, (smear_v8i)v4u_all(s->high));
     const smear_v4i is_full = (smear_v4i)(smear_v8i)(high > low) == -1;

@@ -438,7 +438,7 @@ int smear_actor_advance(smear_actor *a, const smear_play *play)
     for (int i = a->pose_count - 1; i > 0; i--)
         a->pose[i] = a->pose[i - 1];
     a->pose[SMEAR_POSE_NOW] = oldest;
-    a->known = (uint8_t)((a->known << 1) & ((1u << a->pose_count) - 1u));
+    a->known = (uint8_t)(((unsigned)a->known << 1) & ((1u << a->pose_count) - 1u));
     return smear_actor_set(a, SMEAR_POSE_NOW, play);
 }
 
