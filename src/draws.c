@@ -465,6 +465,9 @@ static void assemble_job(void *argument, int job, int worker)
     }
 }
 
+/* Returns total k / n without a product of 64 bits; k <= n. */
+static uint32_t share_of(uint32_t total, uint32_t k, uint32_t n) { return total / n * k + total % n * k / n; }
+
 /* Makes part k of n: its share of the pool, of the segments' table and of triangles with a path. */
 static void make_part(struct assembly_parts *all, uint32_t k, uint32_t n)
 {
@@ -474,8 +477,8 @@ static void make_part(struct assembly_parts *all, uint32_t k, uint32_t n)
     const uint32_t rows = (uint32_t)(g->row_count + g->moving_rows), words = (g->pool_words - PARTS_WORDS) / n & ~3u;
     const uint32_t spare = g->segment_limit - c->draw_count, total = c->stats.triangles_in;
     uint32_t *ring = g->pool + (g->pool_words - (k + 1) * words);
-    *p = (struct assembly_part){ .as = c->assembler, .bins = *g, .first = (uint32_t)((uint64_t)total * k / n),
-                                 .end = (uint32_t)((uint64_t)total * (k + 1) / n) };
+    *p = (struct assembly_part){ .as = c->assembler, .bins = *g, .first = share_of(total, k, n),
+                                 .end = share_of(total, k + 1, n) };
     p->as.bins = &p->bins;
     p->as.cache = (struct smear_cached_vertex *)(void *)(ring + 3 * rows);
     p->as.cache_mask = PART_CACHE - 1;
