@@ -28,16 +28,17 @@ enum { FPS = 30, FRAMES = 60 };
 struct model_screen {
     const char *name;
     smear_desc desc;
+    uint8_t path;               /* smear_frame.shutter.path: the smallest board has no curves */
 };
 
 static const struct model_screen screens[] = {
-    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2 } },
-    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555 } },
-    { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
-    { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
-    { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
-    { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2 } },
-    { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888 } },
+    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2 }, SMEAR_PATH_LINE },
+    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555 }, SMEAR_PATH_DEFAULT },
+    { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888 }, SMEAR_PATH_DEFAULT },
 };
 
 static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
@@ -46,6 +47,7 @@ static smear_context *ctx;
 static int32_t zoom = 158218;           /* Q16.16: how far the camera is, in radii;
                                          * from 1 / tan(22.5 degrees) on */
 static bool is_sharp;
+static uint8_t path;
 
 static int failed(const char *what, int result)
 {
@@ -86,6 +88,7 @@ static smear_camera camera_for(const smear_model *model)
 static int start(const struct model_screen *screen, smear_desc *desc)
 {
     *desc = screen->desc;
+    path = screen->path;
     desc->methods = SMEAR_SET(SMEAR_RECONSTRUCT);
     desc->max_draws = MODEL_DRAWS;
     desc->max_triangles = MODEL_TRIANGLES;
@@ -98,7 +101,7 @@ static int frame(uint32_t index, bool draw)
     const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
                               .time = (int32_t)(index * 65536u / FPS) };
     const smear_frame how = { .camera = &camera, .light_space = SMEAR_LIGHT_ENCODED,
-                              .method = is_sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT };
+                              .method = is_sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT, .shutter.path = path };
     int result = smear_actor_advance(actor, &play);
     if (result == SMEAR_OK)
         result = smear_begin(ctx, &how);

@@ -10,7 +10,8 @@
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
     reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
-    reach["src/display/row.c"] = "(^|:)fill(\\.|$)"         # draws.c: a row whose triangles find no room at once
+    reach["src/display/row.c"] = "(draws\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"         # draws.c: a row whose triangles find no room at once
+    reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/ports/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"

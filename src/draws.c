@@ -15,77 +15,6 @@ static inline bool has_layers(const struct smear_context *c)
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
 }
 
-/* ------------------------------------------------------------------ curves */
-
-/* Makes the track of a draw. Returns false where it has no motion of its own. */
-static bool find_track(struct smear_track *track, const struct smear_context *c, struct smear_submitted *s)
-{
-    const smear_draw *d = &s->draw;
-    *track = (struct smear_track){ { &s->pose[0], &s->pose[1], &s->pose[2] }, d->close != NULL,
-                                   d->path != SMEAR_PATH_DEFAULT ? d->path : c->shot.path, c->shot.object_scale };
-    return d->open != NULL && !d->cut && d->motion == SMEAR_MOTION_FULL;
-}
-
-/* Returns how many layers there are that may have cameras of their own. */
-static int own_cameras(const struct smear_context *c)
-{
-    return SMEAR_WITH_LAYERS && smear_method_has_layers(c->frame.method) ? c->layers->setting_count : 0;
-}
-
-/* Whether one of these moves along a curve. */
-static bool layers_are_curved(struct smear_context *c)
-{
-    struct smear_layer_setting *s = own_cameras(c) != 0 ? c->layers->setting : NULL;
-    for (int i = 0; i < own_cameras(c); i++, s++)
-        if (s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older))
-            return true;
-    return false;
-}
-
-static bool frame_is_curved(struct smear_context *c)
-{
-    struct smear_track track;
-    bool curved = c->shot.camera_moves && smear_cameras_are_curved(&c->shot, c->shot.camera, c->shot.has_older);
-    for (uint32_t i = 0; i < c->draw_count && !curved; i++)
-        curved = (find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track))
-              || (SMEAR_WITH_DEFORM && smear_draw_bends(&c->submitted[i].draw, &c->shot));
-    return curved || layers_are_curved(c);
-}
-
-/* What stays where it is before the camera does so at every moment, whatever the curves of both are. */
-static void find_attached(struct smear_context *c)
-{
-    struct smear_submitted *s = c->submitted;
-    struct smear_track track;
-    for (uint32_t i = 0; c->shot.camera_moves && i < c->draw_count; i++, s++)
-        if (find_track(&track, c, s) && s->draw.open_position == NULL && track.scale == 256
-            && smear_pose_is_attached(&s->pose[1], &c->shot.camera[1], &s->pose[0], &c->shot.camera[0]))
-            s->draw.motion = SMEAR_MOTION_NONE;
-}
-
-void smear_draws_find_curves(struct smear_context *c)
-{
-    struct smear_track track;
-    if (!SMEAR_WITH_CURVES || c->frame.method == SMEAR_NONE || c->shot.shutter_poses || c->shot.cut || !frame_is_curved(c))
-        return;
-    c->shot.curved = true;
-    find_attached(c);
-    if (c->shot.camera_moves)
-        smear_cameras_bend(&c->shot, c->shot.camera, c->shot.has_older);
-    for (int i = 0; i < own_cameras(c); i++)
-        if (c->layers->setting[i].has_camera)
-            smear_cameras_bend(&c->shot, c->layers->setting[i].camera, c->layers->setting[i].has_older);
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        struct smear_submitted *s = &c->submitted[i];
-        if (!SMEAR_WITH_DEFORM || !smear_draw_bends(&s->draw, &c->shot))
-            s->draw.close_position = NULL;
-        if (!find_track(&track, c, s))
-            continue;
-        smear_track_bend(&track, &c->shot);
-        s->draw.close = &s->pose[2];
-    }
-}
-
 /* ------------------------------------------------------------------ what draws are */
 
 /* Returns the three cameras of a draw's layer, if it has its own. */
@@ -586,7 +515,7 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
 }
 #endif
 
-/* Assembles all draws for the tile rows [first, end), or those of a fill. False when the store is full. */
+/* Assembles all draws for the tile rows [first, end), or those of a fill, on one core. False when the store is full. */
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
                                          const struct smear_instant *instant, struct smear_refill *f)
 {
@@ -599,14 +528,25 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
         return assemble_fast(c, instant, f);
 #endif
     smear_assembler_reset(&c->assembler);
+    return assemble_draws(c, &c->assembler, instant, f);
+}
+
+/* Assembles all draws for the tile rows [first, end), on several cores where that is faster. Fills, which a job may ask for,
+ * never come here. False when the store is full. */
+static bool assemble_all(struct smear_context *c, int first, int end, const struct smear_instant *instant)
+{
 #if SMEAR_ASSEMBLY_JOBS
-    if (f == NULL && has_parts(c)) {
+    if (has_parts(c)) {
+        smear_bins_reset(&c->rows.bins, first, end);
+        c->assembler.refills = false;
+        c->assembler.path_x0 = 0;
+        c->assembler.path_x1 = INT16_MAX;
+        smear_assembler_reset(&c->assembler);
         if (assemble_parts(c, instant))
             return true;
-        smear_bins_reset(&c->rows.bins, first, end);
     }
 #endif
-    return assemble_draws(c, &c->assembler, instant, f);
+    return assemble_rows(c, first, end, instant, NULL);
 }
 
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
@@ -677,7 +617,7 @@ int smear_draws_assemble(struct smear_context *c, int top, int first, int end, c
     c->rows.refill = NULL;
     for (bool again = true; again;) {
         const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        const bool done = assemble_rows(c, top, end, instant, NULL);
+        const bool done = assemble_all(c, top, end, instant);
         note_fills(c);
         again = !done || static_is_disturbed(c);
         if (!again)
