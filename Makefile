@@ -192,11 +192,15 @@ build/gentables: tools/gentables.c
 
 # ---------------------------------------------------------------------- forms to hand on
 
-.PHONY: dist install dist-test
+.PHONY: dist install dist-test dist-single-test
 ## what `make dist` and `make install` write, compiled and run
-dist-test: dist build/tapes/golden.c
+dist-test: dist
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
 	sh tests/shell/dist.sh
+
+## the one file by every compiler of this machine, for every core and standard, and its golden frames
+dist-single-test: dist build/tapes/golden.c
+	sh tests/shell/dist_single.sh
 
 ## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
 dist: build/dist-single

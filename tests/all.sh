@@ -73,6 +73,10 @@ suite switches $make -s switches-test
 needs cmake "cmake" || true            # dist.sh builds packages with it
 needs pkg-config "pkg-config" || true
 suite dist $make -s dist-test
+# Compilers of the one file; dist_single.sh goes without those that are not here.
+needs tcc "tcc" || true
+needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" || true
+suite dist-single $make -s dist-single-test
 suite template $make -s template-test
 suite demo-host $make -s TARGET=host demo-test
 suite device-chart sh tests/shell/device_chart.sh build/test/device-chart

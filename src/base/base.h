@@ -9,6 +9,60 @@
 
 #include "smear_config.h"
 
+/* 1 where the compiler has the builtins, attributes and inline assembly of GCC and Clang. 0 is plain C99, with the same
+ * bits: what other compilers lack is written out here under the same names. */
+#ifndef SMEAR_GNU
+#ifdef __GNUC__
+#define SMEAR_GNU 1
+#else
+#define SMEAR_GNU 0
+#endif
+#endif
+
+/* 1 where the first byte of a word is its highest. Compilers that do not tell are taken to be little-endian. */
+#ifndef SMEAR_BIG_ENDIAN
+#if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
+#define SMEAR_BIG_ENDIAN (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
+#else
+#define SMEAR_BIG_ENDIAN 0
+#endif
+#endif
+
+#if !SMEAR_GNU
+#include <string.h>
+#define __builtin_memcpy memcpy
+#define __builtin_memset memset
+#define __builtin_assume_aligned(pointer, bytes) (pointer)
+#define __builtin_ctz(x) smear_plain_ctz(x)
+#define __builtin_clz(x) smear_plain_clz(x)
+#define __builtin_bswap16(x) ((uint16_t)((x) >> 8 | (x) << 8))
+#define __builtin_trap() smear_plain_trap()
+
+/* Counts the zeros below the lowest bit set of x > 0. */
+static inline int smear_plain_ctz(uint32_t x)
+{
+    int n = 0;
+    for (; (x & 1u) == 0; x >>= 1)
+        n++;
+    return n;
+}
+
+static inline int smear_plain_clz(uint32_t x)
+{
+    int n = 0;
+    for (; x < 0x80000000u; x <<= 1)
+        n++;
+    return n;
+}
+
+/* Without an instruction that traps, a program stays where its promise was broken. */
+static inline void smear_plain_trap(void)
+{
+    for (volatile int stopped = 1; stopped != 0;)
+        continue;
+}
+#endif
+
 /* Stops at once where a promise of the library itself, never of the caller, is broken; costs nothing when checks are
  * off. */
 #if SMEAR_CHECK
@@ -18,10 +72,15 @@
 #endif
 
 /* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. */
+#if SMEAR_GNU
+#define SMEAR_INLINE_ALWAYS static inline __attribute__((always_inline))
+#else
+#define SMEAR_INLINE_ALWAYS static inline
+#endif
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_INLINE static inline
 #else
-#define SMEAR_INLINE static inline __attribute__((always_inline))
+#define SMEAR_INLINE SMEAR_INLINE_ALWAYS
 #endif
 
 /* Helpers of fixed.h and fixmath.h take many instructions on cores without wide products: where size counts, fixmath.c
@@ -33,7 +92,11 @@
 #define SMEAR_ONE_COPY 0
 #define SMEAR_SHARED static inline
 #endif
+#if SMEAR_GNU
 #define SMEAR_NOINLINE __attribute__((noinline))
+#else
+#define SMEAR_NOINLINE
+#endif
 
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_SMALL_CODE 1
@@ -51,8 +114,13 @@
 /* Hints to the optimizer without an instruction of their own. What stands behind SMEAR_KEEP_BRANCH stays there: it is
  * neither computed in advance nor made of conditional stores. SMEAR_KEEP_VALUE has x computed as it is
  * written, in a register: the compiler doesn't know afterwards where its value came from. */
+#if SMEAR_GNU
 #define SMEAR_KEEP_BRANCH() __asm__ volatile ("")
 #define SMEAR_KEEP_VALUE(x) __asm__("" : "+r"(x))
+#else
+#define SMEAR_KEEP_BRANCH() ((void)0)
+#define SMEAR_KEEP_VALUE(x) ((void)(x))
+#endif
 
 #if defined(__cplusplus)
 #define SMEAR_STATIC_ASSERT(condition, text) static_assert(condition, text)

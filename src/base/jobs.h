@@ -8,7 +8,14 @@
 
 #include "base/base.h"
 
-/* Words that cores and interrupts share, each written by one of them. */
+/* Words that cores and interrupts share, each written by one of them. Compilers that have no word for the order of loads and
+ * stores keep that of volatile ones; a core that does not (ARMv7-A, ARMv8) gets its barrier by -DSMEAR_BARRIER='...' if it
+ * shall work beside another. For ARMv6-M Clang would call functions that are nowhere. */
+#if SMEAR_GNU && defined(__clang__) && defined(__ARM_ARCH_6M__) && !defined(SMEAR_BARRIER)
+#define SMEAR_BARRIER __asm__ volatile ("dmb" : : : "memory")
+#endif
+
+#if SMEAR_GNU && !defined(SMEAR_BARRIER)
 static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
 static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }
 
@@ -16,11 +23,30 @@ static inline void word_write(unsigned *word, unsigned value)
 {
     __atomic_store_n(word, value, __ATOMIC_RELEASE);
 }
+#else
+#ifndef SMEAR_BARRIER
+#define SMEAR_BARRIER ((void)0)
+#endif
+static inline unsigned word_own(const unsigned *word) { return *word; }
+
+static inline unsigned word_read(const unsigned *word)
+{
+    const unsigned value = *(const volatile unsigned *)word;
+    SMEAR_BARRIER;
+    return value;
+}
+
+static inline void word_write(unsigned *word, unsigned value)
+{
+    SMEAR_BARRIER;
+    *(volatile unsigned *)word = value;
+}
+#endif
 
 /* Cores can add to a word that they share: not where nobody but the program knows whether they watch each other's exclusive
  * accesses (ARMv7-M and later). */
 #ifndef SMEAR_CLAIMS
-#if defined(__GCC_ATOMIC_INT_LOCK_FREE) && __GCC_ATOMIC_INT_LOCK_FREE == 2 \
+#if SMEAR_GNU && defined(__GCC_ATOMIC_INT_LOCK_FREE) && __GCC_ATOMIC_INT_LOCK_FREE == 2 \
     && !(defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M')
 #define SMEAR_CLAIMS 1
 #else

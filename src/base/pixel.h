@@ -88,7 +88,12 @@ static inline void *pixel_after(void *pixel, int32_t n, bool narrow)
     return narrow ? (void *)((uint16_t *)pixel + n) : (void *)((uint32_t *)pixel + n);
 }
 
-/* A word of pixels of any width. */
+/* A word of pixels of any width. Compilers without this attribute are to be told not to guess from types what pointers can
+ * point to, if they do (-fno-strict-aliasing). */
+#if SMEAR_GNU
 typedef uint32_t __attribute__((may_alias)) pixel_word;
+#else
+typedef uint32_t pixel_word;
+#endif
 
 #endif

@@ -24,7 +24,7 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
 /* Whether the bytes of a pixel are not in this machine's order; smear_format_swap exchanges them. */
 static inline bool smear_format_is_swapped(smear_format format)
 {
-    const bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    const bool big = SMEAR_BIG_ENDIAN;
     return (format == SMEAR_RGB565_SWAPPED) != big;
 }
 

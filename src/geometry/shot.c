@@ -180,18 +180,18 @@ void smear_track_bend(const struct smear_track *t, const struct smear_shot *shot
     }
 }
 
-static struct smear_track track_of(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+static struct smear_track track_of(const struct smear_shot *shot, smear_camera *camera, bool has_older)
 {
     return (struct smear_track){ { &camera[0].pose, &camera[1].pose, &camera[2].pose }, has_older, shot->path, 256 };
 }
 
-bool smear_cameras_are_curved(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+bool smear_cameras_are_curved(const struct smear_shot *shot, smear_camera *camera, bool has_older)
 {
     const struct smear_track track = track_of(shot, camera, has_older);
     return smear_track_is_curved(&track);
 }
 
-void smear_cameras_bend(const struct smear_shot *shot, smear_camera camera[3], bool has_older)
+void smear_cameras_bend(const struct smear_shot *shot, smear_camera *camera, bool has_older)
 {
     const struct smear_track track = track_of(shot, camera, has_older);
     const smear_camera *now = &camera[0];

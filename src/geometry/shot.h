@@ -85,8 +85,8 @@ bool smear_track_is_curved(const struct smear_track *track);
 /* Puts the poses at the times of the exposure in place of the past ones (smear_shot_order). */
 void smear_track_bend(const struct smear_track *track, const struct smear_shot *shot);
 
-/* The same for cameras. */
-bool smear_cameras_are_curved(const struct smear_shot *shot, smear_camera camera[3], bool has_older);
-void smear_cameras_bend(const struct smear_shot *shot, smear_camera camera[3], bool has_older);
+/* The same for cameras, of which there are three. */
+bool smear_cameras_are_curved(const struct smear_shot *shot, smear_camera *camera, bool has_older);
+void smear_cameras_bend(const struct smear_shot *shot, smear_camera *camera, bool has_older);
 
 #endif

@@ -28,9 +28,9 @@
 #include "kernels/vector.h"
 
 /* Assembly for ARMv6-M (Cortex-M0 and M0+), whose eight general registers compilers use badly. It keeps all of
- * them busy, frame pointers included: builds without optimization need those. */
+ * them busy, frame pointers included: builds without optimization need those, and Clang sets r7 aside for them. */
 #ifndef SMEAR_ASM_ARMV6M
-#if defined(__GNUC__) && defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
 #define SMEAR_ASM_ARMV6M 1
 #else
 #define SMEAR_ASM_ARMV6M 0

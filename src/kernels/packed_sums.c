@@ -105,7 +105,7 @@ static void add_lazy(uint32_t *color, const uint32_t *background, struct packed_
     for (const uint32_t *end = background + n; background != end; color++, sum++) {
         const uint32_t c = *color, behind = *background++;
         if (((c ^ behind) | mask) != 0) {
-            __asm__ volatile ("");
+            SMEAR_KEEP_BRANCH();
             struct packed_sum s = *sum;
             *color = behind;
             s.rb += c & 0xff00ffu;

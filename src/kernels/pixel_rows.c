@@ -8,7 +8,7 @@
 /* Returns two pixels of 16 bits as they lie in memory. */
 static inline uint32_t pair_of(uint32_t first, uint32_t second)
 {
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#if SMEAR_BIG_ENDIAN
     return first << 16 | second;
 #else
     return first | second << 16;
@@ -134,7 +134,7 @@ SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t step, struct
     const uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)
                                     : both >> ORDERED_LEVEL & 0xf81fu)
                           | (o->green + step) >> (ORDERED_HIGH + 6) << 5;
-    *out = swapped != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
+    *out = swapped != SMEAR_BIG_ENDIAN ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
 }
 
 /* Stores the pixels [in, end). `step` has those of the columns from the first pixel on, ORDERED_WIDTH of them. */
@@ -252,7 +252,7 @@ SMEAR_INLINE void lanes_store(uint16_t *out, struct lanes k, enum row_16bit form
     const smear_v4i low = v8i_dot((smear_v8i)k.low, place) << 16 >> 16;
     const smear_v4i high = v8i_dot((smear_v8i)k.high, place) << 16 >> 16;
     smear_v8u pixel = (smear_v8u)v4i_narrow(low, high) | k.green << 5;
-    if ((format == ROW_565_SWAPPED) != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__))
+    if ((format == ROW_565_SWAPPED) != SMEAR_BIG_ENDIAN)
         pixel = pixel << 8 | pixel >> 8;
     v8i_store(out, (smear_v8i)pixel);
 }

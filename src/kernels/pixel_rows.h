@@ -70,7 +70,7 @@ static inline void row_xrgb8888(uint32_t *out, const uint32_t *in, int32_t n)
  * first where `swapped`, else the low one. */
 static inline uint32_t bytes_ordered(uint32_t packed, bool swapped)
 {
-    return swapped != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
+    return swapped != SMEAR_BIG_ENDIAN ? packed >> 8 | (packed << 8 & 0xff00u) : packed;
 }
 
 /* Layouts: blue over green over red, 5 bits each; red over green over blue, 5, 6 and 5; the latter with its high byte

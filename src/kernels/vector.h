@@ -7,7 +7,7 @@
 #include "base/base.h"
 
 #ifndef SMEAR_VECTORS
-#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
+#if SMEAR_GNU && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
 #define SMEAR_VECTORS 1
 #else
 #define SMEAR_VECTORS 0

@@ -185,12 +185,12 @@ static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, 
     }
 }
 
-static inline __attribute__((always_inline)) int32_t edge_pixel(const struct edge_walk *e)
+SMEAR_INLINE_ALWAYS int32_t edge_pixel(const struct edge_walk *e)
 {
     return e->x >> 8;
 }
 
-static inline __attribute__((always_inline)) void edge_step(struct edge_walk *e)
+SMEAR_INLINE_ALWAYS void edge_step(struct edge_walk *e)
 {
     e->x += e->step;
     e->rest += e->step_rest;

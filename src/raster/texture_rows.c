@@ -296,7 +296,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const bool narrow = texels_are_narrow(kind);
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const int32_t block = t->block, least = block > 1 ? SHORT_SPAN : INT32_MAX;     /* block_of */
+    const int32_t block = t->block, least = block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;     /* block_of */
     const bool whole = rows_are_whole(s, r);
     struct track k;
     uint8_t *next_quotient = quotients->row;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # dist.sh: the forms that `make dist` and `make install` wrote into build/dist and build/dist-install
-# build, draw golden frames, and state one version. What is not installed here (ESP-IDF, Zephyr, pico-sdk) is stood in for
+# build, draw the example's picture, and state one version (the one file: dist_single.sh). What is not installed here (ESP-IDF, Zephyr, pico-sdk) is stood in for
 # by its few CMake functions, so that lists of sources, folders and switches are tried all the same.
 set -u
 dist=$PWD/build/dist installed=$PWD/build/dist-install
@@ -25,34 +25,6 @@ claim "version of pico-sdk" states "$dist/pico-sdk/smear/CMakeLists.txt" "Versio
 claim "version of smear.pc" states "$installed/usr/lib/pkgconfig/smear.pc" "Version: $version"
 claim "no other version is stated" sh -c "! grep -rnE 'VERSION [0-9]|ersion[\": =]+[0-9]+\\.[0-9]+\\.[0-9]' '$dist' \
     --include=CMakeLists.txt --include=*.json --include=*.properties --include=*.yml | grep -vF '$version' | grep -v cmake_minimum | grep ."
-
-# ---------------------------------------------------------------------- one file
-
-programs="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c build/tapes/golden.c"
-golden() {
-    name=$1
-    shift
-    # shellcheck disable=SC2086
-    "$@" -I"$dist/single" -c -o "$base/$name.o" "$dist/single/smear.c" &&
-        ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$dist/single" -I. -o "$base/$name" $programs "$base/$name.o" &&
-        "$base/$name"
-}
-strict="-O1 -Wall -Wextra -Wpedantic -Werror"
-# shellcheck disable=SC2086
-{
-    claim "smear.c as C99" golden c99 ${CC:-cc} -std=c99 $strict -Wconversion
-    claim "smear.c as C11" golden c11 ${CC:-cc} -std=c11 $strict -Wconversion
-    claim "smear.c as C++20" golden cxx20 ${CXX:-c++} -x c++ -std=c++20 $strict
-    claim "smear.c with switches" ${CC:-cc} -std=c99 $strict -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -c -o "$base/o" \
-        "$dist/single/smear.c"
-    # For size, where helpers are functions: a file of its own must not call what it defines under another name.
-    ! command -v arm-none-eabi-gcc >/dev/null ||
-        claim "smear.c on Cortex-M0+ for size" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -Wall \
-            -Wextra -Werror -c -o "$base/o" "$dist/single/smear.c"
-    claim "smear.h as C99" ${CC:-cc} -std=c99 $strict -fsyntax-only -x c "$dist/single/smear.h"
-    claim "smear.h as C++11" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -x c++ "$dist/single/smear.h"
-    claim "smear.hpp beside smear.h" ${CXX:-c++} -std=c++11 $strict -fsyntax-only -I"$dist/single" tests/examples/orbit.cpp
-}
 
 # ---------------------------------------------------------------------- Arduino, PlatformIO
 

@@ -295,7 +295,9 @@ static void write_file(FILE *out, int file, bool renames)
             bool is_member = is_mark(before, '.') || (before.kind == MARK && before.length == 2)
                           || (struct_depth > 0 && !is_word(before, "struct") && after.kind == MARK
                               && strchr(";,[:)", after.at[0]) != NULL);
-            is_renamed = !is_member;
+            /* [name] "constraint": strings of the assembly name this operand. */
+            const bool is_operand = is_mark(before, '[') && is_mark(after, ']') && *next_solid(after.at + 1).at == '"';
+            is_renamed = !is_member && !is_operand;
         }
         fwrite(t.at, 1, t.length, out);
         if (is_renamed)
@@ -323,7 +325,7 @@ static void write_head(FILE *out, bool is_source)
 {
     fputs(is_source ? "/* SPDX-License-Identifier: MIT */\n"
                       "/* smear.c - the whole library, put together by `make dist` from the files "
-                      "named below. C99 or later, or C++20.\n"
+                      "named below. C99 or later, or C++11.\n"
                       " * Needs smear.h and smear_memory.h beside it, and memcpy and memset. */\n"
                       "#include \"smear.h\"\n"
                       "#include \"smear_memory.h\"\n\n"
@@ -333,7 +335,19 @@ static void write_head(FILE *out, bool is_source)
                       "/* What differs in C++: literals, and pointers to untyped memory, "
                       "which become what they are assigned to. */\n"
                       "#ifdef __cplusplus\n"
+                      "#ifdef __GNUC__\n"
                       "#pragma GCC diagnostic ignored \"-Wmissing-field-initializers\"\n"
+                      "#if defined(__clang__) && __cplusplus < 202002L\n"
+                      "#pragma clang diagnostic ignored \"-Wc++20-designator\"\n"
+                      "#elif __cplusplus < 202002L && __GNUC__ >= 12\n"
+                      "#pragma GCC diagnostic ignored \"-Wc++20-extensions\"\n"
+                      "#elif __cplusplus < 202002L\n"
+                      "#pragma GCC diagnostic ignored \"-Wpedantic\"\n"
+                      "#endif\n"
+                      "#define restrict __restrict__\n"
+                      "#else\n"
+                      "#define restrict\n"
+                      "#endif\n"
                       "template <class type> using smear_literal = type;\n"
                       "#define SMEAR_LITERAL(name) smear_literal<struct name>\n"
                       "#define SMEAR_LITERAL_OF(type) smear_literal<type>\n"
