@@ -92,10 +92,10 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-## motion-blurred pictures and loops, in build/demo
+## motion-blurred pictures and loops, in build/demo; ASSETS=FOLDER shows models from there, too
 demo:
 	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
-	$(BIN)/smear-demo $(or $(wildcard ../shared/assets),-) build/demo
+	$(BIN)/smear-demo $(or $(ASSETS),-) build/demo
 
 ## what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
 check:
@@ -158,9 +158,22 @@ $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix t
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-## pictures of the README again
-readme-pictures: $(BIN)/smear-demo
-	$(BIN)/smear-demo --readme $(or $(wildcard ../shared/assets),-) tools/demo/pictures
+PICTURES := tools/demo/pictures
+
+# Of each machine the name of its screen in platform/demo_player.c, and how much its pixels are enlarged.
+README_SCREENS := pico-240:1 gba:2 oled:2
+
+## pictures of the README again: the loop, what the panels show of frame 45, and the first program's
+readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
+	$(BIN)/smear-demo --readme - $(PICTURES)
+	for screen in $(README_SCREENS); do \
+	    build/demo/target_screen picture $${screen%:*} 45 180 build/screen.png && \
+	    $(BIN)/smear-demo --enlarge $${screen#*:} build/screen.png $(PICTURES)/$${screen%:*}.png || exit 1; \
+	done
+	$(MAKE) --no-print-directory -s build/host/tiny
+	build/host/tiny 22 build/screen.ppm
+	$(BIN)/smear-demo --enlarge 2 build/screen.ppm $(PICTURES)/microbit.png
+	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
 
 ## includes run one way: a file includes only what lies in its own room or below
 layers:
@@ -320,23 +333,51 @@ test-examples: $(LIB)
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c
 
-# The program of the README, between its markers.
-test-readme: $(LIB)
+# The program of the README, between its markers, and its picture; its table of memory; its length.
+README_LINES := 150
+README_WORDS := 1400
+test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
-	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $(BUILD)/readme.c
-	test $$(wc -l < $(BUILD)/readme.c) -lt 45
+	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
+	test $$(wc -l < $(BUILD)/readme.c) -lt 48
 	(cat $(BUILD)/readme.c; echo 'typedef char fits[SMEAR_MEMORY(SCREEN) <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
 	$(CC) -std=c99 -Iinclude -c -o $(BUILD)/readme_fits.o $(BUILD)/readme_fits.c
-	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $(BUILD)/readme.c $(LIB)
-	$(BUILD)/readme > $(BUILD)/readme.ppm
 	$(CXX) -x c++ -std=c++11 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -c -o $(BUILD)/readme_cxx.o $(BUILD)/readme.c
 	$(CXX) -o $(BUILD)/readme $(BUILD)/readme_cxx.o $(LIB)
 	$(BUILD)/readme | cmp - $(BUILD)/readme.ppm
+	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(BUILD)/first.png
+	cmp $(PICTURES)/first.png $(BUILD)/first.png || \
+	    { echo "$(PICTURES)/first.png is not what the first program draws: make readme-pictures" >&2; exit 1; }
 	sed 's/SCREEN 160, 120, 12, 1, 0/SCREEN 160, 120, 12, 1, SMEAR_SET(SMEAR_RECONSTRUCT)/' $(BUILD)/readme.c > $(BUILD)/readme_window.c
 	$(CC) -std=c99 -Iinclude -o $(BUILD)/readme $(BUILD)/readme_window.c $(LIB)
 	! $(BUILD)/readme | cmp -s - $(BUILD)/readme.ppm
-	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md | sort -u); do \
+	$(BUILD)/methods > build/methods.md
+	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' README.md | cmp - build/methods.md || \
+	    { echo "README.md: the memory of methods is another: make readme-figures" >&2; exit 1; }
+	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md tests/README.md include/README.md -h | sort -u); do \
 	    grep -q "RUN($$name);" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
+
+$(BUILD)/readme.c: README.md
+	@mkdir -p $(@D)
+	awk '/^```c$$/{on=1;next} /^```$$/{on=0} on' README.md > $@
+
+$(BUILD)/readme.ppm: $(BUILD)/readme.c $(LIB)
+	$(CC) -std=c99 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -o $(BUILD)/readme $< $(LIB)
+	$(BUILD)/readme > $@
+
+$(BUILD)/methods: tests/examples/memory.c $(LIB)
+	$(CC) -std=c99 $(STRICT) -o $@ $< $(LIB)
+
+.PHONY: readme-figures rates-readme
+## writes the memory of methods into README.md again
+readme-figures: $(BUILD)/methods
+	$(BUILD)/methods > build/methods.md
+	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
+
+## measures the demo's frames per second on emulated machines, RATES="pico gba", and writes them into README.md
+rates-readme:
+	MAKE="$(MAKE)" sh platform/rates.sh $(or $(RATES),pico gba lm3s6965evb microbit) > build/rates.md
+	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
 # The program with its calls of the system wrapped: each can be made to fail.
 FAULTS_WRAPPED := main malloc calloc realloc open fopen fdopen fileno open_memstream realpath fsync rename link unlink pthread_create

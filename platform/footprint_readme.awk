@@ -1,14 +1,23 @@
 # SPDX-License-Identifier: MIT
-# footprint_readme.awk - platform/README.md with the tables of build/NAME.txt between its markers
-# <!-- NAME --> and <!-- /NAME -->.
+# footprint_readme.awk - a README with build/NAME.txt, or build/NAME.md, which is Markdown already, between its markers
+# <!-- NAME --> and <!-- /NAME -->. Where neither is there, what it has stays.
 /^<!-- [a-z]+ -->$/ {
     print
     name = $2
-    found[name] = 1
-    print "```"
-    while ((getline line < ("build/" name ".txt")) > 0)
+    file = "build/" name ".txt"
+    fence = (getline line < file) > 0
+    if (fence)
+        print "```"
+    else {
+        file = "build/" name ".md"
+        if ((getline line < file) <= 0)
+            next
+    }
+    do
         print line
-    print "```"
+    while ((getline line < file) > 0)
+    if (fence)
+        print "```"
     skip = 1
     next
 }

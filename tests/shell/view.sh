@@ -423,7 +423,7 @@ for method in auto none accumulate reconstruct subframes timemask camera pingpon
 done
 
 controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
-claim "the README lists all controls" eval '"$smear" help view >help && controls help >wanted &&
-    controls "$here/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'
+claim "the page of tools lists all controls" eval '"$smear" help view >help && controls help >wanted &&
+    controls "$here/tools/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'
 
 finish
