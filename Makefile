@@ -338,6 +338,7 @@ README_LINES := 150
 README_WORDS := 1400
 test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
+	sh tests/shell/links.sh README.md include/README.md platform/README.md src/README.md tests/README.md tools/README.md
 	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
 	test $$(wc -l < $(BUILD)/readme.c) -lt 48
 	(cat $(BUILD)/readme.c; echo 'typedef char fits[SMEAR_MEMORY(SCREEN) <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c

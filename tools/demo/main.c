@@ -58,6 +58,11 @@ struct room {
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
+/* Ten frames a second: what a small machine draws. */
+#define README_LOOP \
+    { .name = "race-ten.gif", .kind = PAIR, .width = 240, .height = 180, .frames = 20, .fps = 10, \
+      .what = "sharp | blurred, a loop of two seconds at ten frames a second" }
+
 static const struct exhibit race[] = {
     { .name = "race-sharp.png", .kind = SHARP,
       .what = "racing car and drone, the sharp instant" },
@@ -74,6 +79,7 @@ static const struct exhibit race[] = {
 static const struct exhibit race_film[] = {
     { .name = "race.gif", .kind = BLURRED, .width = 240, .height = 180, .frames = 60,
       .what = "blurred, a loop of two seconds" },
+    README_LOOP,
 };
 
 static const struct exhibit drone[] = {
@@ -149,11 +155,7 @@ static const struct room demo_rooms[] = {
 
 /* ------------------------------------------------------------------ of the README */
 
-/* Ten frames a second: what a small machine draws. */
-static const struct exhibit readme_race[] = {
-    { .name = "race.gif", .kind = PAIR, .width = 240, .height = 180, .frames = 20, .fps = 10,
-      .what = "sharp | blurred, a loop of two seconds at ten frames a second" },
-};
+static const struct exhibit readme_race[] = { README_LOOP };
 
 static const struct room readme_rooms[] = {
     { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
@@ -245,6 +247,7 @@ static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
                                             : SMEAR_XRGB8888;
     struct image picture = { .rgba = NULL };
     struct film film;
+    const double fps = scene->fps;
     if (e->fps > 0)
         scene->fps = e->fps;
     bool ok = film_open(&film, scene, width, height, format, f);
@@ -257,6 +260,7 @@ static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
     }
     image_free(&picture);
     film_close(&film);
+    scene->fps = fps;
     return ok;
 }
 
