@@ -67,6 +67,13 @@ SMEAR_INLINE void texel_run_step(struct texel_run *r)
     r->uv += r->duv;
     r->duv += r->dduv;
 }
+
+/* Steps n times. */
+SMEAR_INLINE void texel_run_skip(struct texel_run *r, uint32_t n)
+{
+    r->uv += r->duv * n + r->dduv * (n * (n - 1u) / 2u);
+    r->duv += r->dduv * n;
+}
 #else
 #define TEXELS_PACKED 0
 struct texel_run {              /* the order in which the assembly loads registers */
@@ -93,6 +100,16 @@ SMEAR_INLINE void texel_run_step(struct texel_run *r)
     r->v += r->dv;
     r->du += r->ddu;
     r->dv += r->ddv;
+}
+
+/* Steps n times. */
+SMEAR_INLINE void texel_run_skip(struct texel_run *r, uint32_t n)
+{
+    const uint32_t pairs = n * (n - 1u) / 2u;
+    r->u += r->du * n + r->ddu * pairs;
+    r->v += r->dv * n + r->ddv * pairs;
+    r->du += r->ddu * n;
+    r->dv += r->ddv * n;
 }
 #endif
 

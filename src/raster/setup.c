@@ -224,21 +224,35 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
     }
 }
 
-/* Chooses the blocks. `off` is the error of a chord over 16 pixels, in 1/64 texel, `width` the longest row
+/* How long blocks may be whose error over 16 pixels is `off` and grows by so much when their length doubles. */
+static uint8_t block_longest(uint32_t off, uint32_t growth, uint32_t limit, int32_t width)
+{
+    int32_t block = COLOR_BLOCK_MAX;
+    while (block < BLOCK_LONGEST && block < width && off * growth <= limit) {
+        off *= growth;
+        block *= 2;
+    }
+    return (uint8_t)block;
+}
+
+/* Chooses the blocks. `chord` is the error of a chord over 16 pixels, in 1/64 texel q14, `width` the longest row
  * there can be; `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of
  * their length, those of parabolas with its cube. */
-static void choose_blocks(struct texture_setup *t, uint32_t off, int32_t width, uint32_t change)
+static void choose_blocks(struct texture_setup *t, uint64_t chord, int32_t width, uint32_t change)
 {
-    uint32_t n = (uint32_t)min_i32(width, 16);
+    uint32_t n = (uint32_t)min_i32(width, 16), off = chord >> 46 != 0 ? UINT32_MAX : (uint32_t)(chord >> 14);
     if (off < 1u << 20)
         off = off * (n * n) >> 8;
     t->parabolic = false;
-    t->block = 16;
-    if (off <= TEXTURE_OFF)
+    if (off <= TEXTURE_OFF) {
+        t->block = block_longest((uint32_t)chord, 4, TEXTURE_OFF << 14, width);
         return;
+    }
     uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 13 : UINT32_MAX;
     t->parabolic = rest <= 64 * TEXTURE_OFF && change <= 4096;
-    t->block = !t->parabolic ? 1 : rest <= TEXTURE_OFF ? 16 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
+    t->block = !t->parabolic ? 1 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
+    if (t->parabolic && rest <= TEXTURE_OFF)
+        t->block = block_longest(off * change, 8, TEXTURE_OFF << 13, width);
 }
 
 /* A triangle's texture coordinates, mesh units, and depths. */
@@ -261,7 +275,7 @@ static void setup_affine(struct setup *s, const struct corners *k)
     t->mode = TEXTURE_AFFINE;
     t->q = (struct plane){ 0, 0, 0 };
     t->parabolic = false;
-    t->block = 16;
+    t->block = BLOCK_LONGEST;
     t->shift = (int8_t)(18 - s->draw->sampler.uv_shift);
     for (int i = 0; i < 2; i++) {
         int32_t a[3];
@@ -414,8 +428,7 @@ static void setup_divided(struct setup *s, const struct corners *k)
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
     uint32_t change = min_u32(smear_times_over(slope_q << 4, 1u << 12, seen_q), 1u << 16);
-    uint64_t off = ((uint64_t)worst << 4) * change >> 14;
-    choose_blocks(t, off > UINT32_MAX ? UINT32_MAX : (uint32_t)off, seen.width, change);
+    choose_blocks(t, ((uint64_t)worst << 4) * change, seen.width, change);
 }
 
 static SMEAR_NOINLINE void setup_texture(struct setup *s)
@@ -451,7 +464,8 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
             setup_divided(s, &k);
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
-    t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
+    if (segment_gouraud(s->segment))
+        t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
 }
 
 /* ------------------------------------------------------------------ all of it */

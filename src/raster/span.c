@@ -40,7 +40,7 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
 {
     const struct texture_setup *t = &s->texture;
     const struct place from = w->place;
-    int32_t n = min_i32(w->block, w->last - w->x);
+    int32_t n = block_next(w->block, w->last - w->x);
     const int32_t count = n + (w->x + n == w->last && (n == 0 || w->block > 1));
     w->start = w->x;
     w->x += n;
@@ -252,7 +252,7 @@ static int32_t untextured_first(struct walk *w, const struct setup *s, const str
 /* In blocks: texels, then light, then the write. */
 void smear_span_general(const struct setup *s, const struct span *p)
 {
-    uint32_t block[BLOCK_MAX + 1];
+    uint32_t block[COLOR_BLOCK_MAX + 1];
     void *color = p->color;
     uint16_t *depth = p->depth;
     uint32_t z = p->z;
@@ -266,7 +266,9 @@ void smear_span_general(const struct setup *s, const struct span *p)
     else
         count = untextured_first(&w, s, p);
     for (;;) {
-        n = min_i32(w.start + count, p->b) - k.x;
+        while (k.x >= w.start + count)
+            count = textured ? walk_next(&w, s) : untextured_next(&w);
+        n = min_i32(min_i32(w.start + count, p->b) - k.x, COLOR_BLOCK_MAX + 1);
         k.start = w.start;
         k.end = min_i32(w.start + count, w.last);
         if (textured) {
@@ -286,6 +288,5 @@ void smear_span_general(const struct setup *s, const struct span *p)
         z += (uint32_t)p->dz * (uint32_t)n;
         if (k.x >= p->b)
             return;
-        count = textured ? walk_next(&w, s) : untextured_next(&w);
     }
 }

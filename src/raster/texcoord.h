@@ -6,14 +6,18 @@
 
 #include "raster/setup.h"
 
-enum { BLOCK_MAX = 16 };
-
 /* Spans of at most this many pixels have a place for each: exact, and no dearer than the ends of a block. */
 enum { SHORT_SPAN = 4 };
 
-static const int32_t inverse[BLOCK_MAX + 1] = {     /* 2^16 / n */
+static const int32_t inverse[COLOR_BLOCK_MAX + 1] = {       /* 2^16 / n */
     0, 65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192, 7282, 6554, 5958, 5461, 5041, 4681, 4369, 4096
 };
+
+/* 2^16 / n for what block_next returns. */
+static inline int32_t inverse_of(int32_t n)
+{
+    return n <= COLOR_BLOCK_MAX ? inverse[n] : n == BLOCK_LONG ? 65536 / BLOCK_LONG : 65536 / BLOCK_LONGEST;
+}
 
 /* a part / 2^16. */
 static inline int32_t part_by(int32_t a, int32_t part)
@@ -71,7 +75,8 @@ SMEAR_INLINE struct texcoord texcoord_between(const struct texture_setup *t, str
 {
     const int up = t->up;
     struct texcoord c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
-    int32_t du = part_of(sub_wrap(to.u, from.u), n), dv = part_of(sub_wrap(to.v, from.v), n);
+    const int32_t part = inverse_of(n);
+    int32_t du = part_by(sub_wrap(to.u, from.u), part), dv = part_by(sub_wrap(to.v, from.v), part);
     if (t->parabolic) {
         int32_t rate = (from.nearness + to.nearness) >> 1;                                  /* q'/q, q16 */
         int32_t bu = mul_wrap(du >> 13, rate) >> 2, bv = mul_wrap(dv >> 13, rate) >> 2;     /* 2 b */
@@ -143,6 +148,15 @@ SMEAR_INLINE void texcoord_run(struct texel_run *r, struct texcoord c)
 static inline int32_t block_start(int32_t left, int32_t last, int32_t a, int32_t block)
 {
     return left + (max_i32(min_i32(a, last - 1) - left, 0) & -block);
+}
+
+/* The pixels of a row's next block, where the row's last pixel comes after `rest` more. What is left of a long block is shared
+ * out in parts of which the inverse is known. */
+static inline int32_t block_next(int32_t block, int32_t rest)
+{
+    if (rest >= block)
+        return block;
+    return rest >= BLOCK_LONG ? BLOCK_LONG : min_i32(rest, COLOR_BLOCK_MAX);
 }
 
 /* In blocks of so many pixels: of a span that is short, single ones,

@@ -127,14 +127,12 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
         return;
     }
     const uint64_t curvature = run->curvature;
-    for (int i = 0; n > 0; i++) {
-        if (i >= first) {
-            *out++ = sample_at(s, at, turns, format);
-            n--;
-        }
-        at += step;
-        step += curvature;
+    if (first != 0) {
+        at += step * (uint32_t)first + curvature * (uint32_t)(first * (first - 1) / 2);
+        step += curvature * (uint32_t)first;
     }
+    for (; n > 0; n--, at += step, step += curvature)
+        *out++ = sample_at(s, at, turns, format);
 }
 
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,

@@ -133,7 +133,7 @@ SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane
 static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t,
                                       int32_t n)
 {
-    struct going g = { .n = n, .part = inverse[n], .up = t->up, .parabolic = t->parabolic };
+    struct going g = { .n = n, .part = inverse_of(n), .up = t->up, .parabolic = t->parabolic };
     const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
     const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
     const int zeros = count_leading_zeros(d);
@@ -212,10 +212,15 @@ static void draw_part(const struct setup *s, struct texel_run *r, int32_t i, int
 {
     const enum texel_kind kind = texels_of(s, r->light);
     const struct smear_sampler *m = &s->draw->sampler;
+    if (i < first) {
+        const int32_t n = min_i32(first, end) - i;
+        texel_run_advance(r, n, texels_are_narrow(kind));
+        texel_run_skip(r, (uint32_t)n);
+        r->z += r->dz * (uint32_t)n;
+        i += n;
+    }
     for (; i < end; i++, r->z += r->dz) {
-        if (i >= first)
-            texel_pixel(r->color, r->depth, r->z, m->texels, r->light, texel_run_uv(r), m->log2_width, m->log2_height,
-                        kind);
+        texel_pixel(r->color, r->depth, r->z, m->texels, r->light, texel_run_uv(r), m->log2_width, m->log2_height, kind);
         texel_run_advance(r, 1, texels_are_narrow(kind));
         texel_run_step(r);
     }
@@ -330,7 +335,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         track_start(&k, t, x, r->y + row);
         int32_t rest = right - 1 - x;
         do {
-            const int32_t n = min_i32(block, rest);
+            const int32_t n = block_next(block, rest);
             track_next(&k, t, n);
             rest -= n;
             const int32_t last = rest == 0, count = n + last;
