@@ -97,12 +97,17 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
         suite "target-$target" $make -s TARGET=$target target-test
         suite "demo-$target" $make -s TARGET=$target demo-test
     done
-    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba; do
+    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba raspi0; do
         suite "symbols-$target" $make -s TARGET=$target symbols-test
     done
     suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+    suite target-raspi0 $make -s TARGET=raspi0 target-test
+    if needs python3 "python3"; then
+        suite demo-raspi0 $make -s TARGET=raspi0 demo-test
+        suite raspi0-320 $make -s TARGET=raspi0 SCREEN=pi-320 demo-test
+    fi
     if pico; then
         suite demo-pico $make -s TARGET=pico demo-test
         suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf

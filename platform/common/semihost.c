@@ -16,7 +16,7 @@ enum {
 
 #define APPLICATION_EXIT 0x20026u
 
-#ifdef __riscv
+#if defined(__riscv)
 /* Three instructions of four bytes on one page. */
 static __attribute__((noinline)) uint32_t call(uint32_t operation, const void *argument)
 {
@@ -26,6 +26,15 @@ static __attribute__((noinline)) uint32_t call(uint32_t operation, const void *a
                    "slli x0, x0, 0x1f\n\tebreak\n\tsrai x0, x0, 7\n\t.option pop"
                    : "+r"(a0) : "r"(a1) : "memory");
     return a0;
+}
+#elif defined(__ARM_ARCH_ISA_ARM)
+/* In supervisor mode the call overwrites the link register. */
+static uint32_t call(uint32_t operation, const void *argument)
+{
+    register uint32_t r0 __asm("r0") = operation;
+    register const void *r1 __asm("r1") = argument;
+    __asm volatile("svc 0x123456" : "+r"(r0) : "r"(r1) : "lr", "memory");
+    return r0;
 }
 #else
 static uint32_t call(uint32_t operation, const void *argument)

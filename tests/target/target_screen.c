@@ -45,6 +45,7 @@ static int take_band(void *user, const smear_band *band)
             case SMEAR_RGB565_SWAPPED:
                 *to++ = (uint32_t)row[2 * x] << 8 | row[2 * x + 1];
                 break;
+            case SMEAR_RGB565:
             case SMEAR_RGB555:
                 *to++ = (uint32_t)row[2 * x + 1] << 8 | row[2 * x];
                 break;
@@ -68,6 +69,7 @@ static uint32_t shown(uint32_t code, uint8_t format)
     switch (format) {
     case SMEAR_L4:
         return code * 0x111111u;
+    case SMEAR_RGB565:
     case SMEAR_RGB565_SWAPPED:
         return widen(code >> 11, 5) << 16 | widen(code >> 5 & 63, 6) << 8 | widen(code & 31, 5);
     case SMEAR_RGB555:
@@ -134,6 +136,7 @@ static uint32_t crc_of(const struct screen *screen)
         case SMEAR_RGB565_SWAPPED:
             crc = crc32_update(crc, bytes + 1, 2);
             break;
+        case SMEAR_RGB565:
         case SMEAR_RGB555:
             bytes[0] = bytes[2];
             crc = crc32_update(crc, bytes, 2);
