@@ -286,7 +286,7 @@ $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
 
-.PHONY: print-suites print-san-suites run-suite test-headers test-examples test-tables test-readme fuzz-corpus
+.PHONY: print-suites print-san-suites run-suite test-headers test-examples test-tables test-readme
 print-suites:
 	@echo $(SUITES)
 
@@ -396,53 +396,9 @@ $(BUILD)/hostile: tests/shell/hostile.c
 faults-injected: $(BUILD)/faults-injected
 	$< .
 
-FUZZ_CC := clang-14
-FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -g -O1 -Iinclude -Isrc -I. -DSMEAR_CHECK=1
-FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c \
-    $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
-
-build/fuzz/obj/%.o: %.c
-	$(call say,CC,$<)
-	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -MMD -MP -c -o $@ $<
-
-build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
-	$(call say,LD)
-	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm -lpthread
-
--include $(FUZZ_OBJ:.o=.d)
-
-# Each fuzzer over its corpus once, and for a few seconds beyond it.
-## fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
-fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
-	for name in $(FUZZERS); do \
-	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
-	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
-	        build/fuzz/found-$$name tests/fuzz/corpus/$$name || exit 1; \
-	done
-
-# Cases of a generator over the whole interface, drawn twice each by different workers, parts and caches (tests/fuzz/frames.c).
-build/fuzz/frames: tests/fuzz/frames.c tests/fuzz/cases.c $(LIB_SRC)
-	$(call say,LD)
-	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -D_GNU_SOURCE -fsanitize=address,undefined -fno-sanitize-recover=all -o $@ $^ -lpthread
-
-build/fuzz/frames-threads: tests/fuzz/frames.c tests/fuzz/cases.c $(LIB_SRC)
-	$(call say,LD)
-	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -D_GNU_SOURCE -fsanitize=thread -o $@ $^ -lpthread
-
-.PHONY: fuzz
-## valid and wild frames under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames valid N: one
-fuzz: build/fuzz/frames build/fuzz/frames-threads
-	build/fuzz/frames valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
-	build/fuzz/frames wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
-	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 20)) s
-
 include platform/programs.mk
 include tools/web/web.mk
+include tests/fuzz/fuzz.mk
 
 # The firmware on a desktop's screen.
 NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)

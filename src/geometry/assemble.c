@@ -99,8 +99,8 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t inde
     } else if (segment_colored(s)) {
         smear_vertex_store_color(record + s->color, d, index, triangle, back);
     }
+    struct smear_homogeneous h, now;
     for (int pose = 0; pose < segment_moves(s); pose++) {
-        struct smear_homogeneous h, now;
         pose_transform(&h, d, pose, index);
         if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
             placement_transform(&now, &d->at, index);

@@ -28,8 +28,7 @@ bool source_chance(struct source *s, int one_in)
     return source_range(s, 1, one_in) == 1;
 }
 
-/* Any number, small and extreme ones often. */
-static int32_t any(struct source *s)
+int32_t source_any(struct source *s)
 {
     static const int32_t extreme[] = { INT32_MAX, INT32_MIN, 0, 1, -1, -INT32_MAX, 1 << 30, 1 << 16, 1 << 24, -(1 << 24) };
     const uint32_t word = source_word(s), shift = source_word(s) & 31u;
@@ -41,7 +40,7 @@ static int32_t about(struct fuzz_case *c, int32_t middle, int32_t spread)
 {
     struct source *s = &c->source;
     if (c->extreme && source_chance(s, 5))
-        return any(s);
+        return source_any(s);
     const int64_t v = (int64_t)middle + source_range(s, -spread, spread);
     return v > INT32_MAX ? INT32_MAX : v < INT32_MIN ? INT32_MIN
                                                      : (int32_t)v;
@@ -95,10 +94,11 @@ static void make_texture(struct fuzz_case *c, smear_texture *t)
     t->width = (uint16_t)source_range(s, 1, 17);
     t->height = (uint16_t)source_range(s, 1, 17);
     if (source_chance(s, 2)) {
-        t->width = (uint16_t)(1 << source_range(s, 0, 6));
-        t->height = source_chance(s, 2) ? t->width : (uint16_t)(1 << source_range(s, 0, 6));
+        const int bits = c->large ? 6 : 4;
+        t->width = (uint16_t)(1 << source_range(s, 0, bits));
+        t->height = source_chance(s, 2) ? t->width : (uint16_t)(1 << source_range(s, 0, bits));
     }
-    if (source_chance(s, 24)) {
+    if (source_chance(s, c->large ? 12 : 200)) {
         t->width = (uint16_t)source_range(s, 1, 4096);
         t->height = (uint16_t)source_range(s, 1, 65536 / t->width < 4096 ? 65536 / t->width : 4096);
     }
@@ -175,17 +175,18 @@ static void make_mesh(struct fuzz_case *c, int at)
 {
     struct source *s = &c->source;
     smear_mesh *m = &c->mesh[at];
-    int across = source_range(s, 1, 12), down = source_range(s, 1, 12), vertices = source_range(s, 1, 24),
-        triangles = source_range(s, 0, 30);
+    const int most = c->large ? 12 : 4;
+    int across = source_range(s, 1, most), down = source_range(s, 1, most), vertices = source_range(s, 1, 2 * most),
+        triangles = source_range(s, 0, c->large ? 30 : 8);
     const bool grid = source_chance(s, 2);
-    if (grid && source_chance(s, 300)) {
+    if (grid && source_chance(s, c->large ? 30 : 3000)) {
         across = source_range(s, 100, 254);
         down = source_range(s, 100, 255);
     }
     if (grid) {
         vertices = (across + 1) * (down + 1);
         triangles = 2 * across * down;
-    } else if (source_chance(s, 500)) {
+    } else if (source_chance(s, c->large ? 50 : 5000)) {
         vertices = 65535;
     }
     int16_t *position = take(c, (size_t)vertices * 3 * sizeof *position);
@@ -323,7 +324,13 @@ static void make_draw(struct fuzz_case *c, int i)
                       .motion = (uint8_t)(kind & 7168 ? SMEAR_MOTION_FULL : source_range(s, 0, SMEAR_MOTION_NONE)),
                       .cut = source_chance(s, 16),
                       .billboard = (uint8_t)(kind >> 13 & 7 ? SMEAR_BILLBOARD_NONE : source_range(s, 0, SMEAR_BILLBOARD_UPRIGHT)),
+                      .path = (uint8_t)option(s, 2, SMEAR_PATH_DEFAULT, SMEAR_PATH_SCREW),
                       .layers = (uint8_t)option(s, 3, 1, 255) };
+    if (source_chance(s, 12)) { /* poses of another mesh: nothing is known of the deformation */
+        const smear_mesh *m = c->draw[i].mesh;
+        c->draw[i].open_count = (uint16_t)source_range(s, 0, m->vertex_count);
+        c->draw[i].close_count = (uint16_t)source_range(s, 0, m->vertex_count);
+    }
     if (kind >> 16 & 1)
         c->draw[i].material = m;
 }
@@ -383,7 +390,7 @@ static void make_desc(struct fuzz_case *c)
     smear_desc *d = &c->desc;
     *d = (smear_desc){ .width = (int16_t)source_range(s, 1, 70),
                        .height = (int16_t)source_range(s, 1, 50),
-                       .max_triangles = (uint32_t)(source_chance(s, 16) ? source_range(s, 1, 12) : source_range(s, 20, 600)),
+                       .max_triangles = (uint32_t)(!c->large && source_chance(s, 12) ? source_range(s, 1, 12) : source_range(s, c->large ? 100 : 10, 600)),
                        .max_draws = CASE_DRAWS,
                        .methods = (uint16_t)sets[source_range(s, 0, (int32_t)(sizeof sets / sizeof *sets) - 1)],
                        .format = (uint8_t)source_range(s, 0, SMEAR_L1_PAGES),
@@ -392,7 +399,7 @@ static void make_desc(struct fuzz_case *c)
                        .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0),
                        .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)),
                        .debug.crc = source_chance(s, 3) };
-    if (source_chance(s, 60)) {
+    if (source_chance(s, c->large ? 8 : 2000)) {
         d->width = (int16_t)source_range(s, 1, 2048);
         d->height = (int16_t)source_range(s, 1, 65536 / d->width < 2048 ? 65536 / d->width : 2048);
     }
@@ -400,6 +407,7 @@ static void make_desc(struct fuzz_case *c)
         d->reuse.cache_static = source_chance(s, 3);
         d->reuse.buffer_age = (uint8_t)option(s, 3, 1, 7);
     }
+    d->reuse.one_pose = source_chance(s, 4);
     if (has(d, SMEAR_SET_FILTERS)) {
         d->filter.passes = (uint8_t)option(s, 2, 1, 3);
         d->filter.scatter = !has(d, SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_PINGPONG) | SMEAR_SET(SMEAR_HALF))
@@ -416,7 +424,7 @@ smear_desc case_other_desc(struct fuzz_case *c)
     d.workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 1);
     d.vertex_cache = (uint16_t)(16 << source_range(s, 0, 8));
     d.bands = (uint8_t)source_range(s, 0, 2);
-    d.max_triangles = source_chance(s, 2) ? 4000 : (uint32_t)source_range(s, source_chance(s, 8) ? 1 : 40, 400);
+    d.max_triangles = source_chance(s, 2) ? 4000 : (uint32_t)source_range(s, !c->large && source_chance(s, 8) ? 1 : 60, 400);
     d.reuse.cache_static = d.reuse.buffer_age = 0;
     const uint8_t format = d.format;
     make_band_rows(s, &d);
@@ -444,7 +452,8 @@ static void make_shutter(struct fuzz_case *c)
     *shutter = (smear_shutter){
         .degrees = (uint16_t)option(s, 2, 1, source_chance(s, 3) ? 3600 : 360),
         .exposure = (uint8_t)source_range(s, 0, SMEAR_LEADING),
-        .poses = source_chance(s, 3)
+        .poses = source_chance(s, 3),
+        .path = (uint8_t)option(s, 2, SMEAR_PATH_DEFAULT, SMEAR_PATH_SCREW)
     };
     if (source_chance(s, 5)) {
         shutter->mode = (uint8_t)source_range(s, 0, SMEAR_SHUTTER_FIXED);
@@ -517,8 +526,8 @@ static uint16_t some_samples(struct fuzz_case *c, uint8_t method)
     if (method == SMEAR_ACCUMULATE || method == SMEAR_DEFAULT_METHOD)
         return (uint16_t)source_range(s, 1, 6 / large + 1);
     if (method == SMEAR_SUBFRAMES)
-        return (uint16_t)source_range(s, 0, source_chance(s, 20) ? 1024 / large : 40 / large);
-    return (uint16_t)source_range(s, 0, source_chance(s, 8) ? 1024 / large : 40);
+        return (uint16_t)source_range(s, 0, source_chance(s, c->large ? 10 : 400) ? 1024 / large : 24 / large);
+    return (uint16_t)source_range(s, 0, source_chance(s, c->large ? 8 : 100) ? 1024 / large : 40);
 }
 
 static void make_settings(struct fuzz_case *c)
@@ -539,13 +548,15 @@ static void make_settings(struct fuzz_case *c)
     if (source_chance(s, 3))
         c->frame.scale = (smear_motion_scale){ a_scale(s), a_scale(s), a_scale(s) };
     if (has(&c->desc, SMEAR_SET_TEMPORAL)) {
-        c->frame.target = (uint16_t)option(s, 2, 1, source_chance(s, 3) ? 65535 : 300);
+        c->frame.target = (uint16_t)source_range(s, SMEAR_BALANCED, source_chance(s, 3) ? 65535 : 1000);
+        if (source_chance(s, c->large ? 2 : 12))
+            c->frame.target = (uint16_t)option(s, 2, 1, SMEAR_BALANCED);
         c->frame.budget = source_chance(s, 6) ? source_word(s) >> source_range(s, 0, 31) : 0;
     }
     if (has(&c->desc, SMEAR_SET_LAYERS))
         make_layers(c);
     for (int i = 0; i < 3; i++) {
-        c->light.direction[i] = any(s);
+        c->light.direction[i] = source_any(s);
         c->light.ambient[i] = (uint16_t)source_word(s);
         c->light.diffuse[i] = (uint16_t)source_word(s);
     }
@@ -577,112 +588,6 @@ void case_frame(struct fuzz_case *c, int k)
     }
 }
 
-/* ------------------------------------------------------------------ wild */
-
-struct part {
-    uint16_t offset, size;
-};
-
-#define PART(type, field)                                                      \
-    {                                                                          \
-        (uint16_t) offsetof(type, field), (uint16_t)sizeof(((type *)0)->field) \
-    }
-
-static void spoil(struct source *s, void *record, const struct part *part, size_t count)
-{
-    const struct part *p = &part[source_range(s, 0, (int32_t)count - 1)];
-    uint8_t *at = (uint8_t *)record + p->offset;
-    if (source_chance(s, 3)) { /* any bytes */
-        for (int i = 0; i < p->size; i++)
-            at[i] = (uint8_t)source_word(s);
-        return;
-    }
-    const int32_t v = any(s); /* any number, at some place of an array */
-    const size_t size = p->size >= 4 ? 4 : p->size;
-    const size_t places = p->size / size;
-    memcpy(at + size * (size_t)source_range(s, 0, (int32_t)places - 1), &v, size);
-}
-
-#define SPOIL(record, parts) spoil(s, record, parts, sizeof(parts) / sizeof *(parts))
-
-void case_spoil_desc(struct fuzz_case *c)
-{
-    static const struct part parts[] = {
-        PART(smear_desc, width), PART(smear_desc, height), PART(smear_desc, max_triangles), PART(smear_desc, max_draws),
-        PART(smear_desc, methods), PART(smear_desc, tile), PART(smear_desc, reach), PART(smear_desc, strip),
-        PART(smear_desc, band_rows), PART(smear_desc, bands), PART(smear_desc, format), PART(smear_desc, workers),
-        PART(smear_desc, vertex_cache), PART(smear_desc, reuse.cache_static), PART(smear_desc, reuse.buffer_age),
-        PART(smear_desc, filter.passes), PART(smear_desc, filter.scatter), PART(smear_desc, dither)
-    };
-    struct source *s = &c->source;
-    do
-        SPOIL(&c->desc, parts);
-    while (source_chance(s, 3));
-}
-
-static const struct part camera_parts[] = {
-    PART(smear_camera, pose.basis), PART(smear_camera, pose.origin), PART(smear_camera, focal),
-    PART(smear_camera, half_height), PART(smear_camera, near_plane), PART(smear_camera, far_plane)
-};
-static const struct part frame_parts[] = {
-    PART(smear_frame, method), PART(smear_frame, light_space), PART(smear_frame, cut), PART(smear_frame, refresh),
-    PART(smear_frame, samples), PART(smear_frame, target), PART(smear_frame, budget), PART(smear_frame, clear),
-    PART(smear_frame, shutter.degrees), PART(smear_frame, shutter.exposure), PART(smear_frame, shutter.poses),
-    PART(smear_frame, shutter.mode), PART(smear_frame, shutter.reference_hz), PART(smear_frame, shutter.frame_us),
-    PART(smear_frame, shutter.us), PART(smear_frame, filter.kind), PART(smear_frame, filter.flags),
-    PART(smear_frame, filter.weights), PART(smear_frame, filter.camera_step), PART(smear_frame, filter.pingpong.passes),
-    PART(smear_frame, filter.pingpong.taps), PART(smear_frame, filter.pingpong.base),
-    PART(smear_frame, filter.pingpong.jitter), PART(smear_frame, filter.pingpong.bias),
-    PART(smear_frame, filter.pingpong.spread), PART(smear_frame, scale), PART(smear_frame, layer_count)
-};
-static const struct part layer_parts[] = {
-    PART(smear_layer, mask), PART(smear_layer, method), PART(smear_layer, over), PART(smear_layer, two_camera),
-    PART(smear_layer, shutter_degrees)
-};
-static const struct part draw_parts[] = {
-    PART(smear_draw, id), PART(smear_draw, motion), PART(smear_draw, cut), PART(smear_draw, billboard),
-    PART(smear_draw, open_count), PART(smear_draw, close_count), PART(smear_draw, layers)
-};
-static const struct part mesh_parts[] = {
-    PART(smear_mesh, shift), PART(smear_mesh, uv_shift), PART(smear_mesh, scale), PART(smear_mesh, offset),
-    PART(smear_mesh, bounds)
-};
-static const struct part material_parts[] = {
-    PART(smear_material, alpha), PART(smear_material, cutoff), PART(smear_material, unlit),
-    PART(smear_material, double_sided), PART(smear_material, bilinear)
-};
-static const struct part texture_parts[] = { PART(smear_texture, wrap_u), PART(smear_texture, wrap_v) };
-static const struct part transform_parts[] = { PART(smear_transform, basis), PART(smear_transform, origin) };
-
-static void spoil_index(struct fuzz_case *c, const smear_mesh *m)
-{
-    struct source *s = &c->source;
-    uint16_t *index = (uint16_t *)(uintptr_t)m->index;
-    for (int i = 0; i < 3 && m->triangle_count != 0; i++)
-        index[source_range(s, 0, (int32_t)(3 * m->triangle_count) - 1)] = (uint16_t)source_word(s);
-}
-
-void case_spoil_frame(struct fuzz_case *c)
-{
-    struct source *s = &c->source;
-    const int i = source_range(s, 0, CASE_DRAWS - 1), mesh = source_range(s, 0, CASE_MESHES - 1);
-    switch (source_range(s, 0, 12)) {
-    case 0: SPOIL(&c->camera[source_range(s, 0, 2)], camera_parts); break;
-    case 1: SPOIL(&c->frame, frame_parts); break;
-    case 2: SPOIL(&c->layer[source_range(s, 0, SMEAR_LAYERS_MAX - 1)], layer_parts); break;
-    case 3: SPOIL(&c->draw[i], draw_parts); break;
-    case 4: SPOIL(&c->mesh[mesh], mesh_parts); break;
-    case 5: SPOIL(&c->material[i], material_parts); break;
-    case 6: SPOIL(&c->texture[source_range(s, 0, CASE_TEXTURES - 1)], texture_parts); break;
-    case 7: SPOIL(&c->pose[i][source_range(s, 0, 2)], transform_parts); break;
-    case 8: spoil_index(c, &c->mesh[mesh]); break;
-    case 9: c->draw[i].mesh = source_chance(s, 2) ? NULL : c->draw[i].mesh; break;
-    case 10: SPOIL(&c->layer_camera[source_range(s, 0, 2)], camera_parts); break;
-    case 11: c->frame.camera = source_chance(s, 4) ? NULL : &c->camera[1]; break;
-    default: memset(c->curve, source_chance(s, 2) ? 0 : 255, sizeof c->curve); break;
-    }
-}
-
 /* ------------------------------------------------------------------ the whole */
 
 void case_make(struct fuzz_case *c, uint64_t number, bool wild)
@@ -692,8 +597,9 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild)
     c->wild = wild;
     struct source *s = &c->source;
     c->extreme = source_chance(s, 3);
+    c->large = source_chance(s, 24);
     make_desc(c);
-    c->frames = source_range(s, 1, c->desc.reuse.buffer_age || c->desc.reuse.cache_static ? 8 : 4);
+    c->frames = source_range(s, 2, c->desc.reuse.buffer_age || c->desc.reuse.cache_static ? 6 : 4);
     for (int i = 0; i < CASE_TEXTURES; i++)
         make_texture(c, &c->texture[i]);
     for (int i = 0; i < CASE_MESHES; i++)
@@ -701,7 +607,7 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild)
     make_camera(c, &c->camera[0], source_chance(s, 4));
     for (int i = 1; i < 3; i++)
         make_moved_camera(c, &c->camera[i], &c->camera[0]);
-    c->draws = source_range(s, 0, CASE_DRAWS);
+    c->draws = source_range(s, 0, c->large ? CASE_DRAWS : 4);
     for (int i = 0; i < CASE_DRAWS; i++)
         make_draw(c, i);
 }

@@ -21,22 +21,28 @@ struct source {
 uint32_t source_word(struct source *s);
 /* low .. high, both included */
 int32_t source_range(struct source *s, int32_t low, int32_t high);
+/* Any number, small and extreme ones often. */
+int32_t source_any(struct source *s);
 /* True once in so many calls. */
 bool source_chance(struct source *s, int one_in);
 
 /* ------------------------------------------------------------------ cases */
 
-enum { CASE_TEXTURES = 3, CASE_MESHES = 4, CASE_DRAWS = 8, CASE_BLOCKS = 64 };
+enum { CASE_TEXTURES = 3,
+       CASE_MESHES = 4,
+       CASE_DRAWS = 8,
+       CASE_BLOCKS = 64 };
 
 struct fuzz_case {
     struct source source;
     bool wild;
-    bool extreme;                       /* numbers of any size are frequent */
+    bool extreme; /* numbers of any size are frequent */
+    bool large;   /* many triangles, pixels, instants: rare, as it costs 50 times more */
     int frames;
-    smear_desc desc;                    /* without callbacks */
+    smear_desc desc; /* without callbacks */
     smear_texture texture[CASE_TEXTURES];
     smear_mesh mesh[CASE_MESHES];
-    int16_t *position[CASE_MESHES];     /* as in the mesh: may be changed with `refresh` */
+    int16_t *position[CASE_MESHES]; /* as in the mesh: may be changed with `refresh` */
     const int16_t *other[CASE_MESHES][2];
     smear_material material[CASE_DRAWS];
     smear_transform pose[CASE_DRAWS][3];

@@ -5,7 +5,7 @@
  *     frames valid|wild FIRST COUNT           draws cases; says at the end how many frames these were
  *     frames valid|wild FIRST SECONDS s       as many as take so long
  *     frames valid|wild NUMBER                one case, step by step
- *     frames sums FIRST COUNT                 prints a checksum of each valid case: compare builds with it
+ *     frames sums FIRST COUNT                 draws valid cases once and prints a checksum of each: compare builds with it
  *     frames threads FIRST COUNT              valid cases, each by 2 to 8 workers: for the thread sanitizer
  *
  * A finding ends the program; the number that it names finds it again. */
@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -36,11 +37,14 @@ static void say_where(int signal_number)
 /* Sanitizers call this before they end the program. */
 void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
+/* The memory sanitizer is there: what nobody wrote is known, and no band may show it. */
+void __msan_check_mem_is_initialized(const volatile void *bytes, size_t count) __attribute__((weak));
+
 /* Broken promises of a CHECK build trap: the sanitizer shows where. */
 const char *__asan_default_options(void);
 const char *__asan_default_options(void)
 {
-    return "handle_sigill=1:detect_leaks=1";
+    return "handle_sigill=1:detect_leaks=1:quarantine_size_mb=32";
 }
 
 static void say_at_death(void)
@@ -93,6 +97,8 @@ static int take_band(void *user, const smear_band *band)
         require(band->y == r->next_row && band->x == 0 && band->width == r->desc.width, "bands are out of order");
     r->next_row = r->desc.reuse.buffer_age ? band->y : band->y + band->height;
     r->next_column = band->x + band->width;
+    if (__msan_check_mem_is_initialized != NULL)
+        __msan_check_mem_is_initialized(band->pixels, band->size);
     const size_t left = r->pitch * (size_t)band->x / (size_t)r->desc.width, rows = rows_of(&r->desc, band->height);
     require(band->size == band->stride * rows && left + band->stride <= r->pitch, "a band has another size");
     for (size_t y = 0; y < rows; y++)
@@ -138,7 +144,8 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     r->block = malloc(bytes + 8 * (size_t)offset);
     uint8_t *memory = r->block + 8 * offset;
     require(r->block != NULL, "out of memory");
-    memset(memory, 0xa5, bytes);
+    if (__msan_check_mem_is_initialized == NULL)
+        memset(memory, 0xa5, bytes);
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY, "a byte too little is taken");
     require(smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK, "smear_init fails");
     r->pitch = pitch_of(desc);
@@ -309,9 +316,22 @@ static void spoil_frame(struct fuzz_case *c)
         case_spoil_frame(c);
 }
 
-/* Draws a case; returns a sum of its pictures. `threads`: by more than one worker. */
-static uint32_t run_case(struct counts *counts, uint64_t number, bool wild, bool threads)
+enum mode { MODE_VALID,
+            MODE_WILD,
+            MODE_SUMS,
+            MODE_THREADS };
+
+/* So that every build draws the same: arenas count bytes, of which pointers have more or fewer. */
+static void make_comparable(struct fuzz_case *c)
 {
+    if ((c->desc.methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0)
+        c->desc.max_triangles = 4000;
+}
+
+/* Draws a case; returns a sum of its pictures. */
+static uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode)
+{
+    const bool wild = mode == MODE_WILD, threads = mode == MODE_THREADS;
     static struct fuzz_case c;
     struct rig a, b;
     uint32_t sum = 2166136261u;
@@ -321,11 +341,13 @@ static uint32_t run_case(struct counts *counts, uint64_t number, bool wild, bool
         case_spoil_desc(&c);
     if (threads)
         c.desc.workers = (uint8_t)source_range(&c.source, 2, 8);
+    if (mode == MODE_SUMS)
+        make_comparable(&c);
     smear_desc other = case_other_desc(&c);
     if (threads)
         other.workers = (uint8_t)source_range(&c.source, 2, 8);
     const bool open = rig_open(&a, &c.desc, wild, source_range(&c.source, 0, 5));
-    const bool two = open && !wild && rig_open(&b, &other, false, source_range(&c.source, 0, 5));
+    const bool two = open && !wild && mode != MODE_SUMS && rig_open(&b, &other, false, source_range(&c.source, 0, 5));
     counts->cases++;
     counts->refused += !open;
     bool lost = false;
@@ -333,6 +355,8 @@ static uint32_t run_case(struct counts *counts, uint64_t number, bool wild, bool
         snprintf(now_at, sizeof now_at, "%s %llu, frame %d", wild ? "wild" : "valid", (unsigned long long)number, k);
         case_frame(&c, k);
         spoil_frame(&c);
+        if (mode == MODE_SUMS)
+            c.frame.budget = 0;
         c.frame.refresh |= lost;
         if (c.wild && source_chance(&c.source, 20))
             misuse(&a, &c);
@@ -377,28 +401,34 @@ static uint32_t run_case(struct counts *counts, uint64_t number, bool wild, bool
 
 int main(int argc, char **argv)
 {
-    static const int ends[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP, SIGALRM };
+    static const int ends[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP };
+    static const struct itimerval most = { .it_value = { .tv_sec = 120 } }; /* no case takes so long of the cores */
+    static const char letters[] = "vwst"; /* as in enum mode */
     struct counts counts = { 0, 0, 0, 0, 0, 0 };
-    if (argc < 3 || strchr("vwst", argv[1][0]) == NULL) {
+    if (argc < 3 || argv[1][0] == 0 || strchr(letters, argv[1][0]) == NULL) {
         fputs("usage: frames valid|wild|sums|threads FIRST [COUNT | SECONDS s]\n", stderr);
         return 2;
     }
-    const bool wild = argv[1][0] == 'w', sums = argv[1][0] == 's', threads = argv[1][0] == 't', timed = argc > 4;
+    const enum mode mode = (enum mode)(strchr(letters, argv[1][0]) - letters);
+    const bool timed = argc > 4;
     const uint64_t first = strtoull(argv[2], NULL, 10), count = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
     const time_t end = time(NULL) + (time_t)count;
     talks = argc == 3;
+    signal(SIGPROF, say_where);
     if (__sanitizer_set_death_callback != NULL)
         __sanitizer_set_death_callback(say_at_death);
     else
         for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
             signal(ends[i], say_where);
     for (uint64_t n = first; timed ? time(NULL) < end : n < first + count; n++) {
-        alarm(120); /* no case takes so long */
-        const uint32_t sum = run_case(&counts, n, wild, threads);
-        if (sums)
+        setitimer(ITIMER_PROF, &most, NULL);
+        const uint32_t sum = run_case(&counts, n, mode);
+        if (mode == MODE_SUMS)
             printf("%llu %08x\n", (unsigned long long)n, (unsigned)sum);
     }
-    if (!sums)
+    if (mode == MODE_SUMS)
+        printf("%llu cases, %llu frames\n", (unsigned long long)counts.cases, (unsigned long long)counts.frames);
+    else
         printf("%s from %llu: %llu cases, %llu frames, %llu compared, %llu in parts, %llu descs and %llu frames refused\n",
                argv[1], (unsigned long long)first, (unsigned long long)counts.cases, (unsigned long long)counts.frames,
                (unsigned long long)counts.compared, (unsigned long long)counts.parts, (unsigned long long)counts.refused,

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+# Fuzzers, and the generator of frames (cases.c) under sanitizers and in other builds.
+
+FUZZ_CC := clang-14
+FUZZ_BASE := -std=c11 -g -Iinclude -Isrc -I. -MMD -MP
+FUZZ_FLAGS := $(FUZZ_BASE) -D_POSIX_C_SOURCE=200809L -O1 -DSMEAR_CHECK=1
+FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c \
+    $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
+
+build/fuzz/obj/%.o: %.c
+	$(call say,CC,$<)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -c -o $@ $<
+
+build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
+	$(call say,LD)
+	@mkdir -p $(@D)
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm -lpthread
+
+-include $(FUZZ_OBJ:.o=.d)
+
+# Each fuzzer over its corpus once, and for a few seconds beyond it.
+.PHONY: fuzz-corpus
+## fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
+fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
+	for name in $(FUZZERS); do \
+	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
+	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
+	        build/fuzz/found-$$name tests/fuzz/corpus/$$name || exit 1; \
+	done
+
+# ---------------------------------------------------------------------- frames
+
+FRAMES_SRC := tests/fuzz/frames.c tests/fuzz/cases.c tests/fuzz/cases_wild.c $(LIB_SRC)
+
+# frames_build NAME,COMPILER,FLAGS: the program build/fuzz/frames-NAME.
+define frames_build
+build/fuzz/$(1)/%.o: %.c
+	$$(call say,CC,$$<)
+	@mkdir -p $$(@D)
+	$(2) $(FUZZ_BASE) -D_GNU_SOURCE $(3) -c -o $$@ $$<
+build/fuzz/frames-$(1): $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.o)
+	$$(call say,LD)
+	$(2) $(3) -o $$@ $$^ -lpthread
+-include $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.d)
+endef
+
+# Beside undefined behaviour, conversions that nobody wrote may not change a value.
+FUZZ_UNDEFINED := undefined,implicit-conversion,local-bounds
+$(eval $(call frames_build,address,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=address,$(FUZZ_UNDEFINED) -fno-sanitize-recover=all))
+$(eval $(call frames_build,memory,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=memory -fno-omit-frame-pointer))
+$(eval $(call frames_build,threads,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=thread))
+
+.PHONY: fuzz fuzz-builds
+## valid and wild frames under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
+fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threads
+	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
+	build/fuzz/frames-address wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
+	build/fuzz/frames-memory valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
+	build/fuzz/frames-memory wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
+	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
+
+# Builds that must draw the same: by optimization, compiler, width of a word, and what the code is told of the core.
+FUZZ_BUILDS := gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 trapv unsigned-char scalar
+$(eval $(call frames_build,gcc-O0,gcc,-O0))
+$(eval $(call frames_build,gcc-O1,gcc,-O1))
+$(eval $(call frames_build,gcc-O2,gcc,-O2))
+$(eval $(call frames_build,gcc-O3,gcc,-O3))
+$(eval $(call frames_build,clang-O2,$(FUZZ_CC),-O2))
+$(eval $(call frames_build,m32,gcc,-m32 -O2))
+$(eval $(call frames_build,mul16,gcc,-Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0))
+$(eval $(call frames_build,trapv,gcc,-O1 -ftrapv))
+$(eval $(call frames_build,unsigned-char,gcc,-O2 -funsigned-char))
+$(eval $(call frames_build,scalar,gcc,-O2 -DSMEAR_VECTORS=0))
+
+## pictures of CASES=2000 cases from FIRST=1 by ten builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 scalar")
+fuzz-builds: $(foreach build,$(or $(BUILDS),$(FUZZ_BUILDS)),build/fuzz/frames-$(build))
+	first=; \
+	for build in $(or $(BUILDS),$(FUZZ_BUILDS)); do \
+	    build/fuzz/frames-$$build sums $(or $(FIRST),1) $(or $(CASES),2000) > build/fuzz/sums-$$build || exit 1; \
+	    first=$${first:-$$build}; \
+	    cmp build/fuzz/sums-$$first build/fuzz/sums-$$build || exit 1; \
+	done; \
+	echo "$(words $(or $(BUILDS),$(FUZZ_BUILDS))) builds draw the same: $$(tail -n 1 build/fuzz/sums-$$first)"
