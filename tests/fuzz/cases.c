@@ -60,6 +60,13 @@ static int32_t option(struct source *s, int one_in, int32_t low, int32_t high)
     return source_chance(s, one_in) ? source_range(s, low, high) : 0;
 }
 
+/* A number in -most .. most, small ones often. Of two calls in one expression either may be the first: each has its line. */
+static int32_t some_step(struct source *s, int32_t most)
+{
+    const int32_t step = source_range(s, -most, most);
+    return step >> source_range(s, 0, 12);
+}
+
 /* ------------------------------------------------------------------ memory */
 
 static void *take(struct fuzz_case *c, size_t size)
@@ -238,7 +245,8 @@ static void make_pose(struct fuzz_case *c, smear_transform *t)
     const int32_t aside = source_chance(s, 4) ? 40 << 16 : 3 << 16;
     t->origin[0] = about(c, 0, aside);
     t->origin[1] = about(c, 0, aside);
-    t->origin[2] = about(c, source_chance(s, 4) ? 0 : -5 * 65536, source_chance(s, 6) ? 40 << 16 : 4 << 16);
+    const int32_t ahead = source_chance(s, 4) ? 0 : -5 * 65536;
+    t->origin[2] = about(c, ahead, source_chance(s, 6) ? 40 << 16 : 4 << 16);
 }
 
 /* Where it was or will be: a little elsewhere, or anywhere. */
@@ -251,7 +259,7 @@ static void make_moved(struct fuzz_case *c, smear_transform *t, const smear_tran
     }
     *t = source_chance(s, 2) ? smear_compose(*from, rotation(c, true)) : *from;
     for (int i = 0; i < 3; i++) {
-        const int32_t step = source_range(s, -(1 << 17), 1 << 17) >> source_range(s, 0, 12);
+        const int32_t step = some_step(s, 1 << 17);
         t->origin[i] = (int32_t)((uint32_t)from->origin[i] + (uint32_t)step);
     }
 }
@@ -288,7 +296,7 @@ static void make_moved_camera(struct fuzz_case *c, smear_camera *camera, const s
         camera->pose = smear_compose(from->pose, rotation(c, true));
     for (int i = 0; i < 3; i++)
         camera->pose.origin[i] = (int32_t)((uint32_t)from->pose.origin[i]
-                                           + (uint32_t)(source_range(s, -(1 << 16), 1 << 16) >> source_range(s, 0, 12)));
+                                           + (uint32_t)some_step(s, 1 << 16));
 }
 
 /* ------------------------------------------------------------------ draws */
@@ -465,7 +473,8 @@ static void make_shutter(struct fuzz_case *c)
         return;
     for (int i = 0; i < SMEAR_SHUTTER_POINTS; i++)
         c->curve[i] = (uint8_t)(source_chance(s, 2) ? source_word(s) : 0);
-    c->curve[source_range(s, 0, SMEAR_SHUTTER_POINTS - 1)] = (uint8_t)source_range(s, 1, 255);
+    const int32_t open = source_range(s, 0, SMEAR_SHUTTER_POINTS - 1);
+    c->curve[open] = (uint8_t)source_range(s, 1, 255);
     shutter->curve = c->curve;
 }
 
@@ -551,7 +560,7 @@ static void make_settings(struct fuzz_case *c)
         c->frame.target = (uint16_t)source_range(s, SMEAR_BALANCED, source_chance(s, 3) ? 65535 : 1000);
         if (source_chance(s, c->large ? 2 : 12))
             c->frame.target = (uint16_t)option(s, 2, 1, SMEAR_BALANCED);
-        c->frame.budget = source_chance(s, 6) ? source_word(s) >> source_range(s, 0, 31) : 0;
+        c->frame.budget = source_chance(s, 6) ? (uint32_t)source_any(s) : 0;
     }
     if (has(&c->desc, SMEAR_SET_LAYERS))
         make_layers(c);

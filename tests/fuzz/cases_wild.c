@@ -84,8 +84,10 @@ static void spoil_index(struct fuzz_case *c, const smear_mesh *m)
 {
     struct source *s = &c->source;
     uint16_t *index = (uint16_t *)(uintptr_t)m->index;
-    for (int i = 0; i < 3 && m->triangle_count != 0; i++)
-        index[source_range(s, 0, (int32_t)(3 * m->triangle_count) - 1)] = (uint16_t)source_word(s);
+    for (int i = 0; i < 3 && m->triangle_count != 0; i++) {
+        const int32_t at = source_range(s, 0, (int32_t)(3 * m->triangle_count) - 1);
+        index[at] = (uint16_t)source_word(s);
+    }
 }
 
 void case_spoil_frame(struct fuzz_case *c)

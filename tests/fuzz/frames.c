@@ -403,7 +403,7 @@ int main(int argc, char **argv)
 {
     static const int ends[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP };
     static const struct itimerval most = { .it_value = { .tv_sec = 120 } }; /* no case takes so long of the cores */
-    static const char letters[] = "vwst"; /* as in enum mode */
+    static const char letters[] = "vwst";                                   /* as in enum mode */
     struct counts counts = { 0, 0, 0, 0, 0, 0 };
     if (argc < 3 || argv[1][0] == 0 || strchr(letters, argv[1][0]) == NULL) {
         fputs("usage: frames valid|wild|sums|threads FIRST [COUNT | SECONDS s]\n", stderr);
