@@ -8,6 +8,11 @@ exr() {
     command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
 }
 
+m32() {
+    echo 'int main(void) { return 0; }' | gcc -m32 -x c -o build/test/m32 - 2>/dev/null && return 0
+    lacks gcc-m32 "apt-get install --no-install-recommends libc6-dev-i386 lib32gcc-12-dev"
+}
+
 # What firmware for a Pico is built with and run on. SDK and boot ROM are other people's: without them the suites are not run.
 pico() {
     needs arm-none-eabi-g++ "libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib" && needs cmake "cmake g++" &&
@@ -136,6 +141,9 @@ fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s $jobs fuzz-corpus
     suite fuzz-frames $make -s $jobs fuzz MINUTES=1
+    if m32; then
+        suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
+    fi
 fi
 
 add_up

@@ -392,13 +392,22 @@ static void make_band_rows(struct source *s, smear_desc *d)
         d->band_rows = (int16_t)(d->tile >> source_range(s, 0, 1));
 }
 
+/* A list of few triangles is full at once: parts of parts, which are slow with many. */
+static int32_t some_room(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    if (!c->large && source_chance(s, 12))
+        return source_range(s, 1, 12);
+    return source_range(s, c->large ? 100 : 10, 600);
+}
+
 static void make_desc(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     smear_desc *d = &c->desc;
     *d = (smear_desc){ .width = (int16_t)source_range(s, 1, 70),
                        .height = (int16_t)source_range(s, 1, 50),
-                       .max_triangles = (uint32_t)(!c->large && source_chance(s, 12) ? source_range(s, 1, 12) : source_range(s, c->large ? 100 : 10, 600)),
+                       .max_triangles = (uint32_t)some_room(c),
                        .max_draws = CASE_DRAWS,
                        .methods = (uint16_t)sets[source_range(s, 0, (int32_t)(sizeof sets / sizeof *sets) - 1)],
                        .format = (uint8_t)source_range(s, 0, SMEAR_L1_PAGES),

@@ -37,7 +37,8 @@ void case_spoil_desc(struct fuzz_case *c)
         PART(smear_desc, width), PART(smear_desc, height), PART(smear_desc, max_triangles), PART(smear_desc, max_draws),
         PART(smear_desc, methods), PART(smear_desc, tile), PART(smear_desc, reach), PART(smear_desc, strip),
         PART(smear_desc, band_rows), PART(smear_desc, bands), PART(smear_desc, format), PART(smear_desc, workers),
-        PART(smear_desc, vertex_cache), PART(smear_desc, reuse.cache_static), PART(smear_desc, reuse.buffer_age), PART(smear_desc, reuse.one_pose),
+        PART(smear_desc, vertex_cache), PART(smear_desc, reuse.cache_static), PART(smear_desc, reuse.buffer_age),
+        PART(smear_desc, reuse.one_pose),
         PART(smear_desc, filter.passes), PART(smear_desc, filter.scatter), PART(smear_desc, dither)
     };
     struct source *s = &c->source;
@@ -54,7 +55,8 @@ static const struct part frame_parts[] = {
     PART(smear_frame, method), PART(smear_frame, light_space), PART(smear_frame, cut), PART(smear_frame, refresh),
     PART(smear_frame, samples), PART(smear_frame, target), PART(smear_frame, budget), PART(smear_frame, clear),
     PART(smear_frame, shutter.degrees), PART(smear_frame, shutter.exposure), PART(smear_frame, shutter.poses),
-    PART(smear_frame, shutter.mode), PART(smear_frame, shutter.path), PART(smear_frame, shutter.reference_hz), PART(smear_frame, shutter.frame_us),
+    PART(smear_frame, shutter.mode), PART(smear_frame, shutter.path),
+    PART(smear_frame, shutter.reference_hz), PART(smear_frame, shutter.frame_us),
     PART(smear_frame, shutter.us), PART(smear_frame, filter.kind), PART(smear_frame, filter.flags),
     PART(smear_frame, filter.weights), PART(smear_frame, filter.camera_step), PART(smear_frame, filter.pingpong.passes),
     PART(smear_frame, filter.pingpong.taps), PART(smear_frame, filter.pingpong.base),

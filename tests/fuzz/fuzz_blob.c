@@ -12,9 +12,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { WIDTH = 40,
-       HEIGHT = 24,
-       MAX_DRAWS = 24 };
+enum { WIDTH = 40, HEIGHT = 24, MAX_DRAWS = 24 };
 
 static void require(bool ok)
 {
@@ -61,7 +59,9 @@ static void play(const smear_model *model, const uint8_t *tail)
     place.basis[tail[1] % 9] = (int32_t)((uint32_t)tail[2] << 24);
     for (int i = 0; i < 4; i++) {
         const smear_node_move move = { .node = tail[3], .local = place };
-        smear_play p = { .clip = (uint16_t)(model->clip_count > 0 ? i % model->clip_count : 0), .loop = i % 2 == 0, .time = (int32_t)((uint32_t)tail[4] << (i * 7)), .place = &place, .move = &move, .move_count = (uint16_t)(tail[5] % 2), .rest = i == 3 };
+        smear_play p = { .clip = (uint16_t)(model->clip_count > 0 ? i % model->clip_count : 0), .loop = i % 2 == 0,
+                         .time = (int32_t)((uint32_t)tail[4] << (i * 7)), .place = &place, .move = &move,
+                         .move_count = (uint16_t)(tail[5] % 2), .rest = i == 3 };
         require(smear_actor_advance(actor, &p) == SMEAR_OK);
         if (poses == 3)
             require(smear_actor_set(actor, SMEAR_POSE_CLOSE, &p) == SMEAR_OK);

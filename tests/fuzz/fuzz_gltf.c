@@ -36,8 +36,7 @@ static long index_below(unsigned count)
 {
     static const long wild[] = { -1, 255, 65536, 2147483647, 4294967296L };
     unsigned i = any(count + 1 + (count < 200 ? 24 : 0));
-    return i < count ? (long)i : i == count ? wild[any(5)]
-                                            : (long)(i % (count > 0 ? count : 1));
+    return i < count ? (long)i : i == count ? wild[any(5)] : (long)(i % (count > 0 ? count : 1));
 }
 
 static char text[1 << 16];
@@ -60,14 +59,7 @@ static const char *between(int i)
 
 /* ------------------------------------------------------------------ the file */
 
-enum { BIN = 1024,
-       VIEWS = 6,
-       ACCESSORS = 12,
-       MESHES = 3,
-       NODES = 6,
-       SKINS = 2,
-       MATERIALS = 3,
-       CLIPS = 2 };
+enum { BIN = 1024, VIEWS = 6, ACCESSORS = 12, MESHES = 3, NODES = 6, SKINS = 2, MATERIALS = 3, CLIPS = 2 };
 
 static void say_views(void)
 {
@@ -89,10 +81,7 @@ static void say_accessors(void)
     static const int types[] = { 5126, 5121, 5126, 5123, 5126, 5120, 5122, 5125 };
     say(",\"accessors\":[");
     for (int i = 0; i < ACCESSORS; i++) {
-        unsigned count = i == 1 ? 3 + any(30) : i == 2  ? 2 + any(4)
-                                          : i < 4       ? 12
-                                          : any(8) == 0 ? any(40)
-                                                        : 12;
+        unsigned count = i == 1 ? 3 + any(30) : i == 2 ? 2 + any(4) : i < 4 ? 12 : any(8) == 0 ? any(40) : 12;
         unsigned shape = i < 4 ? (unsigned)i : any(10), type = i < 4 ? (unsigned)i : any(8);
         say("%s{\"count\":%u,\"type\":\"%s\",\"componentType\":%d", between(i), count, shapes[shape], types[type]);
         if (any(10) > 0)
@@ -174,8 +163,7 @@ static void say_materials(void)
 {
     static const char *const alpha[] = { "OPAQUE", "MASK", "BLEND" };
     say(",\"images\":[{\"bufferView\":%ld,\"mimeType\":\"image/png\"}],\"samplers\":[{\"wrapS\":33071}],"
-        "\"textures\":[{\"source\":0,\"sampler\":0}],\"materials\":[",
-        index_below(VIEWS));
+        "\"textures\":[{\"source\":0,\"sampler\":0}],\"materials\":[", index_below(VIEWS));
     for (int i = 0; i < MATERIALS; i++) {
         say("%s{\"alphaMode\":\"%s\",\"doubleSided\":%s,\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.%u,0,0.%u]", between(i),
             alpha[any(3)], any(2) ? "true" : "false", any(10), any(10));
@@ -193,8 +181,7 @@ static void say_clips(void)
     say(",\"animations\":[");
     for (int i = 0; i < CLIPS; i++)
         say("%s{\"name\":\"c%d\",\"samplers\":[{\"input\":%ld,\"output\":%ld,\"interpolation\":\"%s\"}],\"channels\":[{\"sampler\":%ld,"
-            "\"target\":{\"node\":%ld,\"path\":\"%s\"}}]}",
-            between(i), i, accessor(2), index_below(ACCESSORS), how[any(3)],
+            "\"target\":{\"node\":%ld,\"path\":\"%s\"}}]}", between(i), i, accessor(2), index_below(ACCESSORS), how[any(3)],
             index_below(1), index_below(NODES), path[any(4)]);
     say("]");
 }
@@ -260,7 +247,9 @@ static void convert(const struct model *m, unsigned choice)
     struct failure f = { "" };
     struct conversion c;
     const struct convert_options o = {
-        .clip = clip, .clip_count = m->clip_count < CLIPS ? m->clip_count : CLIPS, .scale = 1, .fit = choice & 1 ? 4 : 0, .texture = (enum convert_texture)(choice / 2 % 5), .texture_edge = 8, .colors = 16, .influences = 1 + (int)(choice / 16 % 4), .clip_error_px = 0.1, .rows = 240, .fov_degrees = 45
+        .clip = clip, .clip_count = m->clip_count < CLIPS ? m->clip_count : CLIPS, .scale = 1, .fit = choice & 1 ? 4 : 0,
+        .texture = (enum convert_texture)(choice / 2 % 5), .texture_edge = 8, .colors = 16, .influences = 1 + (int)(choice / 16 % 4),
+        .clip_error_px = 0.1, .rows = 240, .fov_degrees = 45
     };
     if (!convert_model(m, &o, &c, &f)) {
         require(f.text[0] != '\0');
@@ -283,7 +272,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     last = data + size;
     unsigned choice = any(256);
     size_t bytes = write_file(file);
-    uint8_t *exact = malloc(bytes); /* so that a byte too far is seen */
+    uint8_t *exact = malloc(bytes);         /* so that a byte too far is seen */
     require(exact != NULL);
     memcpy(exact, file, bytes);
     if (model_parse(exact, bytes, NULL, &m, &f)) {

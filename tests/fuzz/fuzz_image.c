@@ -28,7 +28,8 @@ static void check_image(bool ok, struct image *image, const struct failure *f)
 {
     require(ok == (f->text[0] == '\0') && ok == (image->rgba != NULL));
     if (ok)
-        require(image->width >= 1 && image->width <= IMAGE_MAX_EDGE && image->height >= 1 && image->height <= IMAGE_MAX_EDGE);
+        require(image->width >= 1 && image->width <= IMAGE_MAX_EDGE && image->height >= 1 &&
+                image->height <= IMAGE_MAX_EDGE);
 }
 
 /* Small pictures are encoded and must come back. */
@@ -37,7 +38,7 @@ static void check_round_trip(const struct image *image)
     uint8_t *bytes;
     size_t size;
     struct image back;
-    struct failure f = { "" };
+    struct failure f = {""};
     if (image->rgba == NULL || image->width * image->height > 4096)
         return;
     require(png_encode(image, &bytes, &size, &f) && png_decode(bytes, size, &back, &f));
@@ -49,7 +50,7 @@ static void check_round_trip(const struct image *image)
 static void fuzz_png(const uint8_t *data, size_t size)
 {
     struct image image;
-    struct failure f = { "" };
+    struct failure f = {""};
     check_image(png_decode(data, size, &image, &f), &image, &f);
     check_round_trip(&image);
     image_free(&image);
@@ -88,27 +89,14 @@ static void put_chunk(struct buffer *out, const char *name, const void *data, si
 static void fuzz_png_rows(const uint8_t *data, size_t size)
 {
     static const uint8_t kinds[15][2] = {
-        { 0, 1 },
-        { 0, 2 },
-        { 0, 4 },
-        { 0, 8 },
-        { 0, 16 },
-        { 2, 8 },
-        { 2, 16 },
-        { 3, 1 },
-        { 3, 2 },
-        { 3, 4 },
-        { 3, 8 },
-        { 4, 8 },
-        { 4, 16 },
-        { 6, 8 },
-        { 6, 16 },
+        {0, 1}, {0, 2}, {0, 4}, {0, 8}, {0, 16}, {2, 8}, {2, 16}, {3, 1}, {3, 2}, {3, 4}, {3, 8},
+        {4, 8}, {4, 16}, {6, 8}, {6, 16},
     };
-    struct buffer file = { 0 }, packed = { 0 };
+    struct buffer file = {0}, packed = {0};
     if (size < 4)
         return;
     const uint8_t *kind = kinds[data[2] % 15];
-    uint8_t header[13] = { 0, 0, 0, data[0], 0, 0, 0, data[1], kind[1], kind[0], 0, 0, data[2] >> 7 };
+    uint8_t header[13] = {0, 0, 0, data[0], 0, 0, 0, data[1], kind[1], kind[0], 0, 0, data[2] >> 7};
     size_t palette = data[3] % 86 * 3u, transparent = data[3] / 86 * 2u;
     data += 4;
     size -= 4;
@@ -129,7 +117,7 @@ static void fuzz_png_rows(const uint8_t *data, size_t size)
 static void fuzz_ppm(const uint8_t *data, size_t size)
 {
     struct image image, back;
-    struct failure f = { "" };
+    struct failure f = {""};
     check_image(ppm_decode(data, size, &image, &f), &image, &f);
     if (image.rgba != NULL && image.width * image.height <= 4096) {
         uint8_t *bytes;
@@ -145,7 +133,7 @@ static void fuzz_ppm(const uint8_t *data, size_t size)
 static void fuzz_pfm(const uint8_t *data, size_t size)
 {
     struct float_image image, back;
-    struct failure f = { "" };
+    struct failure f = {""};
     bool ok = pfm_decode(data, size, &image, &f);
     require(ok == (f.text[0] == '\0') && ok == (image.value != NULL));
     if (ok) {
@@ -162,14 +150,14 @@ static void fuzz_pfm(const uint8_t *data, size_t size)
 /* Both kinds of streams, into rooms of every size. */
 static void fuzz_inflate(const uint8_t *data, size_t size)
 {
-    struct failure f = { "" };
+    struct failure f = {""};
     size_t produced = 0, consumed = 0, room = size > 0 ? (size_t)data[0] * data[0] : 0;
     uint8_t *out = malloc(room + 1);
     bool ok = inflate_raw(data, size, out, room, &produced, &consumed, &f);
     require(ok == (f.text[0] == '\0'));
     if (ok)
         require(produced <= room && consumed <= size);
-    struct failure g = { "" };
+    struct failure g = {""};
     ok = inflate_zlib(data, size, out, room, &produced, &consumed, &g);
     require(ok == (g.text[0] == '\0'));
     if (ok)
@@ -179,8 +167,8 @@ static void fuzz_inflate(const uint8_t *data, size_t size)
 
 static void fuzz_deflate(const uint8_t *data, size_t size)
 {
-    struct buffer packed = { 0 };
-    struct failure f = { "" };
+    struct buffer packed = {0};
+    struct failure f = {""};
     size_t produced = 0, consumed = 0;
     uint8_t *out = malloc(size + 1);
     require(deflate_zlib(data, size, &packed));
@@ -195,7 +183,7 @@ static void fuzz_palette(const uint8_t *data, size_t size)
 {
     struct image image;
     struct palette palette;
-    struct failure f = { "" };
+    struct failure f = {""};
     uint8_t mark[16 * 32], index[16 * 32];
     size_t rows = size / 80 < 32 ? size / 80 : 32;
     if (rows == 0 || !image_alloc(&image, 16, (int)rows, &f))
@@ -204,7 +192,7 @@ static void fuzz_palette(const uint8_t *data, size_t size)
     memcpy(mark, data + rows * 64, rows * 16);
     memset(index, 255, sizeof index);
     int limit = 2 + data[0] % 255;
-    struct marked_image marked = { &image, mark };
+    struct marked_image marked = {&image, mark};
     bool exact = palette_exact(&marked, limit, &palette);
     if (!exact)
         require(palette_choose(&marked, limit, &palette));
@@ -222,13 +210,7 @@ static void fuzz_palette(const uint8_t *data, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static void (*const target[8])(const uint8_t *, size_t) = {
-        fuzz_png,
-        fuzz_mended_png,
-        fuzz_png_rows,
-        fuzz_ppm,
-        fuzz_pfm,
-        fuzz_inflate,
-        fuzz_deflate,
+        fuzz_png, fuzz_mended_png, fuzz_png_rows, fuzz_ppm, fuzz_pfm, fuzz_inflate, fuzz_deflate,
         fuzz_palette,
     };
     if (size > 0)

@@ -73,9 +73,7 @@ static int32_t take_value(struct source *s, int32_t unit)
 static int32_t take_positive(struct source *s, int32_t unit)
 {
     int32_t v = take_value(s, unit);
-    return v == INT32_MIN ? INT32_MAX : v < 0 ? -v
-                                  : v == 0    ? 1
-                                              : v;
+    return v == INT32_MIN ? INT32_MAX : v < 0 ? -v : v == 0 ? 1 : v;
 }
 
 /* ------------------------------------------------------------------ memory that is given back at the end */
@@ -112,9 +110,7 @@ static void pool_free(struct pool *p)
 
 /* ------------------------------------------------------------------ a scene */
 
-enum { DRAWS = 6,
-       MESHES = 3,
-       TEXTURES = 2 };
+enum { DRAWS = 6, MESHES = 3, TEXTURES = 2 };
 
 struct scene {
     smear_texture texture[TEXTURES];
@@ -136,7 +132,7 @@ static void take_texture(struct source *s, struct pool *p, smear_texture *t)
     t->height = (uint16_t)take_range(s, 1, 16);
     if (take_chance(s, 8))
         t->width = (uint16_t)(take_chance(s, 2) ? 4096 : take_range(s, 1, 4096));
-    else if (take_chance(s, 2)) /* squares that have loops of their own */
+    else if (take_chance(s, 2))         /* squares that have loops of their own */
         t->width = t->height = (uint16_t)(1 << take_range(s, 0, take_chance(s, 4) ? 8 : 6));
     t->format = take(s) % 3;
     t->wrap_u = take(s) % 3;
@@ -166,7 +162,8 @@ static void take_mesh(struct source *s, struct pool *p, smear_mesh *m, const int
         index[i] = (uint16_t)(take(s) % (vertices + wild));
     uint8_t has = take(s);
     *m = (smear_mesh){
-        .position = position[0], .index = index, .triangle_count = (uint32_t)triangles, .vertex_count = (uint16_t)vertices, .shift = 6, .uv_shift = (uint8_t)take_range(s, 0, 15)
+        .position = position[0], .index = index, .triangle_count = (uint32_t)triangles,
+        .vertex_count = (uint16_t)vertices, .shift = 6, .uv_shift = (uint8_t)take_range(s, 0, 15)
     };
     if (has & 1)
         m->normal = pool_bytes(p, s, (size_t)vertices * 3);
@@ -194,7 +191,7 @@ static void take_transform(struct source *s, smear_transform *t)
         t->basis[i] = take_value(s, SMEAR_BASIS_ONE);
     for (int i = 0; i < 3; i++)
         t->origin[i] = kind & 2 ? take_value(s, 4 << 16) : (int8_t)take(s) * 1024;
-    if (!(kind & 4)) /* mostly in front of a camera at the origin */
+    if (!(kind & 4))            /* mostly in front of a camera at the origin */
         t->origin[2] = (int32_t)((uint32_t)t->origin[2] - (3u << 16));
 }
 
@@ -206,9 +203,8 @@ static void take_camera(struct source *s, smear_camera *c)
     if (kind & 1)
         for (int i = 0; i < 9; i++) {
             int32_t v = take_value(s, SMEAR_BASIS_ONE);
-            c->pose.basis[i] = v > 2 * SMEAR_BASIS_ONE  ? 2 * SMEAR_BASIS_ONE
-                             : v < -2 * SMEAR_BASIS_ONE ? -2 * SMEAR_BASIS_ONE
-                                                        : v;
+            c->pose.basis[i] = v > 2 * SMEAR_BASIS_ONE ? 2 * SMEAR_BASIS_ONE
+                             : v < -2 * SMEAR_BASIS_ONE ? -2 * SMEAR_BASIS_ONE : v;
         }
     for (int i = 0; i < 3 && kind & 2; i++)
         c->pose.origin[i] = take_value(s, 1 << 16);
@@ -235,16 +231,10 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         .camera = &scene->camera[0],
         .open = kind & 4 ? &scene->camera[1] : NULL,
         .close = kind & 8 ? &scene->camera[2] : NULL,
-        .method = (uint8_t)method,
-        .shutter.exposure = take(s) % 3,
-        .light_space = take(s) & 1,
-        .shutter.poses = kind >> 4 & 1,
-        .cut = kind >> 5 == 7,
-        .filter.flags = take(s),
-        .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40
-                                                                                                         : 1024),
-        .shutter.degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)),
-        .clear = take_word(s)
+        .method = (uint8_t)method, .shutter.exposure = take(s) % 3, .light_space = take(s) & 1, .shutter.poses = kind >> 4 & 1,
+        .cut = kind >> 5 == 7, .filter.flags = take(s),
+        .samples = (uint16_t)take_range(s, 0, method == SMEAR_ACCUMULATE ? 6 : method == SMEAR_SUBFRAMES ? 40 : 1024),
+        .shutter.degrees = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 3600)), .clear = take_word(s)
     };
     if (smear_method_is_temporal(method)) {
         scene->frame.target = (uint16_t)(take_chance(s, 2) ? 0 : take_range(s, 0, 65535));
@@ -259,7 +249,8 @@ static void take_frame(struct source *s, struct scene *scene, int method)
         f->filter.kind = take(s) & 3;
         f->filter.camera_step = (uint8_t)(1 << take(s) % 4 >> 1);
         f->filter.weights = take(s) & 3;
-        f->filter.pingpong = (smear_pingpong){ .passes = take(s) % 4, .taps = take(s) & 31, .base = take(s) & 31, .jitter = take(s) & 127, .bias = take(s), .spread = take(s) & 1 };
+        f->filter.pingpong = (smear_pingpong){ .passes = take(s) % 4, .taps = take(s) & 31, .base = take(s) & 31,
+                                        .jitter = take(s) & 127, .bias = take(s), .spread = take(s) & 1 };
         f->shutter.mode = take(s) % 3;
         f->shutter.frame_us = take_word(s) % 1000001u;
         f->shutter.reference_hz = (uint16_t)take_range(s, 0, 1000);
@@ -286,13 +277,19 @@ static void take_draws(struct source *s, struct scene *scene)
             if (pose == 0 || kind & 1 << pose)
                 take_transform(s, &scene->pose[i][pose]);
         scene->material[i] = (smear_material){
-            .texture = look & 1 ? &scene->texture[look >> 1 & 1] : NULL, .alpha = (uint8_t)((look >> 2) % 3), .unlit = look >> 4 & 1, .double_sided = look >> 5 & 1, .bilinear = look >> 6 & 1, .cutoff = take(s)
+            .texture = look & 1 ? &scene->texture[look >> 1 & 1] : NULL, .alpha = (uint8_t)((look >> 2) % 3),
+            .unlit = look >> 4 & 1, .double_sided = look >> 5 & 1, .bilinear = look >> 6 & 1, .cutoff = take(s)
         };
         if (look & 128)
             for (int c = 0; c < 4; c++)
                 scene->material[i].color[c] = take(s);
         scene->draw[i] = (smear_draw){
-            .id = take(s) % 8u, .mesh = &scene->mesh[mesh], .material = kind & 8 ? NULL : &scene->material[i], .now = kind & 16 ? NULL : &scene->pose[i][0], .open = kind & 2 ? &scene->pose[i][1] : NULL, .close = kind & 4 ? &scene->pose[i][2] : NULL, .open_position = kind & 32 ? scene->other_position[mesh] : NULL, .close_position = kind & 64 ? scene->other_position[mesh] : NULL, .motion = (uint8_t)(kind >> 7 ? take(s) % 3 : 0), .cut = look % 11 == 0
+            .id = take(s) % 8u, .mesh = &scene->mesh[mesh], .material = kind & 8 ? NULL : &scene->material[i],
+            .now = kind & 16 ? NULL : &scene->pose[i][0], .open = kind & 2 ? &scene->pose[i][1] : NULL,
+            .close = kind & 4 ? &scene->pose[i][2] : NULL,
+            .open_position = kind & 32 ? scene->other_position[mesh] : NULL,
+            .close_position = kind & 64 ? scene->other_position[mesh] : NULL,
+            .motion = (uint8_t)(kind >> 7 ? take(s) % 3 : 0), .cut = look % 11 == 0
         };
     }
 }
@@ -303,8 +300,8 @@ struct rig {
     smear_context *ctx;
     smear_desc desc;
     int next_row, fail_at, band;
-    uint32_t sum;   /* of the frame's bytes, in order */
-    uint8_t *shown; /* with desc.buffer_age: all of them, as bands leave them */
+    uint32_t sum;               /* of the frame's bytes, in order */
+    uint8_t *shown;             /* with desc.buffer_age: all of them, as bands leave them */
     int next_column;
     uint32_t inspected;
 };
@@ -354,7 +351,7 @@ static int take_band(void *user, const smear_band *band)
     }
     require(band->y + band->height <= r->desc.height);
     if (r->band++ == r->fail_at)
-        return -42; /* a refused band counts as sent */
+        return -42;             /* a refused band counts as sent */
     if (r->desc.bands == 2)
         smear_band_done(r->ctx);
     return 0;
@@ -372,7 +369,11 @@ static smear_desc take_desc(struct source *s)
 {
     uint8_t kind = take(s);
     smear_desc d = {
-        .width = (int16_t)take_range(s, 1, 70), .height = (int16_t)take_range(s, 1, 50), .reach = (int16_t)take_range(s, 0, 20), .format = take(s) % (SMEAR_L1_PAGES + 1), .dither = take(s) % 3, .bands = kind & 1 ? 2 : 0, .debug.crc = 1, .max_draws = (uint16_t)take_range(s, 1, DRAWS), .max_triangles = (uint32_t)take_range(s, 1, 160), .vertex_cache = (uint16_t)(16 << take_range(s, 0, 3))
+        .width = (int16_t)take_range(s, 1, 70), .height = (int16_t)take_range(s, 1, 50),
+        .reach = (int16_t)take_range(s, 0, 20), .format = take(s) % (SMEAR_L1_PAGES + 1), .dither = take(s) % 3,
+        .bands = kind & 1 ? 2 : 0, .debug.crc = 1,
+        .max_draws = (uint16_t)take_range(s, 1, DRAWS), .max_triangles = (uint32_t)take_range(s, 1, 160),
+        .vertex_cache = (uint16_t)(16 << take_range(s, 0, 3))
     };
     if (kind & 8)
         d.width = (int16_t)take_range(s, 1, 2048);
@@ -496,10 +497,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             method = SMEAR_CAMERA + take(s) % 3;
         if (keeps == 0 || k == 0 || take_chance(s, 3))
             take_frame(s, &scene, method);
-        if (keeps != 0 && take_chance(s, 2)) /* one moves on, or stops: the rest stands still */
+        if (keeps != 0 && take_chance(s, 2))        /* one moves on, or stops: the rest stands still */
             scene.pose[take(s) % DRAWS][0].origin[take(s) % 3] += (int32_t)take_word(s) >> 12;
         rig.fail_at = kind & 4 ? take(s) % 4 : -1;
-        for (int i = 0; i < MESHES; i++) /* of which the other context knows nothing */
+        for (int i = 0; i < MESHES; i++)        /* of which the other context knows nothing */
             smear_mesh_find_bounds(&scene.mesh[i]);
         int result = rig_frame(&rig, &scene);
         require(result == SMEAR_ERR_ARG || result == SMEAR_OK || (result == -42 && rig.fail_at >= 0));

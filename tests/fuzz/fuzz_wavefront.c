@@ -33,8 +33,7 @@ __attribute__((format(printf, 1, 2))) static void say(const char *format, ...)
 /* Counted from the end where `back` is odd; beyond it for the last of 32. */
 static int reference(uint8_t choice, int count)
 {
-    int i = choice % 32 == 31 ? count + 1 : count > 0 ? choice / 2 % count + 1
-                                                      : 0;
+    int i = choice % 32 == 31 ? count + 1 : count > 0 ? choice / 2 % count + 1 : 0;
     return choice & 1 ? -i : i;
 }
 
@@ -50,17 +49,13 @@ static void statement(const uint8_t b[4], int count[3])
         vn[k] = reference(b[1 + k], count[2]);
     }
     switch (b[0] % 16) {
-    case 0:
-    case 1:
-    case 2:
-    case 3:
+    case 0: case 1: case 2: case 3:
         say("v %d %d.%d %g", b[1], b[2], b[3], (double)(b[3] - 128) * pow(10, b[2] % 40));
         count[0]++;
         break;
     case 4: say("vt %d.%d %d", b[1] % 2, b[2], b[3] % 3), count[1]++; break;
     case 5: say("vn %d %d %d", b[1] - 128, b[2] - 128, b[3] - 128), count[2]++; break;
-    case 6:
-    case 7: say(form[0], v[0], v[1], v[2]); break;
+    case 6: case 7: say(form[0], v[0], v[1], v[2]); break;
     case 8: say(form[1], v[0], vt[0], v[1], vt[1], v[2], vt[2]); break;
     case 9: say(form[2], v[0], vn[0], v[1], vn[1], v[2], vn[2]); break;
     case 10: say(form[3], v[0], vt[0], vn[0], v[1], vt[1], vn[1], v[2], vt[2], vn[2]); break;

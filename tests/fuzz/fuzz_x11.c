@@ -10,9 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { ROOM = 1 << 16,
-       PACKET = 32,
-       FIELDS = 12 };
+enum { ROOM = 1 << 16, PACKET = 32, FIELDS = 12 };
 
 static void require(bool ok)
 {
@@ -49,7 +47,7 @@ static size_t put_packet(const uint8_t b[2], unsigned *sequence, uint8_t *out)
     uint32_t words = 0;
     memset(out, b[1], PACKET);
     switch (b[0] % 4) {
-    case 0: /* the next reply */
+    case 0:                                     /* the next reply */
     case 1:
         words = b[0] / 4 % 8 == 7 ? 1u << 20 : b[0] / 4 % 8 * 8;
         out[0] = 1;
