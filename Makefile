@@ -333,6 +333,11 @@ test-examples: $(LIB)
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c
 
+.PHONY: test-manual
+# All of the manual is compiled and run, and no public name is missing in it.
+test-manual: $(LIB) $(BIN)/smear
+	CC="$(CC)" CXX="$(CXX)" sh tests/shell/manual.sh $(BIN)/smear $(LIB) $(BUILD)/manual
+
 # The program of the README, between its markers, and its picture; its table of memory; its length.
 README_LINES := 150
 README_WORDS := 1400
@@ -369,11 +374,17 @@ $(BUILD)/readme.ppm: $(BUILD)/readme.c $(LIB)
 $(BUILD)/methods: tests/examples/memory.c $(LIB)
 	$(CC) -std=c99 $(STRICT) -o $@ $< $(LIB)
 
-.PHONY: readme-figures rates-readme
+.PHONY: readme-figures rates-readme failures-readme
 ## writes the memory of methods into README.md again
 readme-figures: $(BUILD)/methods
 	$(BUILD)/methods > build/methods.md
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
+
+## measures where methods fail and writes the table into tests/README.md
+failures-readme:
+	$(MAKE) --no-print-directory -s run-suite SUITE=failures
+	awk -f tests/shell/failures_table.awk build/test/failures.txt > build/failures.md
+	awk -f platform/footprint_readme.awk tests/README.md > build/readme.md && mv build/readme.md tests/README.md
 
 ## measures the demo's frames per second on emulated machines, RATES="pico gba", and writes them into README.md
 rates-readme:

@@ -40,6 +40,7 @@ suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
 suite table-file $make -s test-tables
 suite readme $make -s test-readme
+suite manual $make -s test-manual
 suite examples $make -s test-examples
 for name in $($make -s print-suites); do
     suite "$name" $make -s run-suite SUITE="$name"

@@ -15,6 +15,7 @@ suite build $make -s $jobs all build/host/run
 suite headers $make -s test-headers
 suite table-file $make -s test-tables
 suite readme $make -s test-readme
+suite manual $make -s test-manual
 suite examples $make -s test-examples
 for name in $($make -s print-suites); do
     case $longest in

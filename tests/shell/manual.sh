@@ -1,0 +1,127 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# manual.sh SMEAR LIB FOLDER - the manual, include/README.md: what is in its blocks of C is compiled as C99 and as C++11
+# and run, in order; its block of C++ is compiled; and every public function, field, constant and macro is named in it, functions and
+# fields of smear.h and smear_math.h, and functions of smear_model.h, in a block.
+#
+# A block ```c file stands outside of functions; a block ```c is the inside of one, after which `result` must be SMEAR_OK.
+set -eu
+smear=$1 lib=$2 base=$3
+page=include/README.md
+cc=${CC:-cc} cxx=${CXX:-c++}
+mkdir -p "$base"
+"$smear" convert tests/data/arm.gltf --name arm -o "$base/arm.h" >/dev/null
+"$smear" convert tests/data/arm.gltf --name arm -o "$base/arm.smr" >/dev/null
+
+{
+    echo '#include <stdio.h>'
+    echo '#include <stdint.h>'
+    printf 'union blob { unsigned char bytes[%s]; uint32_t word; };\n' "$(wc -c <"$base/arm.smr")"
+    echo 'static const union blob arm_blob = { {'
+    od -An -v -tu1 "$base/arm.smr" | sed 's/  */,/g; s/^,//; s/$/,/'
+    echo '} };'
+    echo '#define arm_file (arm_blob.bytes)'
+    awk -v page=$page '
+        /^```c file$/ { on = 1; printf "#line %d \"%s\"\n", NR + 1, page; next }
+        /^```c$/ { on = 2; names[++count] = NR + 1; printf "static void lines_%d(void)\n{\n#line %d \"%s\"\n", NR + 1, NR + 1, page; next }
+        /^```/ { if (on == 2) print "}"; on = 0; next }
+        on { print }
+        END {
+            printf "int main(void)\n{\n"
+            for (i = 1; i <= count; i++)
+                printf "    lines_%d();\n    if (result != SMEAR_OK)\n        return fprintf(stderr, \"%s:%d: %%s\\n\", smear_error_text(result)), 1;\n", \
+                    names[i], page, names[i]
+            printf "    return 0;\n}\n"
+        }' $page
+} >"$base/manual.c"
+awk '/^```cpp$/ { on = 1; next } /^```/ { on = 0 } on' $page >"$base/manual.cpp"
+
+strict="-O1 -Wall -Wextra -Werror -Wno-unused -Iinclude -I$base"
+# shellcheck disable=SC2086
+{
+    $cc -std=c99 -Wno-missing-field-initializers $strict -o "$base/manual" "$base/manual.c" "$lib"
+    $cxx -x c++ -std=c++11 -Wno-missing-field-initializers $strict -c -o "$base/manual_cxx.o" "$base/manual.c"
+    $cxx -std=c++11 $strict -c -o "$base/manual_cpp.o" "$base/manual.cpp"
+}
+"$base/manual"
+
+awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' $page >"$base/code"
+# Words of a header without comments and strings: struct fields, functions, enum constants, macros; one a line, its kind first.
+names() {
+    sed 's://.*::' "$1" | awk '
+        { text = text $0 "\n" }
+        END {
+            while ((start = index(text, "/*")) > 0) {
+                rest = substr(text, start)
+                text = substr(text, 1, start - 1) " " substr(rest, index(rest, "*/") + 2)
+            }
+            lines = split(text, line, "\n")
+            depth = kind = 0
+            for (i = 1; i <= lines; i++) {
+                s = line[i]
+                if (s ~ /^#define SMEAR_/) {
+                    split(substr(s, 9), part, /[^A-Za-z0-9_]/)
+                    print "macro", part[1]
+                }
+                if (s ~ /extern "C"/) continue
+                if (s ~ /^#/) {
+                    while (s ~ /\\$/) s = line[++i]
+                    continue
+                }
+                if (depth == 0 && s ~ /^[a-z].*smear_[a-z0-9_]*\(/ && s !~ /typedef/) {
+                    match(s, /smear_[a-z0-9_]*\(/)
+                    print "function", substr(s, RSTART, RLENGTH - 1)
+                }
+                if (depth == 0 && s ~ /enum/) kind = "enum"
+                if (depth == 0 && s ~ /typedef struct [a-z0-9_]* \{/) kind = "struct"
+                if (depth == 0 && s ~ /\)$/) kind = ""
+                if (depth > 0 || s ~ /\{.*\}/) {
+                    t = s
+                    if (kind == "enum") {
+                        gsub(/.*\{/, "", t)
+                        gsub(/=[^,]*/, "", t)
+                        n = split(t, part, /[^A-Z0-9a-z_]+/)
+                        for (k = 1; k <= n; k++)
+                            if (part[k] ~ /^SMEAR_/) print "constant", part[k]
+                    } else if (kind == "struct" && t ~ /;/) {
+                        if (match(t, /\(\*[a-z_0-9]*\)/))
+                            print "field", substr(t, RSTART + 2, RLENGTH - 3)
+                        else {
+                            gsub(/\[[^]]*\]/, "", t)
+                            sub(/}/, "", t)
+                            gsub(/\*/, " ", t)
+                            sub(/;.*/, "", t)
+                            n = split(t, part, ",")
+                            for (k = 1; k <= n; k++) {
+                                m = split(part[k], word, " ")
+                                if (m > 0) print "field", word[m]
+                            }
+                        }
+                    }
+                }
+                opened = gsub(/\{/, "{", s)
+                depth += opened - gsub(/\}/, "}", s)
+                if (depth == 0 && s ~ /\}/) kind = ""
+            }
+        }'
+}
+
+missing=0
+check() { # KIND NAME PATTERN FILE
+    grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
+}
+known=0
+for header in include/smear.h include/smear_math.h include/smear_model.h include/smear_memory.h; do
+    names $header >"$base/names"
+    known=$((known + $(wc -l <"$base/names")))
+    while read -r kind name; do
+        case $kind:$name:$header in
+        *_ | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:* | *:smear_desc_of:*) ;;
+        function:*) check "$kind" "$name" "\\b$name(" "$base/code" ;;
+        field:*:include/smear.h | field:*:include/smear_math.h) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
+        *:include/smear.h) check "$kind" "$name" "\\b$name\\b" $page ;;
+        esac
+    done <"$base/names"
+done
+[ $known -gt 400 ] || { echo "manual.sh: only $known names found in the headers" >&2; exit 1; }
+[ $missing = 0 ] || { echo "$page: $missing names are missing" >&2; exit 1; }
