@@ -180,7 +180,8 @@ layers:
 	sh tests/shell/layers.sh $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(TEST_ROOMS)
 
 # All C sources but what tools write.
-FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
+NO_ROOMS := platform/examples $(patsubst %/,%,$(sort $(dir $(shell find tests/examples/stand_ins -name "*.h"))))
+FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
 
 .PHONY: format format-check
 ## sources are indented as .clang-format says (needs clang-format-14); make format indents them
@@ -286,7 +287,7 @@ $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
 
-.PHONY: print-suites print-san-suites run-suite test-headers test-examples test-tables test-readme
+.PHONY: print-suites print-san-suites run-suite test-headers test-examples test-flush test-tables test-readme
 print-suites:
 	@echo $(SUITES)
 
@@ -329,6 +330,12 @@ test-examples: $(LIB)
 	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/cxx.ppm
 	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/hpp.ppm
 	[ $$(tail -c 57600 $(EXAMPLES)/c.ppm | od -An -v -tx1 -w3 | sort -u | wc -l) -gt 100 ]
+
+# flush() for other people's displays (platform/examples), on stand-ins of their headers: one picture on all panels.
+FLUSH_CXX := adafruit_gfx arduino_gfx lovyangfx tft_espi u8g2
+FLUSH_ALL := $(filter-out cube,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h)))
+test-flush: $(LIB)
+	MAKE="$(MAKE)" CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) $(FLUSH_ALL)
 
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c

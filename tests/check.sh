@@ -17,6 +17,7 @@ suite table-file $make -s test-tables
 suite readme $make -s test-readme
 suite manual $make -s test-manual
 suite examples $make -s test-examples
+suite flush $make -s test-flush
 for name in $($make -s print-suites); do
     case $longest in
     *" $name "*) ;;

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* adafruit_gfx.h - smear on a colour display of Adafruit_GFX: any whose class is an Adafruit_SPITFT. */
+#include <Adafruit_ST7789.h>
+
+#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+
+static Adafruit_ST7789 tft(10, 9, 8);   /* chip select, data/command, reset */
+
+static int display_flush(void *, const smear_band *band)
+{
+    tft.startWrite();
+    tft.setAddrWindow(band->x, band->y, band->width, band->height);
+    tft.writePixels((uint16_t *)band->pixels, band->size / 2, true, true);   /* waits; high byte first */
+    tft.endWrite();
+    return SMEAR_OK;
+}
+
+static void display_begin(smear_desc *desc)
+{
+    tft.init(240, 240);
+    desc->flush = display_flush;
+}

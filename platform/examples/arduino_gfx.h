@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* arduino_gfx.h - smear on a display of Arduino_GFX. */
+#include <Arduino_GFX_Library.h>
+
+#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+
+static Arduino_GFX *gfx = new Arduino_ST7789(create_default_Arduino_DataBus(), 8 /* reset */, 0, true, 240, 240);
+
+static int display_flush(void *, const smear_band *band)
+{
+    gfx->draw16bitBeRGBBitmap(band->x, band->y, (uint16_t *)band->pixels, band->width, band->height);
+    return SMEAR_OK;
+}
+
+static void display_begin(smear_desc *desc)
+{
+    gfx->begin();
+    desc->flush = display_flush;
+}

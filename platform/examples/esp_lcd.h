@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* esp_lcd.h - smear on a panel of ESP-IDF's esp_lcd: its driver queues a band while another is sent by DMA. */
+#include <driver/spi_master.h>
+#include <esp_lcd_panel_io.h>
+#include <esp_lcd_panel_ops.h>
+#include <esp_lcd_panel_vendor.h>
+#include <freertos/FreeRTOS.h>
+#include <freertos/task.h>
+
+#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED      /* two bands */
+#define PIN_CLOCK 12
+#define PIN_DATA 11
+#define PIN_SELECT 10
+#define PIN_COMMAND 9
+#define PIN_RESET 8
+
+static esp_lcd_panel_handle_t panel;
+
+static int display_flush(void *user, const smear_band *band)
+{
+    (void)user;
+    return esp_lcd_panel_draw_bitmap(panel, band->x, band->y, band->x + band->width, band->y + band->height, band->pixels)
+                   == ESP_OK ? SMEAR_OK : -100;
+}
+
+/* From the driver's interrupt. */
+static bool display_sent(esp_lcd_panel_io_handle_t io, esp_lcd_panel_io_event_data_t *event, void *user)
+{
+    (void)io, (void)event, (void)user;
+    smear_band_done(ctx);
+    return false;
+}
+
+static void display_idle(void *user)
+{
+    (void)user;
+    taskYIELD();
+}
+
+static void display_begin(smear_desc *desc)
+{
+    spi_bus_config_t bus = { .mosi_io_num = PIN_DATA, .miso_io_num = -1, .sclk_io_num = PIN_CLOCK, .quadwp_io_num = -1,
+                             .quadhd_io_num = -1, .max_transfer_sz = 240 * 64 * 2 };
+    esp_lcd_panel_io_spi_config_t wires = { .cs_gpio_num = PIN_SELECT, .dc_gpio_num = PIN_COMMAND, .pclk_hz = 40 * 1000 * 1000,
+                                            .trans_queue_depth = 2, .lcd_cmd_bits = 8, .lcd_param_bits = 8,
+                                            .on_color_trans_done = display_sent };
+    esp_lcd_panel_dev_config_t kind = { .reset_gpio_num = PIN_RESET, .bits_per_pixel = 16 };
+    esp_lcd_panel_io_handle_t io;
+    spi_bus_initialize(SPI2_HOST, &bus, SPI_DMA_CH_AUTO);
+    esp_lcd_new_panel_io_spi((esp_lcd_spi_bus_handle_t)SPI2_HOST, &wires, &io);
+    esp_lcd_new_panel_st7789(io, &kind, &panel);
+    esp_lcd_panel_reset(panel);
+    esp_lcd_panel_init(panel);
+    esp_lcd_panel_invert_color(panel, true);
+    esp_lcd_panel_disp_on_off(panel, true);
+    desc->flush = display_flush;
+    desc->idle = display_idle;
+}

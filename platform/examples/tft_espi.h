@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* tft_espi.h - smear on a display of TFT_eSPI, whose pins User_Setup.h names. */
+#include <TFT_eSPI.h>
+
+#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+
+static TFT_eSPI tft;
+
+static int display_flush(void *, const smear_band *band)
+{
+    tft.startWrite();
+    tft.setAddrWindow(band->x, band->y, band->width, band->height);
+    tft.pushPixels(band->pixels, band->size / 2);
+    tft.endWrite();
+    return SMEAR_OK;
+}
+
+static void display_begin(smear_desc *desc)
+{
+    tft.init();
+    tft.setSwapBytes(false);            /* bands are as the panel wants them */
+    desc->flush = display_flush;
+}

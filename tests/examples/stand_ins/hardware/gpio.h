@@ -1,0 +1,3 @@
+/* SPDX-License-Identifier: MIT */
+/* A stand-in for pico-sdk: see hardware/spi.h. */
+#include "../hardware/spi.h"

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* plain.h - what the others are compared with: bands go straight to the panel. */
+#include "panel.h"
+
+#ifdef SMALL_PANEL
+#define SCREEN 128, 64, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_L1_PAGES
+#else
+#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED
+#endif
+
+static int display_flush(void *user, const smear_band *band)
+{
+    (void)user;
+#ifdef SMALL_PANEL
+    memcpy(panel_memory + band->y / 8 * PANEL_WIDTH, band->pixels, band->size);
+#else
+    panel_window(band->x, band->y, band->width, band->height);
+    panel_bytes(band->pixels, band->size);
+#endif
+    return SMEAR_OK;
+}
+
+static void display_begin(smear_desc *desc) { desc->flush = display_flush; }
