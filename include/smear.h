@@ -91,7 +91,7 @@ static inline int smear_error_kind(int result)
     return result <= SMEAR_ERR_FIELD ? (int)SMEAR_ERR_ARG : result;
 }
 
-/* Returns a sentence without a full stop, as "desc.width: not 1 to 2048 pixels"; never null. Where SMEAR_WITH_ERROR_TEXT
+/* Returns a sentence without a full stop, as "desc.width: not 1 to 2048 pixels"; never null. Where SMEAR_WITH_DEBUG
  * is 0 it is short and does not name the field. */
 const char *smear_error_text(int result);
 
@@ -416,6 +416,8 @@ typedef struct smear_motion_scale {
     uint16_t object;            /* of draws and their deformation (which grows 8 times at most) */
 } smear_motion_scale;
 
+typedef struct smear_overlay smear_overlay;
+
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
     const smear_camera *open, *close;   /* as in smear_draw; null: the cameras kept from the last frames
@@ -441,6 +443,7 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
                                  * moves */
     uint8_t layer_count;
+    const smear_overlay *overlay;       /* text and sprites over the frame: smear_overlay.h. Null: none */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */

@@ -83,11 +83,12 @@
 #ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
 #define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_ERROR_TEXT           /* what smear_error_text says */
-#define SMEAR_WITH_ERROR_TEXT SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_OVERLAY              /* smear_overlay.h: boxes, sprites, text */
+#define SMEAR_WITH_OVERLAY SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_INSPECT              /* desc.debug.inspect: what tests and tools look at */
-#define SMEAR_WITH_INSPECT SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_DEBUG                /* what smear_error_text says; desc.debug.inspect, which
+                                         * tests and tools look at */
+#define SMEAR_WITH_DEBUG SMEAR_WITH_ALL
 #endif
 
 /* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are

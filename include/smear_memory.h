@@ -29,7 +29,7 @@
 /* Bytes of one of each thing, at most. */
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window */
-#define SMEAR_DAMAGE_BYTES 56u              /* what is kept beside the window's rows or the display's tiles */
+#define SMEAR_DAMAGE_BYTES 64u              /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
 #define SMEAR_OLDER_BYTES 52u               /* the pose of an id before that: not with reuse.one_pose */
 #define SMEAR_OLDER_CAMERA_BYTES 80u
@@ -128,7 +128,8 @@
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)
 #define SMEAR_DAMAGE_(d, c, a, columns, rows) \
-    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * 4u) + SMEAR_UP8_((columns) * (rows)) : 0u) : 0u)
+    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * 4u) + SMEAR_UP8_((columns) * (rows)) \
+                                            + (SMEAR_WITH_OVERLAY ? SMEAR_UP8_((columns) * (rows) * 4u) : 0u) : 0u) : 0u)
 /* Rows of a layer with their margins; what groups leave for others they pass through; sums; groups. */
 #define SMEAR_LAYERS_(w, h, m, T, r, d, k) \
     (SMEAR_HAS_LAYERS_(m) \

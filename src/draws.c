@@ -191,6 +191,8 @@ void smear_draws_find_damage(struct smear_context *c)
         if (!c->raster_draw[i].moves)
             smear_damage_add(d, &c->submitted[i].draw);
     smear_damage_find(d, &c->rows, c->frame.refresh);
+    if (SMEAR_OVERLAY_MOST)
+        smear_damage_find_overlay(d, &c->rows);
     c->assembler.path_static_count = 0;
     if (damage_has_tiles(d))
         c->assembler.damaged = &d->tiles;

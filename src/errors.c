@@ -3,7 +3,7 @@
 #include "base/base.h"
 #include "faults.h"
 
-#if SMEAR_WITH_ERROR_TEXT
+#if SMEAR_WITH_DEBUG
 
 /* One after the other, each with its end: the kinds from SMEAR_OK down to SMEAR_ERR_ROOM, then the faults. */
 #define TEXT(name, text) text "\0"

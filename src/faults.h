@@ -55,6 +55,11 @@
     X(FRAME_TRANSLATION, "frame.scale.translation: as rotation") \
     X(FRAME_OBJECT, "frame.scale.object: as rotation") \
     X(FRAME_LAYER, "frame.layer: too many, or a bad one") \
+    X(FRAME_OVERLAY, "frame.overlay: without items, or not compiled in") \
+    X(ITEM_SCALE, "overlay.item.scale: above 8") \
+    X(ITEM_IMAGE, "overlay.item.image: without pixels or palette, or out of range") \
+    X(ITEM_CELL, "overlay.item.cell: not below image.cells") \
+    X(ITEM_FONT, "overlay.item.font: missing, or as image") \
     X(DRAW_ID, "draw.id: twice in this frame") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
     X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \

@@ -124,13 +124,17 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
     if (!caches_static(d) && !tiles)
         return;
     struct smear_tile_box *seen = tiles ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
+    uint32_t *over = SMEAR_OVERLAY_MOST && tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, sizeof *over) : NULL;
     const struct smear_damaged_tiles damaged = {
         tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, 1) : NULL,
         (uint8_t)(w->columns - 1), (uint8_t)w->tile_shift, false, NULL
     };
     c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage);
-    if (c->damage != NULL)          /* not only measured */
-        *c->damage = (struct smear_damage){ .caches = caches_static(d), .tiles = damaged, .seen = seen };
+    if (c->damage == NULL)          /* only measured */
+        return;
+    *c->damage = (struct smear_damage){ .caches = caches_static(d), .tiles = damaged, .seen = seen, .over = over };
+    if (over != NULL)
+        __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
 }
 
 static void lay_out_layer_rows(struct smear_layer_rows *r, struct smear_arena *a, const smear_desc *d)
@@ -208,7 +212,7 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     lay_out_temporal(c, a, d);
     lay_out_damage(c, a, d);
     lay_out_layers(c, a, d);
-    rows->inspect = SMEAR_WITH_INSPECT && d->debug.inspect != NULL && has_window(d) ? arena_take(a, plane_of(&rows->window), 8)
+    rows->inspect = SMEAR_WITH_DEBUG && d->debug.inspect != NULL && has_window(d) ? arena_take(a, plane_of(&rows->window), 8)
                                                                                     : NULL;
     c->sums.whole = wants(d, SMEAR_SET(SMEAR_ACCUMULATE));
     if (wants(d, SMEAR_SET_SUMS))

@@ -100,6 +100,8 @@ static int resolve(struct smear_context *c, smear_frame *f)
         result = smear_resolve_frame(f, &c->desc);
     if (result == SMEAR_OK)
         result = smear_check_layers(f);
+    if (result == SMEAR_OK)
+        result = smear_check_overlay(f->overlay);
     if (result == SMEAR_OK && SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f->shutter.curve))
         result = FAULT(FRAME_CURVE);
     return result;
@@ -113,6 +115,7 @@ static void keep_frame(struct smear_context *c, const smear_frame *f)
     c->frame.shutter.curve = NULL;
     c->frame.light = NULL;
     c->frame.layer = NULL;
+    c->rows.overlay = f->overlay;
 }
 
 int smear_begin(smear_context *c, const smear_frame *frame)
@@ -238,7 +241,9 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
     smear_frame f = *frame;
     if (f.camera == NULL || f.camera->near_plane <= 0)
         return FAULT(FRAME_CAMERA);
-    const int result = smear_resolve_frame(&f, &c->desc);
+    int result = smear_resolve_frame(&f, &c->desc);
+    if (result == SMEAR_OK)
+        result = smear_check_overlay(f.overlay);
     if (result != SMEAR_OK)
         return result;
     if (!smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA)

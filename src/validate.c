@@ -3,6 +3,7 @@
 #include "validate.h"
 
 #include "smear_memory.h"
+#include "smear_overlay.h"
 
 #include "display/pixel_format.h"
 #include "methods/accumulate.h"
@@ -345,6 +346,40 @@ int smear_check_layers(const smear_frame *f)
     for (int i = 0; i < SMEAR_LAYERS_MOST && i < f->layer_count; i++)
         if (!is_layer(&f->layer[i]))
             return FAULT(FRAME_LAYER);
+    return SMEAR_OK;
+}
+
+/* ------------------------------------------------------------------ overlay */
+
+static bool is_image(const smear_image *m)
+{
+    return m->pixels != NULL && m->width >= 1 && m->width <= 2048 && m->height >= 1 && m->height <= 2048
+        && m->format <= SMEAR_IMAGE_PALETTE8 && (m->format <= SMEAR_IMAGE_MASK4 || m->palette != NULL);
+}
+
+static int check_item(const smear_overlay_item *item)
+{
+    const smear_image *m = item->image;
+    if (item->scale > 8)
+        return FAULT(ITEM_SCALE);
+    if (item->text != NULL)
+        return item->font != NULL && is_image(&item->font->glyph) ? SMEAR_OK : FAULT(ITEM_FONT);
+    if (m != NULL && !is_image(m))
+        return FAULT(ITEM_IMAGE);
+    return m != NULL && item->cell != 0 && item->cell >= m->cells ? FAULT(ITEM_CELL) : SMEAR_OK;
+}
+
+int smear_check_overlay(const smear_overlay *overlay)
+{
+    if (overlay == NULL)
+        return SMEAR_OK;
+    if (!SMEAR_OVERLAY_MOST || (overlay->item == NULL && overlay->count != 0))
+        return FAULT(FRAME_OVERLAY);
+    for (int i = 0; SMEAR_OVERLAY_MOST && i < overlay->count; i++) {
+        const int result = check_item(&overlay->item[i]);
+        if (result != SMEAR_OK)
+            return result;
+    }
     return SMEAR_OK;
 }
 

@@ -13,6 +13,7 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d);
 /* Return SMEAR_OK or the number of what is wrong. */
 int smear_check_cameras(const smear_frame *f);
 int smear_check_layers(const smear_frame *f);
+int smear_check_overlay(const smear_overlay *overlay);
 int smear_check_draw(const smear_draw *draw);
 
 #endif

@@ -3,6 +3,7 @@
 #include "display/band.h"
 
 #include "base/crc32.h"
+#include "display/overlay.h"
 #include "display/pixel_format.h"
 
 uint8_t *smear_band_begin(struct smear_rows *rows)
@@ -77,11 +78,39 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                      (smear_dither)rows->desc->dither);
 }
 
+/* Converts columns [x0, x1) of row y with what lies over them. */
+static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
+{
+    const struct smear_rows *rows = r->rows;
+    uint32_t part[OVERLAY_PART];
+    for (int32_t x = x0, end; x < x1; x = end) {
+        end = min_i32((x | (OVERLAY_PART - 1)) + 1, x1);
+        const bool covered = smear_overlay_draw(rows->overlay, part, in + (x - x0), x, end, y, frame_is_linear(&rows->raster));
+        convert(r, covered ? part : in + (x - x0), x, end, y);
+    }
+}
+
+/* Whether something lies over columns [x0, x1) of the job's rows. */
+static bool is_covered(const struct row_job *r, int32_t x0, int32_t x1)
+{
+    const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
+    return rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
+}
+
+static void convert_row(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y, bool covered)
+{
+    if (covered)
+        convert_covered(r, in, x0, x1, y);
+    else
+        convert(r, in, x0, x1, y);
+}
+
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
                              int32_t x1)
 {
+    const bool covered = is_covered(r, x0, x1);
     for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
-        convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);
+        convert_row(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y, covered);
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
@@ -93,8 +122,10 @@ void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
 
 void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile)
 {
+    const int32_t x0 = tile_left(r->rows, column), x1 = tile_right(r->rows, column);
+    const bool covered = is_covered(r, x0, x1);
     for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += r->rows->window.tile)
-        convert(r, tile, tile_left(r->rows, column), tile_right(r->rows, column), y);
+        convert_row(r, tile, x0, x1, y, covered);
 }
 
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)

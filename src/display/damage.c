@@ -6,6 +6,8 @@
  * texels only by their place (smear_frame.refresh). */
 #include "display/damage.h"
 
+#include "display/overlay.h"
+
 #if SMEAR_WITH_DAMAGE
 
 /* ------------------------------------------------------------------ hash */
@@ -116,6 +118,74 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
         d->tiles.tile[i] = rows->desc->reuse.buffer_age;
 }
+
+#if SMEAR_WITH_OVERLAY
+
+/* Hashes what is the same for all of item number `i`: an image's pixels only by their place. */
+static void mix_item(uint32_t h[2], const smear_overlay_item *item, int32_t i)
+{
+    static const smear_image none = { 0 };
+    const smear_image *m = item->text != NULL ? &item->font->glyph : item->image != NULL ? item->image : &none;
+    const int32_t word[] = {
+        i, bytes(item->color[0], item->color[1], item->color[2], item->color[3]), item->x, item->y,
+        (int32_t)((uint32_t)item->width << 16 | item->height), (int32_t)((uint32_t)item->scale << 16 | item->cell),
+        low(m->pixels), high(m->pixels), low(m->palette), high(m->palette),
+        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, item->text != NULL, 0)
+    };
+    h[0] = h[1] = 0;
+    mix(h, word, (int)(sizeof word / sizeof *word));
+}
+
+/* Adds a hash to the sums of tiles that a box touches. */
+static void add_box(uint32_t *over, const struct smear_window *w, const struct overlay_box *box, uint32_t hash)
+{
+    const int32_t x0 = max_i32(box->x0, 0), x1 = min_i32(box->x1, w->width), y1 = min_i32(box->y1, w->height);
+    for (int32_t y = max_i32(box->y0, 0) >> w->tile_shift; x0 < x1 && y << w->tile_shift < y1; y++)
+        for (int32_t x = x0 >> w->tile_shift; x << w->tile_shift < x1; x++)
+            over[y * w->columns + x] += hash;
+}
+
+/* Adds the hashes of what lies over tiles, letter by letter, times `sign` to their sums. */
+static void add_items(uint32_t *over, const smear_overlay *overlay, const struct smear_window *w, uint32_t sign)
+{
+    for (int32_t i = 0; i < overlay->count; i++) {
+        const smear_overlay_item *item = &overlay->item[i];
+        uint32_t h[2];
+        mix_item(h, item, i);
+        if (item->text == NULL) {
+            const struct overlay_box box = smear_overlay_box(item);
+            add_box(over, w, &box, sign * (h[0] + h[1]));
+            continue;
+        }
+        struct overlay_box box = smear_overlay_letter(item);
+        const int32_t step = smear_overlay_advance(item);
+        for (const char *c = item->text; *c != '\0' && box.x0 < w->width; c++, box.x0 += step, box.x1 += step) {
+            const int32_t word[2] = { *c, box.x0 };
+            uint32_t letter[2] = { h[0], h[1] };
+            mix(letter, word, 2);
+            add_box(over, w, &box, sign * (letter[0] + letter[1]));
+        }
+    }
+}
+
+/* What is left of a tile's sum without this frame's items is what differs. */
+void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows)
+{
+    static const smear_overlay none = { NULL, 0 };
+    const struct smear_window *w = &rows->window;
+    const smear_overlay *overlay = rows->overlay != NULL ? rows->overlay : &none;
+    if (!damage_has_tiles(d))
+        return;
+    add_items(d->over, overlay, w, 0u - 1u);
+    for (int32_t i = 0; i < w->columns * w->rows; i++) {
+        if (d->over[i] != 0)
+            d->tiles.tile[i] = rows->desc->reuse.buffer_age;
+        d->over[i] = 0;
+    }
+    add_items(d->over, overlay, w, 1);
+}
+
+#endif
 
 void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed)
 {

@@ -17,6 +17,7 @@ struct smear_damage {
     struct smear_damaged_tiles tiles;   /* for how many frames each tile must still be drawn, this one included, or
                                          * TILE_DAMAGED_NOW */
     struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
+    uint32_t *over;                     /* sum of hashes of what lies over each tile; null without SMEAR_WITH_OVERLAY */
 };
 
 /* Whether what is static need not be drawn: the window shows it. */
@@ -44,6 +45,9 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
                         const struct smear_sun *sun);
 void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
+
+/* Has tiles drawn over which something else lies than in the last frame. */
+void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows);
 
 /* Ends a frame: all rows have been drawn or kept. `disturbed`: triangles that move by less than a step of their vertices were drawn
  * among what is static. */

@@ -60,10 +60,16 @@ struct smear_rows {
     bool blends;                /* some draw is blended */
     bool keeps_motion;          /* triangles that move write velocities into the window */
     uint32_t clear;             /* 0x00RRGGBB */
+    const smear_overlay *overlay;       /* what lies over the finished frame; or null */
     uint32_t *scratch;          /* finished pixels of a tile or strip per worker */
     int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
     uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */
 };
+
+static inline bool rows_have_overlay(const struct smear_rows *rows)
+{
+    return SMEAR_WITH_OVERLAY && rows->overlay != NULL;
+}
 
 /* ------------------------------------------------------------------ time */
 

@@ -4,6 +4,7 @@
 
 #include "kernels/fill.h"
 #include "display/band.h"
+#include "display/overlay.h"
 #include "display/pixel_format.h"
 #include "raster/velocity.h"
 
@@ -56,7 +57,7 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
     for (int32_t i = 0; i < rows->window.columns; i++)
         rows->window.moving[i] = 0;
     smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
-    if (SMEAR_WITH_INSPECT && rows->inspect != NULL)
+    if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
         inspect_row(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 }
@@ -106,11 +107,18 @@ static int draw_direct_row(struct smear_rows *rows, int row)
     return smear_band_flush(&job);
 }
 
+/* What lies over pixels is drawn before they become the display's. */
+static bool is_covered(const struct smear_rows *rows, int row)
+{
+    const struct overlay_box box = { 0, row_top(rows, row), rows->window.width, row_bottom(rows, row) };
+    return rows_have_overlay(rows) && smear_overlay_touches(rows->overlay, &box);
+}
+
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
 {
     int result = SMEAR_OK;
     for (int row = first; row < end && result == SMEAR_OK; row++) {
-        if (SMEAR_DIRECT && direct && rows->refill == NULL) {
+        if (SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row)) {
             result = draw_direct_row(rows, row);
         } else {
             smear_sharp_draw_row(rows, row, NULL);

@@ -22,7 +22,7 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
     smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
     smear_velocity_store(displacement, store->velocity_scale, true, store->reach_q3, stored);
     struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
-    if (SMEAR_WITH_INSPECT && store->inspect != NULL) {
+    if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
         k.wide_x = narrow_sat((int64_t)displacement[0] * store->inspect_scale >> 16);
         k.wide_y = narrow_sat((int64_t)displacement[1] * store->inspect_scale >> 16);
     }
@@ -33,7 +33,7 @@ static inline void keep(const struct smear_window *w, const struct smear_camera_
                         struct kept k)
 {
     window_velocity_store(w, at, k.x, k.y);
-    if (SMEAR_WITH_INSPECT && store->inspect != NULL) {
+    if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
         store->inspect[2 * at] = k.wide_x;
         store->inspect[2 * at + 1] = k.wide_y;
     }

@@ -63,7 +63,7 @@ struct smear_raster_target {
 /* Tests and tools look at velocities. */
 static inline bool target_is_inspected(const struct smear_raster_target *t)
 {
-    return SMEAR_WITH_INSPECT && t->inspect != NULL;
+    return SMEAR_WITH_DEBUG && t->inspect != NULL;
 }
 
 static inline bool target_has_velocity(const struct smear_raster_target *t)

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+/* overlay.c - see overlay.h. */
+#include "display/overlay.h"
+
+#include "base/pixel.h"
+
+#if SMEAR_WITH_OVERLAY
+
+/* A part of a row. */
+struct part {
+    uint32_t *out;
+    const uint32_t *in;
+    int32_t x0, x1;
+    bool linear;
+    bool touched;               /* pixels of `in` have been copied */
+};
+
+static int32_t scale_of(const smear_overlay_item *item)
+{
+    return item->scale != 0 ? item->scale : 1;
+}
+
+static int32_t advance_of(const smear_font *font)
+{
+    return font->advance != 0 ? font->advance : font->glyph.width;
+}
+
+int32_t smear_overlay_advance(const smear_overlay_item *item)
+{
+    return advance_of(item->font) * scale_of(item);
+}
+
+struct overlay_box smear_overlay_letter(const smear_overlay_item *item)
+{
+    const smear_image *m = &item->font->glyph;
+    const int32_t scale = scale_of(item);
+    return (struct overlay_box){ item->x, item->y, item->x + m->width * scale, item->y + m->height * scale };
+}
+
+static uint32_t color_of(const smear_overlay_item *item)
+{
+    const uint8_t *c = item->color;
+    return c[3] == 0 ? 0xffffffffu : pixel_make(c[3], c[0], c[1], c[2]);
+}
+
+/* Returns the columns of a text: from its first letter to the end of its last. More than any frame has are not counted. */
+static int32_t text_width(const smear_overlay_item *item)
+{
+    enum { MOST = 65536 };
+    const int32_t advance = advance_of(item->font);
+    int32_t width = 0;
+    for (const char *c = item->text; *c != '\0' && width < MOST; c++)
+        width += advance;
+    return width == 0 ? 0 : width - advance + item->font->glyph.width;
+}
+
+struct overlay_box smear_overlay_box(const smear_overlay_item *item)
+{
+    const int32_t scale = scale_of(item);
+    int32_t width = item->width, height = item->height;
+    if (item->text != NULL) {
+        width = text_width(item);
+        height = item->font->glyph.height;
+    } else if (item->image != NULL) {
+        width = item->image->width;
+        height = item->image->height;
+    }
+    return (struct overlay_box){ item->x, item->y, item->x + width * scale, item->y + height * scale };
+}
+
+bool smear_overlay_touches(const smear_overlay *overlay, const struct overlay_box *box)
+{
+    for (int32_t i = 0; i < overlay->count; i++) {
+        const struct overlay_box b = smear_overlay_box(&overlay->item[i]);
+        if (b.x0 < box->x1 && b.x1 > box->x0 && b.y0 < box->y1 && b.y1 > box->y0)
+            return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+/* Draws `argb` over columns [x0, x1) as far as they are in the part. */
+static inline void cover(struct part *p, int32_t x0, int32_t x1, uint32_t argb)
+{
+    const uint32_t alpha = pixel_alpha(argb);
+    for (int32_t x = max_i32(x0, p->x0); x < min_i32(x1, p->x1); x++) {
+        uint32_t *out = &p->out[x - p->x0];
+        *out = alpha == 255u ? argb & 0xffffffu : pixel_blend(*out, argb, alpha, SMEAR_WITH_LINEAR && p->linear);
+    }
+}
+
+/* Copies the part, once, where columns [x0, x1) lie in it. */
+static bool reaches(struct part *p, int32_t x0, int32_t x1)
+{
+    if (x0 >= p->x1 || x1 <= p->x0)
+        return false;
+    if (!p->touched)
+        for (int32_t i = 0; i < p->x1 - p->x0; i++)
+            p->out[i] = p->in[i];
+    p->touched = true;
+    return true;
+}
+
+/* Returns the pixel of a row of an image as 0xAARRGGBB; of a mask, `argb` as far as it counts. */
+static uint32_t pixel_of(const smear_image *m, const uint8_t *row, int32_t i, uint32_t argb)
+{
+    const uint32_t nibble = (i & 1) != 0 ? row[i >> 1] & 15u : (uint32_t)(row[i >> 1] >> 4);
+    const uint32_t color = m->format == SMEAR_IMAGE_MASK4   ? (argb & 0xffffffu) | nibble * 17u << 24
+                         : m->format == SMEAR_IMAGE_PALETTE4 ? m->palette[nibble]
+                                                             : m->palette[row[i]];
+    return (color & 0xffffffu) | code_times(pixel_alpha(color), pixel_alpha(argb)) << 24;
+}
+
+static uint32_t row_bytes(const smear_image *m)
+{
+    return m->format == SMEAR_IMAGE_PALETTE8 ? m->width : m->format == SMEAR_IMAGE_MASK1 ? (m->width + 7u) / 8u
+                                                                                         : (m->width + 1u) / 2u;
+}
+
+/* Draws row `line` of an image's cell from column x on. */
+static void draw_cell(struct part *p, const smear_image *m, uint32_t cell, int32_t line, int32_t x, int32_t scale, uint32_t argb)
+{
+    const uint8_t *row = m->pixels + (cell * m->height + (uint32_t)line) * row_bytes(m);
+    int32_t i = 0;
+    if (!reaches(p, x, x + m->width * scale))
+        return;
+    for (; x + scale <= p->x0; x += scale)
+        i++;
+    for (; i < m->width && x < p->x1; i++, x += scale) {
+        if (m->format != SMEAR_IMAGE_MASK1)
+            cover(p, x, x + scale, pixel_of(m, row, i, argb));
+        else if ((row[i >> 3] & 0x80 >> (i & 7)) != 0)
+            cover(p, x, x + scale, argb);
+    }
+}
+
+static void draw_text(struct part *p, const smear_overlay_item *item, int32_t line, int32_t scale, uint32_t argb)
+{
+    const smear_font *font = item->font;
+    const uint32_t cells = font->glyph.cells != 0 ? font->glyph.cells : 1u;
+    const int32_t step = smear_overlay_advance(item);
+    int32_t x = item->x;
+    for (const char *c = item->text; *c != '\0' && x < p->x1; c++, x += step) {
+        const uint32_t cell = (uint32_t)(uint8_t)*c - font->first;
+        if (cell < cells)
+            draw_cell(p, &font->glyph, cell, line, x, scale, argb);
+    }
+}
+
+bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
+                        bool linear)
+{
+    struct part p = { out, in, x0, x1, linear, false };
+    for (int32_t i = 0; i < overlay->count; i++) {
+        const smear_overlay_item *item = &overlay->item[i];
+        const int32_t scale = scale_of(item);
+        const int32_t rows = item->text != NULL ? item->font->glyph.height : item->image != NULL ? item->image->height : item->height;
+        const uint32_t argb = color_of(item);
+        int32_t line = y - item->y;
+        if (line < 0 || line >= rows * scale || item->x >= x1)
+            continue;
+        if (scale != 1)
+            line /= scale;
+        if (item->text != NULL)
+            draw_text(&p, item, line, scale, argb);
+        else if (item->image != NULL)
+            draw_cell(&p, item->image, item->cell, line, item->x, scale, argb);
+        else if (reaches(&p, item->x, item->x + item->width * scale))
+            cover(&p, item->x, item->x + item->width * scale, argb);
+    }
+    return p.touched;
+}
+
+#endif
