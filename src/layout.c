@@ -213,7 +213,7 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     lay_out_damage(c, a, d);
     lay_out_layers(c, a, d);
     rows->inspect = SMEAR_WITH_DEBUG && d->debug.inspect != NULL && has_window(d) ? arena_take(a, plane_of(&rows->window), 8)
-                                                                                    : NULL;
+                                                                                  : NULL;
     c->sums.whole = wants(d, SMEAR_SET(SMEAR_ACCUMULATE));
     if (wants(d, SMEAR_SET_SUMS))
         c->sums.sum = arena_take(a, (size_t)d->width * (size_t)(c->sums.whole ? d->height : row_px(d)),

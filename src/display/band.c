@@ -82,12 +82,23 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
 static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;
+    const struct overlay_box box = smear_overlay_row(rows->overlay, y);
+    /* Parts begin and end on whole bytes of every format. */
+    const int32_t first = clamp_i32(box.x0, x0, x1) & ~7, covered = max_i32(first, x0), end = min_i32((box.x1 + 7) & ~7, x1);
     uint32_t part[OVERLAY_PART];
-    for (int32_t x = x0, end; x < x1; x = end) {
-        end = min_i32((x | (OVERLAY_PART - 1)) + 1, x1);
-        const bool covered = smear_overlay_draw(rows->overlay, part, in + (x - x0), x, end, y, frame_is_linear(&rows->raster));
-        convert(r, covered ? part : in + (x - x0), x, end, y);
+    if (box.x0 >= x1 || end <= covered) {
+        convert(r, in, x0, x1, y);
+        return;
     }
+    if (covered > x0)
+        convert(r, in, x0, covered, y);
+    for (int32_t x = covered, next; x < end; x = next) {
+        next = min_i32((x & ~7) + OVERLAY_PART, end);
+        const bool drawn = smear_overlay_draw(rows->overlay, part, in + (x - x0), x, next, y, frame_is_linear(&rows->raster));
+        convert(r, drawn ? part : in + (x - x0), x, next, y);
+    }
+    if (end < x1)
+        convert(r, in + (end - x0), end, x1, y);
 }
 
 /* Whether something lies over columns [x0, x1) of the job's rows. */

@@ -2,7 +2,7 @@
 /* overlay.c - see overlay.h. */
 #include "display/overlay.h"
 
-#include "base/pixel.h"
+#include "kernels/fill.h"
 
 #if SMEAR_WITH_OVERLAY
 
@@ -43,15 +43,16 @@ static uint32_t color_of(const smear_overlay_item *item)
     return c[3] == 0 ? 0xffffffffu : pixel_make(c[3], c[0], c[1], c[2]);
 }
 
-/* Returns the columns of a text: from its first letter to the end of its last. More than any frame has are not counted. */
+/* Returns the columns of a text: from its first letter to the end of its last. More letters than any frame has columns are
+ * not counted. */
 static int32_t text_width(const smear_overlay_item *item)
 {
     enum { MOST = 65536 };
-    const int32_t advance = advance_of(item->font);
-    int32_t width = 0;
-    for (const char *c = item->text; *c != '\0' && width < MOST; c++)
-        width += advance;
-    return width == 0 ? 0 : width - advance + item->font->glyph.width;
+    const char *end = item->text;
+    while (*end != '\0')
+        end++;
+    const ptrdiff_t letters = end - item->text;
+    return letters == 0 ? 0 : ((int32_t)(letters < MOST ? letters : MOST) - 1) * advance_of(item->font) + item->font->glyph.width;
 }
 
 struct overlay_box smear_overlay_box(const smear_overlay_item *item)
@@ -81,13 +82,15 @@ bool smear_overlay_touches(const smear_overlay *overlay, const struct overlay_bo
 /* ------------------------------------------------------------------ pixels */
 
 /* Draws `argb` over columns [x0, x1) as far as they are in the part. */
-static inline void cover(struct part *p, int32_t x0, int32_t x1, uint32_t argb)
+static inline void cover(const struct part *p, int32_t x0, int32_t x1, uint32_t argb)
 {
     const uint32_t alpha = pixel_alpha(argb);
-    for (int32_t x = max_i32(x0, p->x0); x < min_i32(x1, p->x1); x++) {
-        uint32_t *out = &p->out[x - p->x0];
-        *out = alpha == 255u ? argb & 0xffffffu : pixel_blend(*out, argb, alpha, SMEAR_WITH_LINEAR && p->linear);
-    }
+    const int32_t first = max_i32(x0, p->x0), n = min_i32(x1, p->x1) - first;
+    uint32_t *out = p->out + (first - p->x0);
+    if (alpha == 255u)
+        pixels_fill(out, argb & 0xffffffu, n);
+    for (int32_t i = 0; alpha < 255u && i < n; i++)
+        out[i] = pixel_blend(out[i], argb, alpha, SMEAR_WITH_LINEAR && p->linear);
 }
 
 /* Copies the part, once, where columns [x0, x1) lie in it. */
@@ -96,10 +99,15 @@ static bool reaches(struct part *p, int32_t x0, int32_t x1)
     if (x0 >= p->x1 || x1 <= p->x0)
         return false;
     if (!p->touched)
-        for (int32_t i = 0; i < p->x1 - p->x0; i++)
-            p->out[i] = p->in[i];
+        __builtin_memcpy(p->out, p->in, (size_t)(p->x1 - p->x0) * sizeof *p->out);
     p->touched = true;
     return true;
+}
+
+static uint32_t row_bytes(const smear_image *m)
+{
+    return m->format == SMEAR_IMAGE_PALETTE8 ? m->width : m->format == SMEAR_IMAGE_MASK1 ? (m->width + 7u) / 8u
+                                                                                         : (m->width + 1u) / 2u;
 }
 
 /* Returns the pixel of a row of an image as 0xAARRGGBB; of a mask, `argb` as far as it counts. */
@@ -112,16 +120,24 @@ static uint32_t pixel_of(const smear_image *m, const uint8_t *row, int32_t i, ui
     return (color & 0xffffffu) | code_times(pixel_alpha(color), pixel_alpha(argb)) << 24;
 }
 
-static uint32_t row_bytes(const smear_image *m)
+/* Most letters are opaque bits, 1:1. */
+static inline bool is_plain(const smear_image *m, int32_t scale, uint32_t argb)
 {
-    return m->format == SMEAR_IMAGE_PALETTE8 ? m->width : m->format == SMEAR_IMAGE_MASK1 ? (m->width + 7u) / 8u
-                                                                                         : (m->width + 1u) / 2u;
+    return m->format == SMEAR_IMAGE_MASK1 && scale == 1 && argb >= 0xff000000u;
 }
 
-/* Draws row `line` of an image's cell from column x on. */
-static void draw_cell(struct part *p, const smear_image *m, uint32_t cell, int32_t line, int32_t x, int32_t scale, uint32_t argb)
+/* Draws a row of bits that lies in the part. */
+static inline void draw_bits(uint32_t *out, const uint8_t *row, int32_t n, uint32_t color)
 {
-    const uint8_t *row = m->pixels + (cell * m->height + (uint32_t)line) * row_bytes(m);
+    for (; n > 0; n -= 8, out += 8)
+        for (uint32_t bits = (uint32_t)*row++ << 24, i = 0; bits != 0; bits <<= 1, i++)
+            if ((bits >> 31) != 0)
+                out[i] = color;
+}
+
+/* Draws a row of an image from column x on. */
+static void draw_row(struct part *p, const smear_image *m, const uint8_t *row, int32_t x, int32_t scale, uint32_t argb)
+{
     int32_t i = 0;
     if (!reaches(p, x, x + m->width * scale))
         return;
@@ -138,14 +154,42 @@ static void draw_cell(struct part *p, const smear_image *m, uint32_t cell, int32
 static void draw_text(struct part *p, const smear_overlay_item *item, int32_t line, int32_t scale, uint32_t argb)
 {
     const smear_font *font = item->font;
-    const uint32_t cells = font->glyph.cells != 0 ? font->glyph.cells : 1u;
-    const int32_t step = smear_overlay_advance(item);
+    const smear_image *m = &font->glyph;
+    const uint32_t cells = m->cells != 0 ? m->cells : 1u, pitch = row_bytes(m), size = pitch * m->height;
+    const uint8_t *row = m->pixels + (uint32_t)line * pitch;
+    const int32_t step = smear_overlay_advance(item), width = m->width * scale;
+    const bool plain = is_plain(m, scale, argb);
     int32_t x = item->x;
     for (const char *c = item->text; *c != '\0' && x < p->x1; c++, x += step) {
         const uint32_t cell = (uint32_t)(uint8_t)*c - font->first;
-        if (cell < cells)
-            draw_cell(p, &font->glyph, cell, line, x, scale, argb);
+        if (x + width <= p->x0 || cell >= cells)
+            continue;
+        const uint8_t *letter = row + cell * size;
+        if (plain && x >= p->x0 && x + width <= p->x1 && p->touched)
+            draw_bits(p->out + (x - p->x0), letter, width, argb & 0xffffffu);
+        else
+            draw_row(p, m, letter, x, scale, argb);
     }
+}
+
+/* Returns the line of an item that row y shows, in its own pixels, or -1. */
+static int32_t line_at(const smear_overlay_item *item, int32_t y)
+{
+    const int32_t scale = scale_of(item), line = y - item->y;
+    const int32_t lines = item->text != NULL ? item->font->glyph.height : item->image != NULL ? item->image->height : item->height;
+    return line < 0 || line >= lines * scale ? -1 : scale == 1 ? line : line / scale;
+}
+
+struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y)
+{
+    struct overlay_box all = { INT32_MAX, y, INT32_MIN, y + 1 };
+    for (int32_t i = 0; i < overlay->count; i++)
+        if (line_at(&overlay->item[i], y) >= 0) {
+            const struct overlay_box box = smear_overlay_box(&overlay->item[i]);
+            all.x0 = min_i32(all.x0, box.x0);
+            all.x1 = max_i32(all.x1, box.x1);
+        }
+    return all;
 }
 
 bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
@@ -154,18 +198,15 @@ bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint3
     struct part p = { out, in, x0, x1, linear, false };
     for (int32_t i = 0; i < overlay->count; i++) {
         const smear_overlay_item *item = &overlay->item[i];
-        const int32_t scale = scale_of(item);
-        const int32_t rows = item->text != NULL ? item->font->glyph.height : item->image != NULL ? item->image->height : item->height;
+        const smear_image *m = item->image;
+        const int32_t scale = scale_of(item), line = line_at(item, y);
         const uint32_t argb = color_of(item);
-        int32_t line = y - item->y;
-        if (line < 0 || line >= rows * scale || item->x >= x1)
+        if (line < 0 || item->x >= x1)
             continue;
-        if (scale != 1)
-            line /= scale;
         if (item->text != NULL)
             draw_text(&p, item, line, scale, argb);
-        else if (item->image != NULL)
-            draw_cell(&p, item->image, item->cell, line, item->x, scale, argb);
+        else if (m != NULL)
+            draw_row(&p, m, m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)line) * row_bytes(m), item->x, scale, argb);
         else if (reaches(&p, item->x, item->x + item->width * scale))
             cover(&p, item->x, item->x + item->width * scale, argb);
     }

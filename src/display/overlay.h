@@ -10,7 +10,7 @@
 #include "base/base.h"
 
 /* Pixels of a row that are copied at once. A multiple of 8, which formats of less than a byte per pixel need. */
-enum { OVERLAY_PART = 64 };
+enum { OVERLAY_PART = 128 };
 
 /* Pixels of the frame that an item may touch: columns [x0, x1), rows [y0, y1). */
 struct overlay_box {
@@ -25,6 +25,9 @@ int32_t smear_overlay_advance(const smear_overlay_item *item);
 
 /* Whether an item may touch pixels of a box. */
 bool smear_overlay_touches(const smear_overlay *overlay, const struct overlay_box *box);
+
+/* Returns the columns of row y that items may touch; x0 is above x1 where there are none. */
+struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y);
 
 /* Where an item touches pixels [x0, x1) of row y, at most OVERLAY_PART: copies them from `in` to `out`, draws all items
  * over them, and returns true. */

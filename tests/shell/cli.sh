@@ -633,6 +633,25 @@ claim "everything at once" works convert "$plate" --scale 0.5 --up z --normals f
     --clip-error 1 --rows 64 --fov 30 --distance 9 --max-triangles 4 --max-flash 99999 --max-ram 9999 -o all.h
 claim "says what a pixel is" out_has '(64 rows, 30 degrees, at 9 units)$'
 claim "to a size" works convert "$plate" --fit 3 -o fit.h
+# Letters of 2 x 3 pixels: whole, half and none, and a sprite of four colours.
+printf 'P2 4 3 255\n255 0 0 255\n0 255 255 0\n255 0 0 128\n' >letters.ppm
+claim "a font" works convert letters.ppm --cell 2x3 --font 65 -o letters.h
+claim "a font's pixels" grep -q '0xf0, 0x0f, 0xf0, 0x0f, 0xf0, 0x08' letters.h
+claim "a font's table" grep -q '(const uint32_t \*)0, 2, 3, 2, SMEAR_IMAGE_MASK4 }, 65, 0' letters.h
+printf 'P3 3 1 255\n255 0 255 1 2 3 4 5 6\n' >sprite.ppm
+claim "a sprite" works convert sprite.ppm --key ff00ff --name mark -o sprite.h
+claim "a sprite's pixels" grep -q '0x01, 0x20' sprite.h
+claim "a sprite's palette" grep -q '0x00000000u, 0xff010203u, 0xff040506u' sprite.h
+printf '#include "letters.h"\n#include "sprite.h"\nint main(void) { return mark.width + letters.first - 68; }\n' >sprite.c
+claim "fonts and sprites compile" "${CC:-cc}" -std=c99 -Wall -Wextra -Wpedantic -Werror -I"$here/include" -o sprite sprite.c
+claim "and are what they were" ./sprite
+input "$base/work/letters.ppm" convert "$base/work/letters.ppm" --cell 3x3 -o no.h
+input "$base/work/letters.ppm" convert "$base/work/letters.ppm" --max-flash 5 -o no.h
+usage -o convert "$base/work/letters.ppm" -o no.smr
+usage --cell convert "$plate" --mask -o no.h
+usage --cell convert "$base/work/letters.ppm" --cell 0x3 -o no.h
+usage --key convert "$base/work/letters.ppm" --key red -o no.h
+usage --font convert "$base/work/letters.ppm" --font A -o no.h
 input "$plate" convert "$plate" --max-triangles 3 -o no.h
 claim "says how many there are" err_has 'has 4 triangles, more than 3 (--max-triangles)'
 input "$plate" convert "$plate" --max-flash 100 -o no.h

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* convert.c - `smear convert`: a model as constant data for firmware. */
+/* convert.c - `smear convert`: a model, or a picture for what lies over frames, as constant data for firmware. */
 #include "tools/cli/commands.h"
 
 #include "tools/convert/convert.h"
+#include "tools/convert/sprite.h"
 #include "tools/image/file.h"
 #include "tools/image/image.h"
 #include "tools/options/arguments.h"
@@ -21,6 +22,8 @@ struct convert_command {
     enum model_files files;
     long max_triangles, max_flash, max_ram;     /* 0: no limit */
     struct convert_options options;
+    struct sprite_options sprite;
+    bool is_sprite;             /* an option says so */
 };
 
 /* ------------------------------------------------------------------ options */
@@ -181,6 +184,39 @@ static const char *read_max_ram(void *to, const char *value)
     return read_limit(value, &((struct convert_command *)to)->max_ram);
 }
 
+static const char *read_cell(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    c->is_sprite = true;
+    return read_size(value, 2048, &c->sprite.cell_width, &c->sprite.cell_height) ? NULL : "needs WIDTHxHEIGHT, at most 2048x2048";
+}
+
+static const char *read_key(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    unsigned rgb;
+    if (!read_color(value, &rgb))
+        return "needs RRGGBB";
+    c->sprite.key = rgb;
+    c->is_sprite = c->sprite.has_key = true;
+    return NULL;
+}
+
+static const char *read_mask(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    (void)value;
+    c->is_sprite = c->sprite.mask = true;
+    return NULL;
+}
+
+static const char *read_font(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    c->is_sprite = c->sprite.font = true;
+    return read_whole(value, 0, 255, &c->sprite.first, "needs the code of its first letter, 0 to 255");
+}
+
 static const struct option table[] = {
     { "-o", true, read_output },                { "--name", true, read_identifier },
     { "--clip", true, read_clips },             { "--keep", true, read_keep },
@@ -193,6 +229,8 @@ static const struct option table[] = {
     { "--outside", false, read_outside },
     { "--fov", true, read_view_angle },         { "--max-triangles", true, read_max_triangles },
     { "--max-flash", true, read_max_flash },    { "--max-ram", true, read_max_ram },
+    { "--cell", true, read_cell },              { "--key", true, read_key },
+    { "--mask", false, read_mask },             { "--font", true, read_font },
     { NULL, false, NULL },
 };
 
@@ -426,6 +464,43 @@ static int convert_loaded(struct convert_command *command, const char *path, con
     return status;
 }
 
+static bool is_picture(const char *path)
+{
+    return ends_with(path, ".png") || ends_with(path, ".ppm");
+}
+
+/* A picture becomes a header only. */
+static int convert_picture(const struct convert_command *command, const char *path)
+{
+    struct failure f = { "" };
+    struct sprite_report r;
+    struct image image;
+    char name[64];
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    const bool is_text = is_standard_output(command->output);
+    if (ends_with(command->output, ".smr"))
+        return say_bad_usage("-o", "writes pictures as .h or - (\"%s\")", command->output);
+    if (!image_load(path, &image, &f))
+        return say_bad_input(path, &f);
+    name_from(is_text ? path : command->output, name);
+    const bool ok = sprite_to_header(&image, &command->sprite, command->name != NULL ? command->name : name, base_name(path),
+                                     &bytes, &size, &r, &f);
+    image_free(&image);
+    if (ok && command->max_flash > 0 && r.bytes > (size_t)command->max_flash)
+        fail(&f, "takes %zu bytes of flash, more than %ld (--max-flash)", r.bytes, command->max_flash);
+    int status = f.text[0] != '\0' ? say_bad_input(path, &f) : STATUS_OK;
+    if (status == STATUS_OK && !write_bytes(command->output, bytes, size, &f))
+        status = say_bad_input(is_text ? "standard output" : command->output, &f);
+    free(bytes);
+    if (status == STATUS_OK)
+        fprintf(is_text ? stderr : stdout, "%d of %dx%d pixels, %s: %zu bytes of flash\n%s%s%s", r.cells, r.width, r.height,
+                r.format, r.bytes, is_text ? "" : "wrote ", is_text ? "" : command->output, is_text ? "" : "\n");
+    if (status == STATUS_OK && !output_flush_standard(&f))
+        status = say_bad_input("standard output", &f);
+    return status;
+}
+
 int command_convert(int count, char **text)
 {
     struct convert_command command = { .options = { .scale = 1, .texture_edge = 128, .colors = 256,
@@ -441,7 +516,7 @@ int command_convert(int count, char **text)
     if (status != STATUS_OK)
         return status;
     if (path == NULL)
-        return say_bad_usage("convert", "needs a model (smear help convert)");
+        return say_bad_usage("convert", "needs a model or picture (smear help convert)");
     if (command.output == NULL)
         return say_bad_usage("convert", "needs -o FILE.h or -o FILE.smr (smear help convert)");
     if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr") && !is_standard_output(command.output))
@@ -450,6 +525,10 @@ int command_convert(int count, char **text)
         fail(&f, "built-in scenes are made by the program; only files of models are converted");
         return say_bad_input(path, &f);
     }
+    if (is_picture(path))
+        return convert_picture(&command, path);
+    if (command.is_sprite)
+        return say_bad_usage("--cell", "as --key, --mask and --font: for pictures, .png or .ppm (\"%s\")", path);
     if (!model_load_from(path, command.files, &model, &f))
         return say_bad_input(path, &f);
     if (model.warning[0] != '\0')

@@ -13,8 +13,8 @@ static const char program_help[] =
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
     "    smear view [SCENE]               in a window or terminal, with live controls\n"
-    "    smear convert MODEL -o OUT.h|OUT.smr\n"
-    "                                     a model as constant data for firmware\n"
+    "    smear convert MODEL|PICTURE -o OUT.h|OUT.smr\n"
+    "                                     a model, sprite or font as constant data for firmware\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
     "    smear bench                      what frames cost, beside the bars set for them\n"
@@ -179,6 +179,15 @@ static const char *const convert_help[] = {
     "                        what a pixel is [240 rows, 45 degrees, where the whole model is seen]\n"
     "  --max-triangles N, --max-flash BYTES, --max-ram BYTES\n"
     "                        exit status 1 when it takes more; nothing is simplified\n",
+    "\n"
+    "A .png or .ppm file becomes an image or font of smear_overlay.h, in the smallest format that keeps\n"
+    "its colours: at most 256, with their alpha.\n"
+    "\n"
+    "  --cell WxH            the picture is cut into cells of so many pixels, row by row [it is one]\n"
+    "  --key RRGGBB          pixels of this colour are holes\n"
+    "  --mask                1 or 4 bits per pixel of a colour that firmware names: the alpha, or the\n"
+    "                        brightness where all is opaque\n"
+    "  --font CODE           a mask whose cells are letters, the first of this code (32: a space)\n",
     NULL
 };
 
