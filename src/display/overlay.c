@@ -47,12 +47,12 @@ static uint32_t color_of(const smear_overlay_item *item)
  * not counted. */
 static int32_t text_width(const smear_overlay_item *item)
 {
-    enum { MOST = 65536 };
+    const ptrdiff_t most = 65536;
     const char *end = item->text;
     while (*end != '\0')
         end++;
     const ptrdiff_t letters = end - item->text;
-    return letters == 0 ? 0 : ((int32_t)(letters < MOST ? letters : MOST) - 1) * advance_of(item->font) + item->font->glyph.width;
+    return letters == 0 ? 0 : ((int32_t)(letters < most ? letters : most) - 1) * advance_of(item->font) + item->font->glyph.width;
 }
 
 struct overlay_box smear_overlay_box(const smear_overlay_item *item)

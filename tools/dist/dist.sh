@@ -61,7 +61,7 @@ kconfig() {
 mkdir -p "$out/single"
 # shellcheck disable=SC2086
 "$tool" SOURCE "$out/single/smear.c" $headers $sources
-"$tool" HEADER "$out/single/smear.h" include/smear_config.h include/smear.h include/smear_model.h
+"$tool" HEADER "$out/single/smear.h" include/smear_config.h include/smear.h include/smear_overlay.h include/smear_model.h
 cp include/smear_memory.h include/smear_math.h include/smear.hpp LICENSE "$out/single"
 
 tree cmake
