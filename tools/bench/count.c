@@ -92,6 +92,17 @@ static char *list_text(const int *index, int count)
     return text;
 }
 
+/* On a terminal, what is being counted: callgrind takes its time. */
+static void tell(const char *group, int frames)
+{
+    if (isatty(STDERR_FILENO) == 0)
+        return;
+    if (frames > 0)
+        fprintf(stderr, "\r\033[Kbench: %s: counting instructions of %d frames ...", group, frames);
+    else
+        fprintf(stderr, "\r\033[K");
+}
+
 bool count_list(const struct counter *counter, const char *group, const int *index, int frames,
                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
 {
@@ -125,7 +136,9 @@ bool count_list(const struct counter *counter, const char *group, const int *ind
     /* execvp takes pointers to char for history's sake and changes nothing. */
     char *plain[ARGUMENT_LIMIT];
     memcpy(plain, argument, sizeof plain);
+    tell(group, frames);
     int status = run(plain, log);
+    tell(group, 0);
     free(list);
     if (status == NOT_RUN)
         return fail(f, "valgrind is not there");

@@ -363,7 +363,7 @@ static const char *const help[] = {
     "  --update              writes FILE, and the accepted pictures beside it: FILE.0000.png ...\n"
     "  --record FILE         writes the user's input, picture by picture\n"
     "  --play FILE           gives it again\n"
-    "  --times               prints what drawing and the window took\n"
+    "  --times               prints what drawing and the window took, and with --cpu the estimate\n"
     "\n",
     NULL
 };

@@ -144,17 +144,48 @@ static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure 
     return true;
 }
 
-/* Centre and half diagonal of the pose at t = 0. Where nothing is drawn, those of a unit sphere
- * do. */
+/* Instants of the clip that the automatic camera looks at: fewer of models whose poses are much work, and only the first
+ * where nothing moves. */
+static int bounds_instants(const struct model_scene *m, const struct model_pose *first, double *duration)
+{
+    enum { INSTANTS = 25, VERTICES = 1 << 21 };
+    const struct model *model = m->model;
+    size_t vertices = 1;
+    *duration = 0;
+    for (int i = 0; i < model->clip_count; i++)
+        if (m->clip == MODEL_CLIP_ALL || m->clip == i)
+            *duration = fmax(*duration, model->clip[i].duration);
+    for (int i = 0; i < first->draw_count; i++) {
+        const struct model_primitive *p = first->draw[i].primitive;
+        vertices += (size_t)p->vertex_count * (size_t)(1 + p->target_count + p->influences);
+    }
+    const size_t affordable = VERTICES / vertices + 1;
+    return *duration <= 0 ? 1 : affordable < INSTANTS ? (int)affordable : INSTANTS;
+}
+
+/* Centre and half diagonal of all that is drawn from the clip's start to its end, moving parts included. Where nothing is
+ * drawn, those of a unit sphere do. */
 static bool model_bounds(const struct model_scene *m, struct vec3 *centre, double *radius,
                          struct failure *f)
 {
     struct model_pose pose = {0};
-    double min[3], max[3];
-    bool ok = model_pose(m->model, m->clip, 0, m->loop, &pose, f);
+    double min[3] = { INFINITY, INFINITY, INFINITY }, max[3] = { -INFINITY, -INFINITY, -INFINITY };
+    double low[3], high[3], duration = 0;
+    int instants = 1;
+    bool ok = true;
     *centre = vec3(0, 0, 0);
     *radius = 1;
-    if (ok && model_pose_bounds(&pose, min, max)) {
+    for (int i = 0; i < instants && ok; i++) {
+        ok = model_pose(m->model, m->clip, instants > 1 ? duration * i / (instants - 1) : 0, false, &pose, f);
+        if (ok && i == 0)
+            instants = bounds_instants(m, &pose, &duration);
+        if (ok && model_pose_bounds(&pose, low, high))
+            for (int k = 0; k < 3; k++) {
+                min[k] = fmin(min[k], low[k]);
+                max[k] = fmax(max[k], high[k]);
+            }
+    }
+    if (ok && min[0] <= max[0]) {
         struct vec3 a = vec3(min[0], min[1], min[2]), b = vec3(max[0], max[1], max[2]);
         double r = vec3_length(vec3_sub(b, a)) / 2;
         *centre = vec3_scale(vec3_add(a, b), 0.5);

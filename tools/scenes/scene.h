@@ -105,7 +105,7 @@ struct scene_view {                 /* the camera and clip options of the comman
     double aspect;                  /* width / height, for the automatic camera */
 };
 /* The model must outlive the scene, whose poses fail where triangles cover the picture a thousand times over. The
- * automatic camera is that of the command-line contract: bounds of the pose at t = 0 with centre c and half diagonal
+ * automatic camera sees the whole clip: bounds of the poses from its start to its end, with centre c and half diagonal
  * r; yfov 45 degrees; eye = c + d normalise(0.5, 0.35, 1), d = r / sin(half the smaller of yfov and xfov); near =
  * max(d - 2r, d/100), far = d + 2r. With `eye`: near and far from the bounds as seen from there. File cameras: xfov
  * follows the aspect. */

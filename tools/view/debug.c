@@ -19,8 +19,8 @@ const char *const debug_legends[] = {
     [DEBUG_TILES] = "green still, yellow uniform, red complex; violet edges: beyond reach",
     [DEBUG_METHODS] = "grey none, warm filters, blue subframes, violet timemask, pinks layers",
     [DEBUG_SAMPLES] = "black 1 a pixel, blue to yellow to white 64",
-    [DEBUG_BANDS] = NULL,
-    [DEBUG_WIRE] = NULL,
+    [DEBUG_BANDS] = "a stripe: rows that are sent at once; its first row is brighter",
+    [DEBUG_WIRE] = "edges of triangles: grey still, orange moving",
 };
 
 /* ------------------------------------------------------------------ colours */

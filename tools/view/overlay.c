@@ -10,7 +10,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { MARGIN = 4, HELP_KEYS = 11, HELP_COLUMN = 48 };
+enum { MARGIN = 4, HELP_KEYS = 11, HELP_COLUMN = 48, FEWEST_ROWS = 3 };
 
 /* ------------------------------------------------------------------ lines */
 
@@ -120,20 +120,25 @@ static void add_board(struct page *p, const struct view *v)
     }
 }
 
+/* What matters most comes first: of a small picture, figures cover half at most. */
 static void add_figures(struct page *p, const struct view *v)
 {
+    const int rows = p->rows;
+    if (!v->screen->has_text && p->rows > FEWEST_ROWS)
+        p->rows = p->rows / 2 > FEWEST_ROWS ? p->rows / 2 : FEWEST_ROWS;
     add_settings(p, v);
-    add_time(p, v);
     if (v->debug_kind != DEBUG_PICTURE)
         add(p, "seen: %s", debug_names[v->debug_kind]);
     if (debug_legends[v->debug_kind] != NULL)
         add(p, "  %s", debug_legends[v->debug_kind]);
-    add_stages(p, v);
-    add_counts(p, v);
-    add_board(p, v);
     if (v->has_error)
         add(p, "error: rmse %.2f ssim %.4f flip %.4f", v->error.rmse, v->error.ssim, v->error.flip);
+    add_board(p, v);
+    add_time(p, v);
+    add_stages(p, v);
+    add_counts(p, v);
     add(p, "%s", v->screen->what);
+    p->rows = rows;
 }
 
 /* ------------------------------------------------------------------ help */

@@ -60,6 +60,8 @@ struct view_times {
     double draw_us, compose_us, event_us;
     double *draw, *transfer;        /* of each of the first pictures, for medians */
     int count;
+    long frames;                    /* drawn, for the means of the estimates */
+    double board_us, wire_us;
 };
 
 struct view {

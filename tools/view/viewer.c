@@ -249,6 +249,9 @@ static void send(struct view *v)
     v->board_us = 0.0;
     if (v->wish.core != NULL)
         v->board_us = cost_us(v->wish.core, v->wish.cpu_hz, &v->main.stats);
+    v->times.frames++;
+    v->times.board_us += v->board_us;
+    v->times.wire_us += v->wire_us;
     double write_us = v->board_us + v->wire_us, frame_us = fmax(write_us, 1e6 / view_fps(v));
     int tear = bus_tear(&v->wish.bus, v->tick, frame_us, write_us, v->height, &old_above);
     bool is_whole = v->tick == 0 || v->is_paused || v->debug_kind != DEBUG_PICTURE;
@@ -482,6 +485,17 @@ static void print_times(struct view *v)
            100.0 * (transfer + events) / (draw + compose + transfer + events), v->screen_what);
 }
 
+/* Means over all frames that were drawn. */
+static void print_estimate(const struct view *v)
+{
+    const struct view_times *t = &v->times;
+    if (v->wish.core == NULL || t->frames == 0)
+        return;
+    const double cpu_us = t->board_us / (double)t->frames, wire_us = t->wire_us / (double)t->frames;
+    printf("ESTIMATE board=%s mhz=%.4g frames_per_second=%.1f cpu_ms=%.1f bus_ms=%.1f\n", v->wish.core->name, v->wish.cpu_hz / 1e6,
+           1e6 / (cpu_us + wire_us), cpu_us / 1000.0, wire_us / 1000.0);
+}
+
 /* ------------------------------------------------------------------ beginning and end */
 
 static void wish_size(const struct view *v, struct screen_wish *wish)
@@ -625,8 +639,10 @@ int view_run(struct view *v, const struct render_options *options)
         memcpy(v->screen_what, v->screen->what, sizeof v->screen_what);
         v->screen->kind->close(v->screen);
         status = finish(v);
-        if (v->wish.times)
+        if (v->wish.times) {
             print_times(v);
+            print_estimate(v);
+        }
     }
     release(v);
     return status;
