@@ -10,6 +10,7 @@
 #include "tools/bench/chart.h"
 #include "tools/bench/count.h"
 #include "tools/bench/groups.h"
+#include "tools/bench/promise.h"
 #include "tools/bench/sheet.h"
 
 #include <errno.h>
@@ -27,6 +28,8 @@ bool group_take(const char *group, int index, struct take *out)
         return filters_take(index, out);
     if (strcmp(group, "chart") == 0)
         return chart_take(index, out);
+    if (strcmp(group, "promise") == 0)
+        return promise_take(index, out);
     return strcmp(group, "threads") == 0 && threads_take(index, out);
 }
 
@@ -85,6 +88,8 @@ int main(int argc, char **argv)
         return serve(argv + 2);
     if (argc >= 2 && strcmp(argv[1], "chart") == 0)
         return chart_command(argv[0], argc - 2, argv + 2);
+    if (argc >= 2 && strcmp(argv[1], "promise") == 0)
+        return promise_command(argv[0], argc - 2, argv + 2);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "targets") == 0) {
             if (i + 1 == argc)

@@ -146,10 +146,34 @@ bool rig_seek(struct rig *rig, int frame, struct failure *f)
     return rig_seek_time(rig, seconds + rig->take.later / rig->scene.fps, f);
 }
 
+bool take_is_file(const char *scene)
+{
+    const size_t length = strlen(scene);
+    return length > 4 && strcmp(scene + length - 4, ".glb") == 0;
+}
+
+/* With the automatic camera, unless the file has one. */
+static bool open_model(struct rig *rig, struct failure *f)
+{
+    const char *clip = rig->take.clip;
+    if (!model_load(rig->take.scene, &rig->model, f))
+        return false;
+    struct scene_view view = { .clip = rig->model.clip_count > 0 ? 0 : MODEL_CLIP_NONE, .loop = true,
+                               .camera = rig->model.camera_count > 0 ? 0 : -1, .aspect = 4.0 / 3.0 };
+    if (clip != NULL)
+        view.clip = model_find_clip(&rig->model, clip);
+    bool ok = view.clip >= 0 || clip == NULL || fail(f, "the model has no clip \"%s\"", clip);
+    if (ok && scene_from_model(&rig->model, &view, &rig->scene, f))
+        return true;
+    model_free(&rig->model);
+    return false;
+}
+
 static bool open_scene(struct rig *rig, struct failure *f)
 {
     const struct take *take = &rig->take;
-    if (!scene_builtin(take->scene, &rig->scene, f))
+    rig->is_file = take_is_file(take->scene);
+    if (rig->is_file ? !open_model(rig, f) : !scene_builtin(take->scene, &rig->scene, f))
         return false;
     if (take->change == NULL)
         return true;
@@ -183,6 +207,8 @@ void rig_close(struct rig *rig)
     presenter_free(rig->presenter);
     scene_free(&rig->scene);
     scene_free(&rig->original);
+    if (rig->is_file)
+        model_free(&rig->model);
     free(rig->memory);
     memset(rig, 0, sizeof *rig);
 }

@@ -17,7 +17,8 @@
 #include <stdbool.h>
 
 struct take {
-    const char *scene;          /* of the catalog */
+    const char *scene;          /* of the catalog, or a model's file */
+    const char *clip;           /* of a model; null: its first */
     int frame;                  /* at the scene's rate; -1: the frame that stands for the scene */
     double later;               /* frames after that */
     int width, height;          /* 0: the scene's */
@@ -48,6 +49,8 @@ struct rig {
     struct take take;
     struct scene scene;         /* changed, if the take changes it */
     struct scene original;      /* then */
+    struct model model;         /* of a scene from a file */
+    bool is_file;
     struct presenter *presenter;
     const struct presented *frame;
     smear_context *ctx;
@@ -57,6 +60,9 @@ struct rig {
 };
 
 enum { CLEAR_OF_SCENE = -1, TAKE_SHUTTER_DEGREES = 180 };
+
+/* Whether a take's scene is a file. */
+bool take_is_file(const char *scene);
 
 /* The whole frame as one band: the height in rows of 8. */
 int take_whole(int height);

@@ -130,7 +130,8 @@ static struct exposure exposure_of(const struct rig *rig)
 {
     const struct scene *scene = &rig->scene;
     double length = SHUTTER_DEGREES / 360.0 / scene->fps;
-    return (struct exposure){ scene->time + rig->take.later / scene->fps - length / 2.0, length };
+    double time = rig->take.frame < 0 ? scene->time : rig->take.frame / scene->fps;
+    return (struct exposure){ time + rig->take.later / scene->fps - length / 2.0, length };
 }
 
 /* `at` is 0 at shutter open, 1 at close. */
@@ -181,25 +182,31 @@ static bool draw_exact(struct rig *rig, struct float_image *out, struct failure 
     return ok;
 }
 
-bool truth_exact(const char *scene, bool linear, double later, const char *folder,
-                 struct float_image *out, struct failure *f)
+bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
 {
     const struct take take = {
-        .scene = scene, .frame = -1, .later = later, .format = SMEAR_XRGB8888,
-        .method = SMEAR_NONE, .linear = linear, .instant_only = true
+        .scene = of->scene, .clip = of->clip, .frame = of->frame, .later = of->later, .format = SMEAR_XRGB8888,
+        .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
     };
     struct rig rig;
     uint32_t crc;
     char path[PATH_LIMIT], kind[32];
     if (!rig_open(&rig, &take, f))
         return false;
-    snprintf(kind, sizeof kind, "%s-%.0f", linear ? "linear" : "encoded", 1000.0 * later);
+    snprintf(kind, sizeof kind, "%s-%.0f", take.linear ? "linear" : "encoded", 1000.0 * take.later);
     bool ok = fingerprint_exact(&rig, &crc, f)
-           && kept_path(path, folder, scene, TRUTH_EXACT_INSTANTS, kind, crc, f);
+           && kept_path(path, folder, take.scene, TRUTH_EXACT_INSTANTS, kind, crc, f);
     if (ok && !read_kept(path, rig.take.width, rig.take.height, out))
         ok = draw_exact(&rig, out, f) && keep(path, out, f);
     rig_close(&rig);
     return ok;
+}
+
+bool truth_exact(const char *scene, bool linear, double later, const char *folder,
+                 struct float_image *out, struct failure *f)
+{
+    const struct take take = { .scene = scene, .frame = -1, .later = later, .linear = linear };
+    return truth_of_take(&take, folder, out, f);
 }
 
 /* ------------------------------------------------------------------ distance */

@@ -4,6 +4,7 @@
 #define SMEAR_BENCH_TRUTH_H
 
 #include "tools/failure.h"
+#include "tools/bench/take.h"
 #include "tools/image/image.h"
 
 #include <stdbool.h>
@@ -22,6 +23,9 @@ bool truth_reference(const char *scene, const char *folder, struct float_image *
  * what the library draws does. */
 bool truth_exact(const char *scene, bool linear, double later, const char *folder,
                  struct float_image *out, struct failure *f);
+
+/* The same of the scene, frame and light of a take. */
+bool truth_of_take(const struct take *take, const char *folder, struct float_image *out, struct failure *f);
 
 /* Rounded to codes: what the command line writes. *out is allocated here. */
 bool truth_round(const struct float_image *truth, struct image *out, struct failure *f);
