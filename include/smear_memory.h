@@ -84,7 +84,7 @@
     (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \
      + SMEAR_SCRATCH_(m, T, SMEAR_COLUMNS_(m, w, T, s), b, k) \
-     + SMEAR_TEMPORAL_(m, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
+     + SMEAR_TEMPORAL_(m, w, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
      + SMEAR_DAMAGE_(d, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
      + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, T, b)) + (size_t)(n) * SMEAR_UP8_(SMEAR_BAND_BYTES_(w, b, f)) \
      + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
@@ -121,9 +121,11 @@
     (SMEAR_HAS_TEMPORAL_(m) ? (s) + ((s) >= SMEAR_STRIP && (s) < (size_t)(w) ? 16u : 0u) : (s))
 #define SMEAR_SCRATCH_(m, T, columns, b, k) \
     (SMEAR_HAS_WINDOW_(m) || SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(k) * (size_t)(b) * (columns) * 4u) : 0u)
-/* Moving triangles and tiles of a row; sums and depths of instants, or time samples and lists, of a worker. */
-#define SMEAR_TEMPORAL_(m, t, T, columns, k, tiles) \
-    (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * 18u) \
+#define SMEAR_BLOCKS_(m, w, T) \
+    ((m) & SMEAR_SET(SMEAR_AUTO) ? (((size_t)(w) + 7u) / 8u) * (((size_t)(T) + 7u) / 8u) * 8u : 0u)
+/* Moving triangles, tiles and blocks of 8 x 8 pixels of a row; sums and depths of instants, or time samples and lists, of a worker. */
+#define SMEAR_TEMPORAL_(m, w, t, T, columns, k, tiles) \
+    (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * 20u) + SMEAR_BLOCKS_(m, w, T) \
                                   + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 10u) + 512u, \
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)

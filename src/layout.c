@@ -110,6 +110,9 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     c->assembler.path_limit = d->max_triangles;
     t->moving.moving = arena_take(a, d->max_triangles, sizeof *t->moving.moving);
     t->moving.travel = arena_take(a, (size_t)c->rows.window.columns, sizeof *t->moving.travel);
+    if ((d->methods & SMEAR_SET(SMEAR_AUTO)) != 0)
+        t->moving.blocks.block = arena_take(a, (size_t)block_columns(d->width) * (size_t)block_rows(d->tile),
+                                            sizeof *t->moving.blocks.block);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));

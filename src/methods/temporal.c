@@ -122,52 +122,51 @@ static int finish_static(const struct finish *f, int first, int end)
 }
 
 /* Returns the columns beyond a strip's border in which its moving triangles are drawn, too, so that gaps of its last
- * tile, which moving triangles go on from by `step`, close with what is there. `neighbour`: the tile beyond, or null. */
-static int32_t margin_of(const struct finish *f, const struct smear_step *step, const struct smear_tile_travel *neighbour)
+ * tile close with what is there. `neighbour`: the tile beyond, or null. */
+static int32_t margin_of(const struct finish *f, const struct smear_tile_travel *tile, const struct smear_tile_travel *neighbour)
 {
     enum { GAP_SEEN = 2 * 16 };
     const int32_t strip = f->self->strip, most = (smear_strip_columns(strip, f->row.rows->window.width) - strip) / 2;
-    const int32_t gap = abs_i32(step->x);       /* 1/16 px */
+    const int32_t gap = abs_i32(smear_tile_widest_step(&f->self->chooser, tile));       /* 1/16 px */
     return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
 }
 
-static void widen(struct smear_tile_run *t, const struct finish *f, const struct smear_step *step)
+static void widen(struct smear_tile_run *t, const struct finish *f)
 {
     const struct smear_tile_travel *travel = f->self->moving.travel;
     const struct smear_window *w = &f->row.rows->window;
     const int first = t->column, last = t->last_column;
-    t->background.x0 -= margin_of(f, &step[0], first > 0 ? &travel[first - 1] : NULL);
-    t->background.x1 += margin_of(f, &step[last - first], last + 1 < w->columns ? &travel[last + 1] : NULL);
+    t->background.x0 -= margin_of(f, &travel[first], first > 0 ? &travel[first - 1] : NULL);
+    t->background.x1 += margin_of(f, &travel[last], last + 1 < w->columns ? &travel[last + 1] : NULL);
     t->background.x1 = min_i32(t->background.x1, w->width);
     t->column -= t->background.x0 < t->x0;
     t->last_column += t->background.x1 > t->x1;
 }
 
-/* Draws tiles beside each other from `first` on, which share instants: as many as the one that needs most. Returns the
- * first tile that is not among them. */
+/* Draws tiles beside each other from `first` on, which share instants: as many as the one that needs most, or as the plan
+ * says. Tiles in which something is blended are drawn apart, as nothing is closed there. Returns the first tile that is not
+ * among them. */
 static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
 {
-    const struct smear_temporal *self = f->self;
+    struct smear_temporal *self = f->self;
     struct smear_tile_travel *travel = self->moving.travel;
-    struct smear_step step[STRIP_TILES_MAX];
     struct smear_tile_choice choice;
     int next = first + 1;
     travel_set_method(&travel[first], TILE_SUBFRAMES);
     for (; next < end && !is_static(&travel[next]); next++) {
         smear_tile_method_choose(&choice, &self->chooser, &travel[next]);
-        if (choice.method != TILE_SUBFRAMES)
+        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0)
             break;
         travel_set_method(&travel[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);
     }
-    for (int i = first; i < next; i++)
-        smear_tile_method_step(&step[i - first], &self->chooser, &travel[i], instants);
+    const struct smear_tile_plan plan = { &self->chooser, &travel[first], &self->moving.blocks, &self->before,
+                                          &self->shares[worker] };
+    const bool plans = self->chooser.method == SMEAR_AUTO;
     struct smear_tile_run t = tiles_of(f, first, next, worker);
-    const bool fills = smear_shutter_is_box(&self->shutter);
-    if (fills)
-        widen(&t, f, step);
+    widen(&t, f);
     refill_tiles(&t, f);
-    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, fills ? step : NULL);
+    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
     hand_on(f, &t);
     return next;
 }
@@ -298,6 +297,16 @@ static void list_row(struct smear_temporal *self, struct smear_rows *rows, int r
     smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));
 }
 
+/* Tells the next rows of this one: not which worker drew what. */
+static void add_shares(struct smear_temporal *self, int workers)
+{
+    for (int i = 0; i < workers; i++) {
+        self->before.sum += min_u32(self->shares[i].sum, UINT32_MAX / 2 - min_u32(self->before.sum, UINT32_MAX / 2));
+        self->before.blocks += self->shares[i].blocks;
+        self->shares[i] = (struct smear_shares){ 0, 0 };
+    }
+}
+
 static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
@@ -310,6 +319,7 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
             return result;
     }
     count_tiles(self, rows);
+    add_shares(self, rows->jobs.workers);
     if (SMEAR_WITH_DAMAGE)
         smear_damage_row_sent(self->damage, rows, row);
     return SMEAR_OK;
@@ -335,9 +345,18 @@ static int32_t target_within_budget(const struct smear_temporal *self, struct sm
     return target;
 }
 
+void smear_temporal_begin(struct smear_temporal *self)
+{
+    self->before = (struct smear_shares){ 0, 0 };
+    for (int i = 0; i < SMEAR_WORKERS_MAX; i++)
+        self->shares[i] = (struct smear_shares){ 0, 0 };
+}
+
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
-    if (self->chooser.method == SMEAR_AUTO) {
+    const bool plans = self->chooser.method == SMEAR_AUTO;
+    self->moving.blocks.columns = plans ? block_columns(rows->window.width) : 0;
+    if (plans) {
         self->chooser.target = self->target;        /* the part before may have had another */
         if (self->budget != 0)
             self->chooser.target = target_within_budget(self, rows, first, end);

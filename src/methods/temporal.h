@@ -16,12 +16,17 @@ struct smear_temporal {
     int32_t strip;                      /* tiles that share instants are so many pixels wide together, at most */
     int32_t target;                     /* smear_frame.target: the chooser's follows from it and the budget */
     uint32_t budget;                    /* smear_frame.budget */
+    struct smear_shares before;         /* of the frame's tile rows so far */
+    struct smear_shares shares[SMEAR_WORKERS_MAX];      /* of the row being drawn */
     struct smear_damage *damage;        /* null without desc.reuse */
 };
 
 /* Returns the columns that a strip of a frame takes with what is drawn beyond its sides: nothing where it is as wide as
  * the frame. */
 int32_t smear_strip_columns(int32_t strip, int32_t width);
+
+/* Forgets what was learnt from the rows of the frame before. */
+void smear_temporal_begin(struct smear_temporal *self);
 
 /* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
  * smear_band_flush. */

@@ -270,12 +270,102 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
     }
 }
 
+/* ------------------------------------------------------------------ blocks */
+
+/* Vertices in the middle of the exposure, px; displacements, 1/16 px; and depths. */
+struct corners {
+    int32_t x[3], y[3], dx[3], dy[3], depth[3];
+};
+
+static struct corners corners_of(const struct smear_bins *g, uint32_t triangle)
+{
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
+    struct corners c;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]), *open = v + s->motion, *close = open + PATH_POSE_WORDS;
+        c.x[i] = v[VERTEX_X] >> 8;
+        c.y[i] = v[VERTEX_Y] >> 8;
+        c.dx[i] = (close[PATH_X] - open[PATH_X]) >> 4;
+        c.dy[i] = (close[PATH_Y] - open[PATH_Y]) >> 4;
+        c.depth[i] = v[VERTEX_DEPTH] >> 14;
+    }
+    return c;
+}
+
+static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t depth)
+{
+    const uint16_t near = (uint16_t)clamp_i32(depth, 1, UINT16_MAX);
+    if (near > b->depth)
+        *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX),
+                                   near, 0 };
+}
+
+/* Puts a triangle into the block if its middle (x, y) lies in it. */
+static void put_covering(struct smear_block *b, const struct corners *c, const struct displacements *w, int32_t x, int32_t y)
+{
+    int32_t e[3], most = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        e[i] = (c->x[j] - x) * (c->y[k] - y) - (c->x[k] - x) * (c->y[j] - y);
+        if (e[i] < 0)
+            return;
+        most = max_i32(most, e[i]);
+    }
+    const int shift = shift_to(most);
+    int32_t sum = 0, dx = 0, dy = 0, depth = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t part = e[i] >> shift;
+        sum += part;
+        dx += part * c->dx[i];
+        dy += part * c->dy[i];
+        depth += part * (c->depth[i] >> 1);
+    }
+    if (sum == 0)
+        return;
+    if (w->large) {
+        const struct displacement d = displacement_at(w, x, y);
+        put_block(b, d.x, d.y, depth / sum << 1);
+    } else {
+        put_block(b, dx / sum, dy / sum, depth / sum << 1);
+    }
+}
+
+/* Puts a triangle that faces the eye into the blocks whose middle it covers in the middle of the exposure; a small one
+ * into that in which it lies. */
+static void add_to_blocks(const struct smear_row_moving *r, const struct smear_bins *g, uint32_t triangle,
+                          const struct displacements *w, const struct smear_window *window, int32_t top)
+{
+    const struct corners c = corners_of(g, triangle);
+    if (bins_bounds(g, triangle)->interval != 0
+        || (c.x[1] - c.x[0]) * (c.y[2] - c.y[0]) < (c.x[2] - c.x[0]) * (c.y[1] - c.y[0]))
+        return;
+    const int32_t x0 = min_i32(c.x[0], min_i32(c.x[1], c.x[2])), x1 = max_i32(c.x[0], max_i32(c.x[1], c.x[2])),
+                  y0 = min_i32(c.y[0], min_i32(c.y[1], c.y[2])), y1 = max_i32(c.y[0], max_i32(c.y[1], c.y[2]));
+    const int32_t columns = r->blocks.columns, rows = window->tile >> BLOCK_SHIFT;
+    if (x1 - x0 < BLOCK_PX && y1 - y0 < BLOCK_PX) {
+        const int32_t x = (x0 + x1) >> (1 + BLOCK_SHIFT), y = (((y0 + y1) >> 1) - top) >> BLOCK_SHIFT;
+        if (x >= 0 && x < columns && y >= 0 && y < rows)
+            put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c.depth[0]);
+        return;
+    }
+    for (int32_t y = max_i32((y0 - top) >> BLOCK_SHIFT, 0); y <= min_i32((y1 - top) >> BLOCK_SHIFT, rows - 1); y++)
+        for (int32_t x = max_i32(x0 >> BLOCK_SHIFT, 0); x <= min_i32(x1 >> BLOCK_SHIFT, columns - 1); x++)
+            put_covering(block_at(&r->blocks, x, y), &c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
+                         top + (y << BLOCK_SHIFT) + BLOCK_PX / 2);
+}
+
+/* ------------------------------------------------------------------ lists */
+
 void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w)
 {
     for (int32_t i = 0; i < w->columns; i++)
         r->travel[i] = (struct smear_tile_travel){
             .x0 = INT16_MAX, .x1 = INT16_MIN, .y0 = INT16_MAX, .y1 = INT16_MIN
         };
+    if (r->blocks.columns != 0)
+        __builtin_memset(r->blocks.block, 0,
+                         (size_t)(r->blocks.columns * (w->tile >> BLOCK_SHIFT)) * sizeof *r->blocks.block);
 }
 
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
@@ -286,6 +376,8 @@ void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, c
         const struct smear_path_bounds *b = bins_bounds(g, i);
         const struct displacements d = displacements_of(g, i);
         add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top);
+        if (r->blocks.columns != 0)
+            add_to_blocks(r, g, i, &d, w, top);
     }
 }
 

@@ -10,12 +10,13 @@ struct smear_row_moving {
     struct smear_moving_triangle *moving;
     uint32_t count;
     struct smear_tile_travel *travel;           /* per tile */
+    struct smear_row_blocks blocks;
 };
 
 /* Begins a tile row: nothing moves in its tiles so far. */
 void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w);
 
-/* Lists the moving triangles from `head` on, for the tile row whose first pixel row is `top`, and adds what they mean for
+/* Lists the moving triangles from `head` on, with their blocks, for the tile row whose first pixel row is `top`, and adds what they mean for
  * its tiles; or lists them again, when that is known. */
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
                        uint32_t head, int32_t top);

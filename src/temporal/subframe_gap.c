@@ -10,6 +10,7 @@
 #include "kernels/gap_means.h"
 #include "kernels/light_sums.h"
 #include "temporal/subframe_background.h"
+#include "temporal/tile_method.h"
 
 union gap_mean {
     struct packed_mean packed;
@@ -138,7 +139,7 @@ static void average(const struct subframes *f, const struct gap_planes *planes, 
     smear_gap_means(planes, s->at, s->n, &taps, cover);
 }
 
-/* Averages a box, which lies in one tile: rows, cut where fewer pairs count. */
+/* Averages a box that has one gap: rows, cut where fewer pairs count. */
 static void average_tile(const struct subframes *f, const struct subframe_box *b, struct gap *gap)
 {
     const struct smear_raster_target *s = &f->t->background;
@@ -157,19 +158,38 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     }
 }
 
-void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_step *step)
+/* Returns how what is seen in the block at a pixel goes on from one instant to the next, if gaps are closed there. */
+static struct smear_step step_of(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
 {
-    static const struct smear_step none = { 0, 0 };
+    const struct smear_tile_run *t = f->t;
+    const int32_t instants = (int32_t)f->instants;
+    const struct smear_block *b = block_at(plan->blocks, x >> BLOCK_SHIFT, (y - t->background.y0) >> BLOCK_SHIFT);
+    if (instants > b->last)
+        return (struct smear_step){ 0, 0 };
+    if (b->depth != 0)
+        return (struct smear_step){ (int16_t)(b->x / instants), (int16_t)(b->y / instants) };
+    const struct smear_tile_travel *tile = &plan->travel[(x - t->x0) / t->tile];
+    return (struct smear_step){ (int16_t)(tile->x / instants), (int16_t)(tile->y / instants) };
+}
+
+void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_tile_plan *plan)
+{
     const struct smear_tile_run *t = f->t;
     const struct smear_raster_target *s = &t->background;
-    for (int32_t x = t->x0; x < t->x1; x += t->tile) {
-        struct gap gap;
-        gap_make(&gap, f, step != NULL && !f->blends ? &step[(x - t->x0) / t->tile] : &none);
-        const int32_t wide = gap.pairs;
-        const struct subframe_box b = { max_i32(x, all->x0 - wide), max_i32(s->y0, all->y0 - wide),
-                                        min_i32(min_i32(x + t->tile, t->x1), all->x1 + wide),
-                                        min_i32(s->y1, all->y1 + wide) };
-        if (!subframe_box_is_empty(&b))
-            average_tile(f, &b, &gap);
-    }
+    const int32_t wide = plan != NULL ? BLOCK_PX : t->x1 - t->x0, high = plan != NULL ? BLOCK_PX : s->y1 - s->y0;
+    struct smear_step last = { 0, 0 };
+    struct gap gap;
+    gap_make(&gap, f, &last);
+    for (int32_t y = s->y0; y < s->y1; y += high)
+        for (int32_t x = t->x0; x < t->x1; x += wide) {
+            const struct smear_step step = plan != NULL ? step_of(f, plan, x, y) : last;
+            if (step.x != last.x || step.y != last.y)
+                gap_make(&gap, f, &step);
+            last = step;
+            const struct subframe_box b = { max_i32(x, all->x0 - gap.pairs), max_i32(y, all->y0 - gap.pairs),
+                                            min_i32(min_i32(x + wide, t->x1), all->x1 + gap.pairs),
+                                            min_i32(min_i32(y + high, s->y1), all->y1 + gap.pairs) };
+            if (!subframe_box_is_empty(&b))
+                average_tile(f, &b, &gap);
+        }
 }

@@ -6,8 +6,10 @@
 #include "temporal/subframe_tile.h"
 #include "temporal/subframes.h"
 
-/* Puts means in place of the background where anything was summed, which is within `all`. `step`, one per tile, or
- * null, as for smear_subframes_tiles. */
-void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_step *step);
+struct smear_tile_plan;
+
+/* Puts means in place of the background where anything was summed, which is within `all`. Gaps are closed as the plan's
+ * blocks say, unless it is null. */
+void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_tile_plan *plan);
 
 #endif

@@ -19,6 +19,7 @@
 #include "temporal/subframe_gap.h"
 #include "temporal/subframe_pose.h"
 #include "temporal/subframe_sums.h"
+#include "temporal/tile_method.h"
 
 enum {
     LISTED = 128,               /* triangles of the tiles that are remembered; others are looked for at each instant */
@@ -97,7 +98,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
             note(f, &t->moving[i]);
     moves = n != 0;
     f->moving_listed = n;
-    f->blends = t->blend != SMEAR_NO_TRIANGLE && n == LISTED;
+    f->blends = false;
     for (f->blend_rest = t->blend; f->blend_rest != SMEAR_NO_TRIANGLE && n < LISTED;) {
         const struct smear_triangle *b = bins_triangle(g, f->blend_rest);
         if (touches(f, f->blend_rest)) {
@@ -108,6 +109,10 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
         f->blend_rest = b->next;
     }
     f->all_listed = n;
+    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !f->blends; i = bins_triangle(g, i)->next)
+        f->blends = touches(f, i);
+    if (!f->blends)
+        f->blend_rest = SMEAR_NO_TRIANGLE;
     end_list(f, &whole);
     return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
 }
@@ -253,28 +258,62 @@ static struct subframe_box draw_instant(struct subframes *f, int32_t time)
     return all;
 }
 
-/* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
-static uint32_t draw_instants(struct subframes *f, struct subframe_box *all)
+/* Adds the box of instant k to the sums and makes it background again. `samples`: taken before. Returns how many it
+ * has. */
+static uint32_t add_instant(const struct subframes *f, const struct subframe_box *box, int32_t k, uint32_t samples,
+                            struct subframe_box *all)
 {
-    const int32_t instants = (int32_t)f->instants;
-    uint32_t samples = 0;
+    if (subframe_box_is_empty(box))
+        return 0;
+    const bool sets = samples == 0 && sums_are_set(f);
+    if (samples == 0)
+        smear_subframe_sums_clear(f, sets ? box : &no_box);
+    smear_subframe_sums_add(f, box, (uint32_t)k, sets);
+    smear_subframe_restore_depth(f, box);
+    box_add(all, box);
+    return (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
+}
+
+/* Returns what an instant costs, about, in instructions. */
+static uint32_t cost_of(const struct subframes *f, const struct subframe_box *box)
+{
+    enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000 };
+    const uint32_t pixels = subframe_box_is_empty(box) ? 0 : (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
+    return f->moving_listed * TRIANGLE + pixels * PIXEL + RUN;
+}
+
+/* Draws the middle of the exposure, by which the plan says how many instants there are; where they are odd it is one of
+ * them. Returns the samples taken. */
+static uint32_t draw_middle(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
+{
+    struct smear_contrast contrast;
+    const struct smear_tile_run *t = f->t;
+    const struct subframe_box box = draw_instant(f, smear_shutter_instant(t->shutter, 0, 1));
+    smear_tile_contrast(&contrast, f, plan, &box);
+    f->instants = (uint32_t)smear_tile_plan_instants(plan, &contrast, (t->x1 - t->x0 + t->tile - 1) / t->tile, cost_of(f, &box));
+    if ((f->instants & 1u) != 0)
+        return add_instant(f, &box, (int32_t)f->instants / 2, 0, all);
+    smear_subframe_take_background(f);
+    return 0;
+}
+
+/* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
+static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
+{
     *all = no_box;
+    const bool plans = plan != NULL && plan->chooser != NULL;
+    uint32_t samples = plans ? draw_middle(f, plan, all) : 0;
+    const int32_t instants = (int32_t)f->instants, drawn = plans && (instants & 1) != 0 ? instants / 2 : -1;
     for (int32_t k = 0; k < instants; k++) {
-        const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
-        if (subframe_box_is_empty(&box))
+        if (k == drawn)
             continue;
-        const bool sets = samples == 0 && sums_are_set(f);
-        if (samples == 0)
-            smear_subframe_sums_clear(f, sets ? &box : &no_box);
-        smear_subframe_sums_add(f, &box, (uint32_t)k, sets);
-        smear_subframe_restore_depth(f, &box);
-        samples += (uint32_t)((box.x1 - box.x0) * (box.y1 - box.y0));
-        box_add(all, &box);
+        const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
+        samples += add_instant(f, &box, k, samples, all);
     }
     return samples;
 }
 
-uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_step *step)
+uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
 {
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
@@ -299,10 +338,10 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
         f.t = f.refilled = &own;
     }
     smear_subframe_take_background(&f);
-    const uint32_t samples = (f.refilled != NULL ? list_refilled(&f) : list(&f)) ? draw_instants(&f, &all) : 0;
+    const uint32_t samples = (f.refilled != NULL ? list_refilled(&f) : list(&f)) ? draw_instants(&f, plan, &all) : 0;
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
     if (samples != 0)
-        smear_subframe_average(&f, &all, step);
+        smear_subframe_average(&f, &all, plan);
     return samples;
 }

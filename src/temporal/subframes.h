@@ -20,11 +20,12 @@ struct smear_step {
 /* Returns the bytes of work memory per worker for tiles that are `width` pixels wide together, and `height` high. */
 size_t smear_subframes_work(int32_t width, int32_t height);
 
+struct smear_tile_plan;
+
 /* Writes the mean of `instants` (1 .. 1024) sharp instants, which stand in the middles of sub-intervals of equal weight.
  * Static opaque surfaces come from the background; moving triangles and all blended draws are drawn at every instant.
- * Where `step`, one per tile, is not null, gaps between instants are closed along it, unless something is blended there.
- * Returns the samples taken. */
-uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
-                               const struct smear_step *step);
+ * With a plan (tile_method.h), not null, it is asked how many there are when the middle one is drawn, and gaps between
+ * instants are closed, unless something is blended there. Returns the samples taken. */
+uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
 
 #endif

@@ -6,38 +6,10 @@
 
 #include "base/fixmath.h"
 
-/* The instants of a tile: `least` and one more per `step` of travel, where gaps between them are closed. Where moving
- * triangles go apart, as many as keep a step of one within `spread` of that of another. In a frame too small for gaps to
- * be closed, one per `apart` of travel. Measured on the scenes of the quality suite (make chart): fewer instants cost a tenth less
- * and are seen as teeth at the ends of long streaks (failure rows 3 and 22). */
-struct preset {
-    int32_t target;                     /* from this error on, 1/64 codes */
-    int32_t least, step, spread, apart; /* 1/16 px, but for `least` */
-    int32_t intervals;                  /* instants at least, of what passes through the near plane */
-};
-
 enum {
-    INSTANTS_MAX = 64,
+    INSTANTS_MAX = 63,
     STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
-
-static const struct preset presets[] = {
-    { SMEAR_DRAFT, 2, 288, 512, 8, 6 },
-    { 128, 3, 352, 448, 4, 6 },
-    { SMEAR_BALANCED, 3, 320, 400, 4, 6 },
-    { 64, 5, 192, 144, 4, 7 },
-    { SMEAR_FINE, 9, 96, 56, 2, 12 },
-    { 20, 15, 64, 36, 1, 16 },
-    { 0, 20, 40, 20, 1, 16 }
-};
-
-static const struct preset *preset_of(int32_t target)
-{
-    const struct preset *p = presets;
-    while (target < p->target)
-        p++;
-    return p;
-}
 
 static int32_t largest(int32_t low, int32_t high)
 {
@@ -85,34 +57,121 @@ static bool may_fill(const struct smear_chooser *chooser, const struct smear_til
     return chooser->fills && (tile->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
 }
 
-void smear_tile_method_step(struct smear_step *step, const struct smear_chooser *chooser,
-                            const struct smear_tile_travel *tile, int32_t instants)
+/* ------------------------------------------------------------------ SMEAR_AUTO */
+
+bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    *step = (struct smear_step){ 0, 0 };
-    if (chooser->method != SMEAR_AUTO || !is_displaced(tile) || !may_fill(chooser, tile))
-        return;
-    step->x = (int16_t)(tile->x / instants);
-    step->y = (int16_t)(tile->y / instants);
+    return is_displaced(tile) && may_fill(chooser, tile);
 }
 
-/* Returns the instants that SMEAR_AUTO takes of a tile. */
-static int32_t auto_instants(const struct preset *p, const struct smear_chooser *chooser,
-                             const struct smear_tile_travel *tile)
+struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile)
 {
-    const int32_t travel = travel_of(tile);
-    int32_t instants = chooser->fills ? travel / 16 + 1 : max_i32(travel / p->apart + 1, p->least);
-    if (may_fill(chooser, tile)) {
-        instants = max_i32(p->least + travel / p->step, reach_of(tile) / STEP_MAX + 1);
-        if (p->least <= 3 && travel < 8)        /* half a pixel */
-            instants = 2;
-        instants = max_i32(instants, spread_of(tile) / p->spread + 1);
+    return smear_closing_of(tile->x, tile->y, spread_of(tile) * 5 >> 3);
+}
+
+int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
+{
+    const int32_t least = chooser->target >= 128 ? 3 : chooser->target >= 80 ? 5 : 16;
+    return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
+}
+
+/* Returns the least instants of what passes through the near plane. It is in sub-intervals of the exposure, of which an
+ * instant draws one; how it moves is not known, as clipping moves its ends. */
+static int32_t interval_instants(int32_t target)
+{
+    return target >= 64 ? PATH_INTERVALS / 2 : PATH_INTERVALS;
+}
+
+/* Returns the least instants of a tile: the first may show nothing of what passes later. */
+static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
+{
+    const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8);      /* 1/16 */
+    const int32_t n = 2 + (int32_t)(3 * root / (4 * (uint32_t)max_i32(chooser->target, 1)));
+    return (tile->flags & PATH_INTERVAL) != 0 ? max_i32(n, interval_instants(chooser->target)) : n;
+}
+
+/* Return logarithms to base 2 and the way back, q8, with straight lines between powers of two. */
+static uint32_t log2_q8(uint32_t x)
+{
+    const int log = 31 - count_leading_zeros(x | 1u);
+    return ((uint32_t)log << 8) + (((x | 1u) << (31 - log) >> 23) & 255u);
+}
+
+static uint32_t exp2_q8(uint32_t x)
+{
+    const uint32_t log = x >> 8;
+    return log >= 31 ? UINT32_MAX : log >= 8 ? (256 + (x & 255u)) << (log - 8) : (256 + (x & 255u)) >> (8 - log);
+}
+
+/* Returns the part of the mean squared error that a run may have, q8. A frame of a given error costs least where each
+ * run's squared error goes with the cube root of what one instant leaves of it and with the square of the cube root of
+ * what an instant costs. The mean is that of the rows before, as the others are not known yet. */
+static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint32_t cost, uint32_t blocks)
+{
+    enum { LEAST = 51, MOST = 1280 };
+    const uint32_t log = (log2_q8(left / blocks + 1) + 2 * log2_q8(cost / blocks + 1)) / 3;
+    const uint32_t share = exp2_q8(log > 1024 ? log - 1024 : 0) + 1, own = share * blocks;
+    const uint32_t sum = plan->before->sum + own, count = plan->before->blocks + blocks;
+    plan->own->sum += own;
+    plan->own->blocks += blocks;
+    return min_u32(max_u32((share << 8) / max_u32(sum / count, 1), LEAST), MOST);
+}
+
+/* Returns the squared error that so many blocks may have together, in the unit of struct smear_contrast: codes^2, summed
+ * over three channels, times the 12 of an edge that passes. In linear light dark codes differ by more than their light:
+ * by 1.3 in the mean. */
+static uint32_t allowed(const struct smear_chooser *chooser, uint32_t share, uint32_t blocks)
+{
+    const uint64_t target = (uint64_t)min_i32(chooser->target, 8191), parts = chooser->linear ? 7 : 9;
+    const uint64_t sum = target * target * parts * blocks * share >> 18;
+    return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
+}
+
+/* Returns what `instants` leave of the squared error. */
+static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, bool may_close)
+{
+    const uint32_t square = (uint32_t)(instants * instants);
+    uint32_t sum = unseen / square;
+    for (int k = 0; k < CLOSING_CLASSES; k++) {
+        const bool closes = may_close && (instants + 1) >> 1 <= k;
+        sum += closes ? c->closed[k] / square + c->floor[k] : c->plain[k] / square;
     }
-    /* What passes through the near plane is in sub-intervals of the exposure, of which an instant draws one. How they go
-     * is not known, as clipping moves their ends. */
-    if ((tile->flags & PATH_INTERVAL) != 0)
-        instants = clamp_i32(instants, p->intervals, PATH_INTERVALS);
+    return sum;
+}
+
+int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *c, int tiles,
+                                 uint32_t cost)
+{
+    enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
+    const struct smear_chooser *chooser = plan->chooser;
+    int32_t instants = 1, reach = 0;
+    uint32_t left = 0, unseen = 0;
+    bool passes_near = false;
+    for (int i = 0; i < tiles; i++) {
+        const struct smear_tile_travel *tile = &plan->travel[i];
+        instants = max_i32(instants, least_instants(chooser, tile));
+        reach = max_i32(reach, reach_of(tile));
+        passes_near = passes_near || (tile->flags & PATH_INTERVAL) != 0;
+        if (c->moving == 0)
+            unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
+    }
+    for (int k = 0; k < CLOSING_CLASSES; k++)
+        left += min_u32(c->plain[k], UINT32_MAX - left);
+    left += min_u32(unseen, UINT32_MAX - left);
+    const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks), c->blocks);
+    for (instants |= 1; instants < INSTANTS_MAX; instants += 2)
+        if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
+            break;
+    instants = min_i32(instants, INSTANTS_MAX);
+    if (passes_near)        /* all sub-intervals that are drawn weigh the same */
+        instants = instants <= PATH_INTERVALS / 2 + 1 ? PATH_INTERVALS / 2
+                 : min_i32((instants + PATH_INTERVALS / 2) / PATH_INTERVALS, INSTANTS_MAX / PATH_INTERVALS) * PATH_INTERVALS;
+    for (int i = 0; i < tiles; i++)
+        plan->travel[i].instants = (uint16_t)instants;
     return instants;
 }
+
+/* ------------------------------------------------------------------ all */
 
 void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                               const struct smear_tile_travel *tile)
@@ -126,26 +185,27 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
         };
     } else {
         choice->method = TILE_SUBFRAMES;
-        choice->instants = chooser->method != SMEAR_AUTO
-                             ? instants_for(tile, chooser->samples)
-                             : min_i32(auto_instants(preset_of(chooser->target), chooser, tile), INSTANTS_MAX);
+        choice->instants = chooser->method == SMEAR_AUTO ? INSTANTS_MAX : instants_for(tile, chooser->samples);
     }
 }
 
-/* Predicts the work of a preset, pixels x instants, saturated. Triangles whose displacements differ are not known to
- * share a tile. */
-static uint32_t predicted(const struct preset *p, const struct smear_chooser *chooser,
-                          const struct smear_travel_areas *areas)
+/* ------------------------------------------------------------------ budget */
+
+/* Returns how many instants a triangle of common contrast takes that goes so far, 1/16 px. */
+static uint32_t common_instants(int32_t target, int32_t travel)
+{
+    return min_u32(max_u32(sqrt_floor_64((uint32_t)travel << 15) / (uint32_t)max_i32(target, 1), 2), INSTANTS_MAX);
+}
+
+/* Predicts the work for a target, pixels x instants, saturated. */
+static uint32_t predicted(int32_t target, const struct smear_travel_areas *areas)
 {
     uint32_t sum = 0;
     for (int i = 0; i <= TRAVEL_CLASSES; i++) {
         const bool is_interval = i == TRAVEL_CLASSES;
-        const int16_t x = is_interval ? 0 : (int16_t)((2 * i + 1) << (TRAVEL_CLASS_SHIFT - 1));
-        const struct smear_tile_travel tile = {
-            .x0 = x, .x1 = x, .x = x, .weight = 1, .flags = (uint16_t)(TILE_MOVES | (is_interval ? PATH_INTERVAL : 0))
-        };
         const uint32_t area = is_interval ? areas->interval_area : areas->area[i];
-        const uint32_t instants = (uint32_t)min_i32(auto_instants(p, chooser, &tile), INSTANTS_MAX);
+        const uint32_t instants = is_interval ? (uint32_t)interval_instants(target)
+                                              : common_instants(target, (2 * i + 1) << (TRAVEL_CLASS_SHIFT - 1));
         if (area > (UINT32_MAX - sum) / instants)
             return UINT32_MAX;
         sum += area * instants;
@@ -156,12 +216,13 @@ static uint32_t predicted(const struct preset *p, const struct smear_chooser *ch
 int32_t smear_tile_method_target(const struct smear_chooser *chooser, const struct smear_travel_areas *areas,
                                  uint32_t budget, uint32_t *work)
 {
-    const struct preset *p = preset_of(chooser->target);
+    static const uint16_t targets[] = { SMEAR_FINE, 64, SMEAR_BALANCED, 180, SMEAR_DRAFT };
     int32_t target = chooser->target;
-    *work = predicted(p, chooser, areas);
-    while (*work > budget && p != presets) {
-        target = (--p)->target;
-        *work = predicted(p, chooser, areas);
-    }
+    *work = predicted(target, areas);
+    for (unsigned i = 0; i < sizeof targets / sizeof *targets && *work > budget; i++)
+        if (targets[i] > target) {
+            target = targets[i];
+            *work = predicted(target, areas);
+        }
     return target;
 }

@@ -4,6 +4,7 @@
 #define SMEAR_TILE_METHOD_H
 
 #include "temporal/subframes.h"
+#include "temporal/tile_contrast.h"
 #include "temporal/timemask.h"
 
 enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants (smear_desc.strip) */
@@ -15,6 +16,7 @@ struct smear_tile_travel {
     int16_t x, y;               /* their mean, in which longer ones weigh more */
     uint16_t weight;            /* of the mean so far */
     uint16_t curvature;         /* largest */
+    uint16_t instants;          /* that SMEAR_AUTO gave it */
     uint16_t flags;             /* flags of smear_path_bounds; TILE_MOVES, TILE_BLENDED; the tile's method in the end,
                                  * from TILE_METHOD on */
 };
@@ -49,7 +51,23 @@ struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
     int32_t target;             /* 1/64 codes */
-    bool fills;                 /* gaps between instants may be closed: the frame is not all border */
+    bool linear;                /* light */
+    bool fills;                 /* gaps between instants may be closed: the frame is not all border, the shutter a box */
+};
+
+/* What runs of tiles weigh in the error of the frame, by what they cost and by what is drawn in them: smear_tile_plan_instants. */
+struct smear_shares {
+    uint32_t sum, blocks;
+};
+
+/* What SMEAR_AUTO is asked for the tiles of a run, when their first instant is drawn. Without a chooser, instants and blocks
+ * are as they are. */
+struct smear_tile_plan {
+    const struct smear_chooser *chooser;
+    struct smear_tile_travel *travel;           /* of the first tile */
+    const struct smear_row_blocks *blocks;
+    const struct smear_shares *before;          /* of the rows before */
+    struct smear_shares *own;                   /* of what this worker drew in this row */
 };
 
 /* How much moves how far: areas of moving triangles in pixels, saturated, by classes of travel of 4 px each. The last
@@ -70,9 +88,18 @@ int32_t smear_tile_method_target(const struct smear_chooser *chooser, const stru
 void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
                               const struct smear_tile_travel *tile);
 
-/* Finds the step of a tile's moving triangles from one of `instants` to the next: in the mean, in which those that
- * hardly move count little, as gaps between long streaks are seen more than slow things smeared a little. */
-void smear_tile_method_step(struct smear_step *step, const struct smear_chooser *chooser,
-                            const struct smear_tile_travel *tile, int32_t instants);
+/* Whether gaps between instants may be closed in a tile, and how they close where no moving surface is seen in the middle
+ * of the exposure: along the mean displacement. */
+bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smear_tile_travel *tile);
+struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile);
+
+/* Returns how many instants the tiles of a run take, whose first one costs about so many instructions: an odd number, of
+ * which that is one, unless triangles pass through the near plane. */
+int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *contrast, int tiles,
+                                 uint32_t cost);
+
+/* Returns the displacement of a tile from one instant to the next along x, 1/16 px, at most, before it is known how many
+ * there will be. */
+int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct smear_tile_travel *tile);
 
 #endif

@@ -3,6 +3,8 @@
  * list of its own, summed, divided. Bit for bit. Needs neither libc nor floating point. */
 #include "temporal/subframes.h"
 
+#include "temporal/tile_method.h"
+
 #include "base/pixel.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
@@ -497,8 +499,19 @@ static void test_tiles_together_are_what_they_are_alone(void)
     }
 }
 
+/* A plan by which all that is seen goes on by (x, y) from one of so many instants to the next, 1/16 px. */
+static const struct smear_tile_plan *plan_of(int32_t x, int32_t y, int32_t instants)
+{
+    static struct smear_block block[(W / BLOCK_PX) * (TILE_MAX / BLOCK_PX)];
+    static struct smear_row_blocks blocks = { block, W / BLOCK_PX };
+    static const struct smear_tile_plan plan = { .blocks = &blocks };
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++)
+        block[i] = (struct smear_block){ (int16_t)(x * instants), (int16_t)(y * instants), 1, BLOCK_INSTANTS_MAX };
+    return &plan;
+}
+
 /* The middle row of tiles with `instants`, and what lies between them closed: the largest distance from 64 instants. */
-static int32_t closed_error(int32_t instants, const struct smear_step *step)
+static int32_t closed_error(int32_t instants, const struct smear_tile_plan *plan)
 {
     static struct smear_moving_triangle movers[MOVERS];
     int32_t worst = 0;
@@ -510,7 +523,7 @@ static int32_t closed_error(int32_t instants, const struct smear_step *step)
     draw_still();
     draw_want(64);
     struct smear_tile_run t = tiles_at(16, 0, 4, 0, movers);
-    smear_subframes_tiles(&t, instants, step);
+    smear_subframes_tiles(&t, instants, plan);
     for (int32_t y = 12; y < 16; y++)
         for (int32_t x = 0; x < 60; x++)
             for (int c = 0; c < 24; c += 8) {
@@ -523,16 +536,13 @@ static int32_t closed_error(int32_t instants, const struct smear_step *step)
 static void test_a_step_closes_the_gap_between_instants(void)
 {
     /* A white square goes 24 px: a ramp of 24 px, of which 4 instants are stairs 6 px long. */
-    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
     for (int linear = 0; linear < 2; linear++) {
         square_scene(linear, 24);
         CHECK(closed_error(4, NULL) >= 25);
-        CHECK(closed_error(4, step) <= (linear ? 12 : 9));
-        for (int32_t n = 1; n <= 300; n += n < 40 ? 1 : 37) {
-            const struct smear_step each = { (int16_t)(24 * 16 / n), 0 }, even[4] = { each, each, each, each };
-            if (!CHECK(closed_error(n, even) <= (n < 3 ? 90 : 16)))
-                CHECK_EQ(n, closed_error(n, even));
-        }
+        CHECK(closed_error(4, plan_of(96, 0, 4)) <= (linear ? 12 : 9));
+        for (int32_t n = 1; n <= BLOCK_INSTANTS_MAX; n++)
+            if (!CHECK(closed_error(n, plan_of(24 * 16 / n, 0, n)) <= (n < 3 ? 90 : 16)))
+                CHECK_EQ(n, closed_error(n, plan_of(24 * 16 / n, 0, n)));
     }
 }
 
@@ -569,12 +579,11 @@ static void test_light_of_one_colour_stays_that_colour(void)
 static void test_wide_gaps_of_many_instants_keep_white(void)
 {
     /* White all over: sums of linear light are the largest there are. */
-    const struct smear_step step[4] = { { 256, 0 }, { 256, 0 }, { 256, 0 }, { 256, 0 } };
     const struct corners all = { { { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } },
                                    { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } },
                                    { { -9000, -9000, 1 << 28 }, { 60000, -9000, 1 << 28 }, { -9000, 60000, 1 << 28 } } } };
     for (int linear = 0; linear < 2; linear++)
-        for (int32_t n = 1; n <= 64; n++) {
+        for (int32_t n = 1; n <= BLOCK_INSTANTS_MAX; n++) {
             scene_begin(linear);
             set_path_layout(3, false, false, true, SHADE_FLAT);
             add_mover(3, &all, 0xffffffu);
@@ -582,7 +591,7 @@ static void test_wide_gaps_of_many_instants_keep_white(void)
             mover[0].last = 3;
             draw_still();
             const struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
-            smear_subframes_tiles(&t, n, step);
+            smear_subframes_tiles(&t, n, plan_of(256, 0, n));
             for (int32_t i = 0; i < 64 * 16; i++)
                 if (!CHECK_EQ(memory.out[i] & 0xffffffu, 0xffffffu))
                     return;
@@ -591,7 +600,6 @@ static void test_wide_gaps_of_many_instants_keep_white(void)
 
 static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
 {
-    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
     uint32_t wide[32], unlike[2] = { 0, 0 };
     square_scene(false, 24);
     for (uint32_t i = 0; i < mover_count; i++) {
@@ -600,7 +608,7 @@ static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
     }
     draw_still();
     struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
-    smear_subframes_tiles(&t, 4, step);
+    smear_subframes_tiles(&t, 4, plan_of(96, 0, 4));
     for (int32_t x = 0; x < 32; x++)
         wide[x] = memory.out[14 * t.pitch + x];
     for (int32_t margin = 0; margin <= 3; margin += 3) {
@@ -609,7 +617,7 @@ static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
         t.pitch = 64;
         t.background.x1 += margin;
         t.last_column += margin != 0;
-        smear_subframes_tiles(&t, 4, step);
+        smear_subframes_tiles(&t, 4, plan_of(96, 0, 4));
         for (int32_t x = 0; x < 32; x++)
             unlike[margin != 0] += memory.out[14 * t.pitch + x] != wide[x];
     }
@@ -619,7 +627,6 @@ static void test_gaps_at_a_border_close_with_what_lies_beyond_it(void)
 
 static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
 {
-    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
     square_scene(false, 24);
     for (uint32_t i = 0; i < mover_count; i++)
         mover[i].nearest = 20000;
@@ -635,7 +642,7 @@ static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
         mover[i].first = 0;
         mover[i].last = 3;
     }
-    smear_subframes_tiles(&t, 4, step);
+    smear_subframes_tiles(&t, 4, plan_of(96, 0, 4));
     for (int32_t x = 24; x < 27; x++)
         CHECK_EQ(memory.out[14 * t.pitch + x] & 0xffffffu, 0x102030u);
     /* Beside it the square is as white as where there is no post. */
@@ -645,7 +652,6 @@ static void test_what_hides_movers_stays_as_it_is_beside_closed_gaps(void)
 static void test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps(void)
 {
     /* A post before the square's way, but not before what it might come to: nothing tells but where it is seen. */
-    const struct smear_step step[4] = { { 96, 0 }, { 96, 0 }, { 96, 0 }, { 96, 0 } };
     uint32_t alone[64], post[64];
     for (int linear = 0; linear < 2; linear++) {
         square_scene(linear, 24);
@@ -663,7 +669,7 @@ static void test_a_still_surface_between_movers_keeps_its_edges_beside_closed_ga
                     still_color[at] = 0x102030u;
                     still_depth[at] = 60000;
                 }
-            smear_subframes_tiles(&t, 4, step);
+            smear_subframes_tiles(&t, 4, plan_of(96, 0, 4));
             for (int32_t x = 0; x < 64; x++)
                 (with ? post : alone)[x] = memory.out[14 * t.pitch + x] & 255u;
         }

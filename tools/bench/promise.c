@@ -144,7 +144,8 @@ static void note(struct summary *s, const struct promise_scene *scene, const str
         s->part[s->parts++] = part;
         if (scene->held)
             s->held[s->helds++] = part;
-        s->ratio[scene->group][s->ratios[scene->group]++] = m->cost[i] / plain_cost(m, m->error[i]);
+        if (m->error[TARGETS] > 1.5 * m->error[SETTINGS - 1])     /* else plain instants get no better */
+            s->ratio[scene->group][s->ratios[scene->group]++] = m->cost[i] / plain_cost(m, m->error[i]);
     }
 }
 

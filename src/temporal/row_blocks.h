@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* row_blocks.h - how what is seen in the middle of the exposure moves, by blocks of 8 x 8 pixels of a tile row, and how well
+ * gaps between instants close there. */
+#ifndef SMEAR_ROW_BLOCKS_H
+#define SMEAR_ROW_BLOCKS_H
+
+#include "base/fixmath.h"
+
+enum {
+    BLOCK_SHIFT = 3,
+    BLOCK_PX = 1 << BLOCK_SHIFT,
+    BLOCK_INSTANTS_MAX = 63     /* gaps between more are never closed */
+};
+
+struct smear_block {
+    int16_t x, y;               /* displacement of the nearest moving surface in the block's middle, 1/16 px */
+    uint16_t depth;             /* of that surface: larger is nearer. 0: none is there */
+    uint8_t last;               /* gaps are closed where there are no more instants than so many */
+};
+
+struct smear_row_blocks {
+    struct smear_block *block;  /* row after row */
+    int32_t columns;
+};
+
+/* Blocks beside each other in a row of pixels, and above each other in a tile row. */
+static inline int32_t block_columns(int32_t width) { return (width + BLOCK_PX - 1) >> BLOCK_SHIFT; }
+static inline int32_t block_rows(int32_t tile) { return (tile + BLOCK_PX - 1) >> BLOCK_SHIFT; }
+
+static inline struct smear_block *block_at(const struct smear_row_blocks *b, int32_t column, int32_t row)
+{
+    return &b->block[row * b->columns + column];
+}
+
+/* What closing the gaps leaves of the squared error of one instant: with N of them, left / N^2 and the floor, which no
+ * number of instants takes away. */
+struct smear_closing {
+    uint32_t left;              /* q8; 256: gaps are not closed */
+    uint32_t floor;             /* q16 */
+    int32_t last;               /* instants up to which it pays, where nothing else is known; 0: never */
+};
+
+/* Of a displacement that is `unlike` that of things beside it by so much, all 1/16 px. */
+struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike);
+
+/* Of a block with a surface. `rows`: of blocks. */
+struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32_t column, int32_t row, int32_t rows);
+
+#endif

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+/* tile_contrast.c - see tile_contrast.h. */
+#include "temporal/tile_contrast.h"
+
+#include "temporal/tile_method.h"
+
+#if SMEAR_WITH_SUBFRAMES
+
+/* A block [x, x1) x [y, y1) of pixels, its displacement, and the same to the next pixels that are looked at: 2 px. */
+struct look {
+    int32_t x, y, x1, y1;
+    int32_t way_x, way_y;       /* 1/16 px */
+    int32_t dx, dy;
+};
+
+/* Squared differences of pixels behind one another on their path, and of those beside each other. */
+struct differences {
+    uint32_t along, beside, moving;
+};
+
+static inline uint32_t squared(uint32_t a, uint32_t b)
+{
+    const int32_t r = (int32_t)pixel_red(a) - (int32_t)pixel_red(b), g = (int32_t)pixel_green(a) - (int32_t)pixel_green(b),
+                  u = (int32_t)pixel_blue(a) - (int32_t)pixel_blue(b);
+    return (uint32_t)(r * r + g * g + u * u);
+}
+
+/* Whether an edge between two pixels moves: what is static must lie behind, else it hides the edge. */
+static inline bool edge_moves(bool moves, uint32_t depth, bool moves_there, uint32_t depth_there)
+{
+    return moves ? moves_there || depth_there < depth : moves_there && depth < depth_there;
+}
+
+/* Returns the differences of a row's pixels to those that lie (dx, dy) farther, or nearer where those are not in the
+ * tiles. */
+static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t y, int32_t dx, int32_t dy,
+                           uint32_t *moving)
+{
+    const struct smear_raster_target *s = &f->t->background;
+    if (y + dy < s->y0 || y + dy >= s->y1) {
+        dx = -dx;
+        dy = -dy;
+    }
+    if (y + dy < s->y0 || y + dy >= s->y1)
+        return 0;
+    const int32_t at = (y - s->y0) * f->t->pitch - s->x0, there = at + dy * f->t->pitch + dx;
+    const uint32_t *color = f->work.color + at, *color_there = f->work.color + there,
+                   *behind = s->color + target_row(&s->color_rows, s, y),
+                   *behind_there = s->color + target_row(&s->color_rows, s, y + dy) + dx;
+    const uint16_t *depth = f->work.depth + at, *depth_there = f->work.depth + there,
+                   *deep = s->depth + target_row(&s->window_rows, s, y),
+                   *deep_there = s->depth + target_row(&s->window_rows, s, y + dy) + dx;
+    const int32_t end = min_i32(l->x1, s->x1 - max_i32(dx, 0));
+    uint32_t sum = 0, count = 0;
+    for (int32_t x = max_i32(l->x, s->x0 - min_i32(dx, 0)); x < end; x++) {
+        const bool moves = depth[x] != deep[x] || color[x] != behind[x];
+        count += moves;
+        if (color[x] != color_there[x]
+            && edge_moves(moves, depth[x], depth_there[x] != deep_there[x] || color_there[x] != behind_there[x],
+                          depth_there[x]))
+            sum += squared(color[x], color_there[x]);
+    }
+    *moving += count;
+    return sum;
+}
+
+static bool is_slant(const struct look *l) { return l->dx != 0 && l->dy != 0 && abs_i32(l->dx) != abs_i32(l->dy); }
+
+static struct differences differences_of(const struct subframes *f, const struct look *l)
+{
+    struct differences d = { 0, 0, 0 };
+    uint32_t ignored = 0;
+    for (int32_t y = l->y; y < l->y1; y += 2) {
+        d.along += look_along(f, l, y, l->dx, l->dy, &d.moving);
+        if (is_slant(l))
+            d.beside += look_along(f, l, y, -l->dy, l->dx, &ignored);
+    }
+    return d;
+}
+
+/* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`. */
+static int32_t next_on_path(int32_t way, int32_t longest)
+{
+    const int32_t next = min_i32((5 * abs_i32(way) + longest) / (2 * longest), 2);
+    return way < 0 ? -next : next;
+}
+
+static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UINT32_MAX - a); }
+
+/* Adds a block's differences times its displacement to those of the run. Returns up to how many instants gaps are closed
+ * there. */
+static int32_t add_block(struct smear_contrast *c, const struct look *l, const struct differences *d,
+                         const struct smear_closing *closing)
+{
+    enum { MOST = 1 << 22, FLAT = 4000 };
+    const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
+    const uint32_t plain = min_u32((d->along >> 6) * (uint32_t)longer >> 4, MOST);
+    /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
+    const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
+    const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
+    int32_t last = closing->last;
+    if (last != 0 && d->along + d->beside >= FLAT)
+        last = (int32_t)sqrt_floor_64(min_u32((plain * (256 - closing->left) >> 8) / max_u32(floor, 1),
+                                            BLOCK_INSTANTS_MAX * BLOCK_INSTANTS_MAX));
+    const int at = (last + 1) >> 1;
+    c->plain[at] = add_saturated(c->plain[at], plain);
+    c->closed[at] = add_saturated(c->closed[at], plain * closing->left >> 8);
+    c->floor[at] = add_saturated(c->floor[at], floor);
+    return last;
+}
+
+static void look_at_block(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
+                          struct look *l, bool drawn)
+{
+    const struct smear_tile_run *t = f->t;
+    const struct smear_tile_travel *tile = &plan->travel[(l->x - t->x0) / t->tile];
+    const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
+                  column = l->x >> BLOCK_SHIFT, row = (l->y - y0) >> BLOCK_SHIFT;
+    struct smear_block *b = block_at(plan->blocks, column, row);
+    struct smear_closing closing = { 256, 0, 0 };
+    const bool has_surface = b->depth != 0;
+    if (!f->blends && smear_tile_may_close(plan->chooser, tile))
+        closing = has_surface ? smear_block_closing(plan->blocks, column, row, rows) : smear_tile_closing(tile);
+    l->way_x = has_surface ? b->x : tile->x;
+    l->way_y = has_surface ? b->y : tile->y;
+    b->last = (uint8_t)closing.last;
+    if (!drawn)
+        return;
+    const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
+    l->dx = next_on_path(l->way_x, longest);
+    l->dy = next_on_path(l->way_y, longest);
+    const struct differences d = differences_of(f, l);
+    c->moving += d.moving;
+    if (d.moving != 0)
+        b->last = (uint8_t)add_block(c, l, &d, &closing);
+}
+
+void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
+                         const struct subframe_box *box)
+{
+    const struct smear_tile_run *t = f->t;
+    const int32_t y0 = t->background.y0, y1 = t->background.y1;
+    __builtin_memset(c, 0, sizeof *c);
+    for (int32_t y = y0; y < y1; y += BLOCK_PX)
+        for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX) {
+            struct look look = { .x = x, .y = y, .x1 = min_i32(x + BLOCK_PX, t->x1), .y1 = min_i32(y + BLOCK_PX, y1) };
+            c->blocks++;
+            look_at_block(c, f, plan, &look, x < box->x1 && look.x1 > box->x0 && y < box->y1 && look.y1 > box->y0);
+        }
+}
+
+#endif
