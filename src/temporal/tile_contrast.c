@@ -9,7 +9,7 @@
 /* A block [x, x1) x [y, y1) of pixels, its displacement, and the same to the next pixels that are looked at: 2 px. */
 struct look {
     int32_t x, y, x1, y1;
-    int32_t way_x, way_y;       /* 1/16 px */
+    int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
 };
 
@@ -92,7 +92,8 @@ static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UI
 static int32_t add_block(struct smear_contrast *c, const struct look *l, const struct differences *d,
                          const struct smear_closing *closing)
 {
-    enum { MOST = 1 << 22, FLAT = 4000 };
+    enum { MOST = 1 << 22,
+           FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
     const uint32_t plain = min_u32((d->along >> 6) * (uint32_t)longer >> 4, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
@@ -101,7 +102,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     int32_t last = closing->last;
     if (last != 0 && d->along + d->beside >= FLAT)
         last = (int32_t)sqrt_floor_64(min_u32((plain * (256 - closing->left) >> 8) / max_u32(floor, 1),
-                                            BLOCK_INSTANTS_MAX * BLOCK_INSTANTS_MAX));
+                                              BLOCK_INSTANTS_MAX * BLOCK_INSTANTS_MAX));
     const int at = (last + 1) >> 1;
     c->plain[at] = add_saturated(c->plain[at], plain);
     c->closed[at] = add_saturated(c->closed[at], plain * closing->left >> 8);

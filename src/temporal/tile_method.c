@@ -8,7 +8,7 @@
 
 enum {
     INSTANTS_MAX = 63,
-    STEP_MAX = 256              /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
+    STEP_MAX = 256 /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
 
 static int32_t largest(int32_t low, int32_t high)
@@ -41,7 +41,7 @@ static int32_t reach_of(const struct smear_tile_travel *tile)
  * are hard. */
 static int32_t instants_for(const struct smear_tile_travel *tile, int32_t most)
 {
-    if ((tile->flags & PATH_INTERVAL) != 0)        /* its displacement is not known */
+    if ((tile->flags & PATH_INTERVAL) != 0) /* its displacement is not known */
         return most;
     return min_i32(max_i32((travel_of(tile) + 7) >> 3, 2), most);
 }
@@ -71,7 +71,8 @@ struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile)
 
 int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    const int32_t least = chooser->target >= 128 ? 3 : chooser->target >= 80 ? 5 : 16;
+    const int32_t least = chooser->target >= 128 ? 3 : chooser->target >= 80 ? 5
+                                                                             : 16;
     return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
 }
 
@@ -85,8 +86,10 @@ static int32_t interval_instants(int32_t target)
 /* Returns the least instants of a tile: the first may show nothing of what passes later. */
 static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8);      /* 1/16 */
-    const int32_t n = 2 + (int32_t)(3 * root / (4 * (uint32_t)max_i32(chooser->target, 1)));
+    const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8); /* 1/16 */
+    const int32_t target = max_i32(chooser->target, 1), n = 2 + (int32_t)(3 * root / (4 * (uint32_t)target));
+    if (target < 64)        /* pictures of slow things jump where the number changes: it does not, up to some px */
+        return max_i32(max_i32(n, 288 / target), (tile->flags & PATH_INTERVAL) != 0 ? PATH_INTERVALS : 1);
     return (tile->flags & PATH_INTERVAL) != 0 ? max_i32(n, interval_instants(chooser->target)) : n;
 }
 
@@ -100,7 +103,8 @@ static uint32_t log2_q8(uint32_t x)
 static uint32_t exp2_q8(uint32_t x)
 {
     const uint32_t log = x >> 8;
-    return log >= 31 ? UINT32_MAX : log >= 8 ? (256 + (x & 255u)) << (log - 8) : (256 + (x & 255u)) >> (8 - log);
+    return log >= 31 ? UINT32_MAX : log >= 8 ? (256 + (x & 255u)) << (log - 8)
+                                             : (256 + (x & 255u)) >> (8 - log);
 }
 
 /* Returns the part of the mean squared error that a run may have, q8. A frame of a given error costs least where each
@@ -108,7 +112,8 @@ static uint32_t exp2_q8(uint32_t x)
  * what an instant costs. The mean is that of the rows before, as the others are not known yet. */
 static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint32_t cost, uint32_t blocks)
 {
-    enum { LEAST = 51, MOST = 1280 };
+    enum { LEAST = 51,
+           MOST = 1280 };
     const uint32_t log = (log2_q8(left / blocks + 1) + 2 * log2_q8(cost / blocks + 1)) / 3;
     const uint32_t share = exp2_q8(log > 1024 ? log - 1024 : 0) + 1, own = share * blocks;
     const uint32_t sum = plan->before->sum + own, count = plan->before->blocks + blocks;
@@ -142,7 +147,7 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *c, int tiles,
                                  uint32_t cost)
 {
-    enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
+    enum { COMMON = 300 }; /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     int32_t instants = 1, reach = 0;
     uint32_t left = 0, unseen = 0;
@@ -163,9 +168,9 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
     instants = min_i32(instants, INSTANTS_MAX);
-    if (passes_near)        /* all sub-intervals that are drawn weigh the same */
+    if (passes_near) /* all sub-intervals that are drawn weigh the same */
         instants = instants <= PATH_INTERVALS / 2 + 1 ? PATH_INTERVALS / 2
-                 : min_i32((instants + PATH_INTERVALS / 2) / PATH_INTERVALS, INSTANTS_MAX / PATH_INTERVALS) * PATH_INTERVALS;
+                                                      : min_i32((instants + PATH_INTERVALS / 2) / PATH_INTERVALS, INSTANTS_MAX / PATH_INTERVALS) * PATH_INTERVALS;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
@@ -181,7 +186,9 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
     } else if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (tile->flags & PATH_WITHOUT_MASK) == 0) {
         choice->method = TILE_TIMEMASK;
         choice->timemask = (struct smear_timemask_settings){
-            chooser->samples <= 8 ? 8 : chooser->samples <= 16 ? 16 : 32, 16, 6, 256
+            chooser->samples <= 8 ? 8 : chooser->samples <= 16 ? 16
+                                                               : 32,
+            16, 6, 256
         };
     } else {
         choice->method = TILE_SUBFRAMES;
@@ -219,7 +226,7 @@ int32_t smear_tile_method_target(const struct smear_chooser *chooser, const stru
     static const uint16_t targets[] = { SMEAR_FINE, 64, SMEAR_BALANCED, 180, SMEAR_DRAFT };
     int32_t target = chooser->target;
     *work = predicted(target, areas);
-    for (unsigned i = 0; i < sizeof targets / sizeof *targets && *work > budget; i++)
+    for (unsigned i = 0; i<sizeof targets / sizeof *targets && * work> budget; i++)
         if (targets[i] > target) {
             target = targets[i];
             *work = predicted(target, areas);

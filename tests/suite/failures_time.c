@@ -463,19 +463,19 @@ const struct fail_row fail_time_rows[] = {
          .known = {[PLAIN] = 13, [MENDED] = 14, [AUTO] = 4.1}, .hard = true},
     }, "truth of 16 instants for 3 px"},
     {20, "jitter noise", jitter, {
-        {"deviation in flat columns", "codes", 1.0, .known = {[PLAIN] = 7.3, [MENDED] = 7.6, [AUTO] = 1.3, [FINE] = 1.3}},
+        {"deviation in flat columns", "codes", 1.0, .known = {[PLAIN] = 7.3, [MENDED] = 7.6, [AUTO] = 1.7}},
         {"change of the error from frame to frame", "codes", 2.0,
          .known = {[NONE] = 29, [PLAIN] = 8, [MENDED] = 5.2}},
     }, "truth of 64 instants for 16 px"},
     {21, "low or varying frame rate", rate, {
         {"length of a streak of 1/60 s", "%", 5.0,
-         .known = {[NONE] = 37, [PLAIN] = 27, [MENDED] = 7.2, [FINE] = 9.4}},
+         .known = {[NONE] = 37, [PLAIN] = 27, [MENDED] = 7.2}},
     }, "the application scales shutter_degrees here; suite motion has the modes of the library"},
     {22, "strobing", strobe, {
         {"gaps at 360, none at 90 and 180 degrees", "%", 0.0, .known = {[NONE] = 88}},
         {"ripple of the sum of frames", "%", 10.0,
          .known = {[NONE] = 550, [ACCUMULATE] = 18, [PLAIN] = 180, [MENDED] = 140,
-         [SUBFRAMES] = 18, [TIMEMASK] = 18, [AUTO] = 55, [FINE] = 46}},
+         [SUBFRAMES] = 18, [TIMEMASK] = 18, [AUTO] = 55}},
     }, NULL},
     {23, "sub-pixel motion", subpixel, {
         {"largest pop, 0 to 4 px", "codes", 1.0,
@@ -492,7 +492,7 @@ const struct fail_row fail_time_rows[] = {
     }, NULL},
     {35, "accumulation ghosts", ghosts, {
         {"largest step of the ramp, of 5 bits", "codes", 1.0,
-         .known = {[NONE] = 35, [PLAIN] = 6.9, [MENDED] = 4.9, [FINE] = 2.4}},
+         .known = {[NONE] = 35, [PLAIN] = 6.9, [MENDED] = 4.9, [AUTO] = 1.1, [FINE] = 1.1}},
         {"largest step times instants, 4 to 32", "", 1.0,
          .only = ONLY(ACCUMULATE), .otherwise = "not a number of instants"},
     }, "encoded light, so that steps are even"},
