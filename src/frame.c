@@ -162,14 +162,7 @@ static void prepare_methods(struct smear_context *c)
         smear_filtered_begin(&c->filtered, &c->rows, &c->frame, &c->shot.camera[0]);
     if (!SMEAR_WITH_SUBFRAMES)
         return;
-    /* Pairs of taps of the widest gap, 8 to either side, find room between the borders of a frame this large. */
-    c->temporal.chooser = (struct smear_chooser){
-        method, c->frame.samples, c->frame.target, frame_is_linear(&c->rows.raster),
-        min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&c->temporal.shutter)
-    };
-    smear_temporal_begin(&c->temporal);
-    c->temporal.target = c->frame.target;
-    c->temporal.budget = c->frame.budget;
+    smear_temporal_begin(&c->temporal, &c->frame, w);
 }
 
 static SMEAR_NOINLINE void prepare(struct smear_context *c, bool filters)

@@ -345,8 +345,16 @@ static int32_t target_within_budget(const struct smear_temporal *self, struct sm
     return target;
 }
 
-void smear_temporal_begin(struct smear_temporal *self)
+void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_window *w)
 {
+    /* Pairs of taps of the widest gap, 8 to either side, find room between the borders of a frame this large. */
+    self->chooser = (struct smear_chooser){
+        frame->method, frame->samples, frame->target,
+        SMEAR_WITH_LINEAR && frame->light_space == SMEAR_LIGHT_LINEAR,
+        min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&self->shutter)
+    };
+    self->target = frame->target;
+    self->budget = frame->budget;
     self->before = (struct smear_shares){ 0, 0 };
     for (int i = 0; i < SMEAR_WORKERS_MAX; i++)
         self->shares[i] = (struct smear_shares){ 0, 0 };

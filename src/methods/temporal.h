@@ -25,8 +25,8 @@ struct smear_temporal {
  * the frame. */
 int32_t smear_strip_columns(int32_t strip, int32_t width);
 
-/* Forgets what was learnt from the rows of the frame before. */
-void smear_temporal_begin(struct smear_temporal *self);
+/* Begins a frame: forgets what was learnt from the rows of the last one. */
+void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_window *w);
 
 /* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
  * smear_band_flush. */
