@@ -16,8 +16,8 @@ struct smear_row_moving {
 /* Begins a tile row: nothing moves in its tiles so far. */
 void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w);
 
-/* Lists the moving triangles from `head` on, with their blocks, for the tile row whose first pixel row is `top`, and adds what they mean for
- * its tiles; or lists them again, when that is known. */
+/* Lists the moving triangles from `head` on, with their blocks, for the tile row whose first pixel row is `top`, and adds
+ * what they mean for its tiles; or lists them again, when that is known. */
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
                        uint32_t head, int32_t top);
 

@@ -83,6 +83,15 @@ static int32_t interval_instants(int32_t target)
     return target >= 64 ? PATH_INTERVALS / 2 : PATH_INTERVALS;
 }
 
+/* Returns the nearest number of instants that draws each sub-interval as often as the others, or every other one once. */
+static int32_t whole_intervals(int32_t instants)
+{
+    if (instants <= PATH_INTERVALS / 2 + 1)
+        return PATH_INTERVALS / 2;
+    const int32_t times = (instants + PATH_INTERVALS / 2) / PATH_INTERVALS;
+    return min_i32(times, (int)INSTANTS_MAX / (int)PATH_INTERVALS) * (int)PATH_INTERVALS;
+}
+
 /* Returns the least instants of a tile: the first may show nothing of what passes later. */
 static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
@@ -169,8 +178,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
             break;
     instants = min_i32(instants, INSTANTS_MAX);
     if (passes_near) /* all sub-intervals that are drawn weigh the same */
-        instants = instants <= PATH_INTERVALS / 2 + 1 ? PATH_INTERVALS / 2
-                                                      : min_i32((instants + PATH_INTERVALS / 2) / PATH_INTERVALS, INSTANTS_MAX / PATH_INTERVALS) * PATH_INTERVALS;
+        instants = whole_intervals(instants);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
