@@ -216,7 +216,7 @@ dist-test: dist
 dist-single-test: dist build/tapes/golden.c
 	sh tests/shell/dist_single.sh
 
-## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist
+## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist; URL=https://... of the project
 dist: build/dist-single
 	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
 

@@ -79,6 +79,8 @@ suite golden-host $make -s TARGET=host target-test
 suite switches $make -s switches-test
 needs cmake "cmake" || true            # dist.sh builds packages with it
 needs pkg-config "pkg-config" || true
+needs arduino-builder "arduino-builder arduino-ctags" || true
+needs zip "zip" || true
 suite dist $make -s dist-test
 # Compilers of the one file; dist_single.sh goes without those that are not here.
 needs tcc "tcc" || true

@@ -4,7 +4,7 @@
 # Checks that includes run one way. FOLDER... are the rooms that hold sources, the lowest first. A file includes files of
 # its own room and of rooms below it, and nothing includes itself by way of others. The public headers include nothing
 # but each other. An include names a file from the root, from src/, from include/, or beside the file that includes it.
-# What includes headers of other libraries (platform/examples, and stand-ins for these) is in no room.
+# What includes headers of other libraries (platform/examples, examples of tools/dist, and stand-ins for these) is in no room.
 # With --order it prints the files instead, each after all that it includes: headers first, then sources.
 set -u
 mode=check
@@ -14,7 +14,7 @@ if grep -n '^#include "' include/*.h | grep -v -e '"smear[a-z_]*\.h"'; then
     exit 1
 fi
 if [ $mode = check ]; then
-    for folder in $(find src tools platform tests -name '*.[ch]' ! -path 'platform/examples/*' ! -path '*/stand_ins/*' \
+    for folder in $(find src tools platform tests -name '*.[ch]' ! -path 'platform/examples/*' ! -path 'tools/dist/*/*' ! -path '*/stand_ins/*' \
         -exec dirname {} + | sort -u); do
         case " $* " in
         *" $folder "*) ;;

@@ -3,3 +3,4 @@
 #include "../esp_lcd_panel_ops.h"
 
 #define taskYIELD() stand_in_interrupt()
+#define vTaskDelay(ticks) stand_in_interrupt()
