@@ -283,6 +283,15 @@ static const char *find_board(int count, char **text)
     return name;
 }
 
+/* What a board has for its own method does not go with any. */
+static bool goes_with(const char *option, int count, char **text)
+{
+    bool has_method = false;
+    for (int i = 0; i < count && strcmp(text[i], "--") != 0; i++)
+        has_method = has_method || strncmp(text[i], "--method", 8) == 0;
+    return !has_method || strcmp(option, "--keep-display") != 0;
+}
+
 static bool part(int count, char **text, struct parted *p)
 {
     const char *name = find_board(count, text);
@@ -295,7 +304,8 @@ static bool part(int count, char **text, struct parted *p)
     p->own = p->all + room;
     p->other = p->own + room;
     for (int i = 0; board != NULL && board->option[i] != NULL; i++)
-        p->all[p->all_count++] = (char *)board->option[i];
+        if (goes_with(board->option[i], count, text))
+            p->all[p->all_count++] = (char *)board->option[i];
     for (int i = 0; i < count; i++)
         p->all[p->all_count++] = text[i];
     for (int i = 0; i < p->all_count; i++) {

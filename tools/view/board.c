@@ -1,30 +1,37 @@
 /* SPDX-License-Identifier: MIT */
 /* board.c - see board.h.
  *
- * Boards with little memory begin with `reconstruct`: the time-resolved methods want more of it.
- * Arenas leave room for a program's own data, stack and, on the Game Boy Advance, sound. Bus
- * clocks are what the panels' controllers take in practice, not their cautious data sheets;
- * their refresh is by an oscillator of their own, never quite the 60 Hz it is meant to be. */
+ * Boards for which there is firmware of the demo draw as that does (platform/demo_player.c): by `auto`, in codes, with the
+ * same reach and tile, and with a display that keeps what it is sent. Arenas leave room for a program's own data, stacks and,
+ * on the Game Boy Advance, sound. Bus clocks are those of the firmware or what the panels' controllers take in practice,
+ * not their cautious data sheets; their refresh is by an oscillator of their own, never quite the 60 Hz it is meant to be. */
 #include "tools/view/board.h"
 
 #include <string.h>
 
+#define AS_FIRMWARE "--method", "auto", "--light", "encoded", "--keep-display"
+
 const struct board board_list[] = {
     { "oled", "128x64 OLED, SSD1306 on 8 MHz SPI, Cortex-M4 at 100 MHz, 128 kB of RAM",
-      { "--size", "128x64", "--format", "l1pages", "--arena", "98304", "--method", "reconstruct",
-        "--bus", "8000000", "--panel-hz", "105", "--cpu", "cortex-m4:100000000", "--tint",
-        "05070a,cfe9ff", NULL } },
-    { "rp2040", "240x240 IPS, ST7789 on 62.5 MHz SPI, Cortex-M0+ at 133 MHz, 264 kB of RAM",
-      { "--size", "240x240", "--format", "rgb565be", "--arena", "229376", "--method",
-        "reconstruct", "--bus", "62500000", "--panel-hz", "58.6", "--cpu",
-        "cortex-m0plus:133000000", NULL } },
-    { "round", "240x240 round IPS, GC9A01 on 62.5 MHz SPI, otherwise as rp2040",
-      { "--size", "240x240", "--format", "rgb565be", "--arena", "229376", "--method",
-        "reconstruct", "--bus", "62500000", "--panel-hz", "58.6", "--cpu",
-        "cortex-m0plus:133000000", "--round", NULL } },
+      { "--size", "128x64", "--format", "l1pages", "--arena", "98304", AS_FIRMWARE, "--tile", "8", "--reach", "4",
+        "--bus", "8000000", "--panel-hz", "105", "--cpu", "cortex-m4:100000000", "--tint", "05070a,cfe9ff", NULL } },
+    { "rp2040", "240x240 IPS, ST7789 on 66.5 MHz SPI, Cortex-M0+ at 133 MHz, 264 kB of RAM",
+      { "--size", "240x240", "--format", "rgb565be", "--arena", "204800", AS_FIRMWARE, "--tile", "16", "--reach", "12",
+        "--bus", "66500000", "--panel-hz", "58.6", "--cpu", "cortex-m0plus:133000000", NULL } },
+    { "round", "240x240 round IPS, GC9A01 on 66.5 MHz SPI, otherwise as rp2040",
+      { "--size", "240x240", "--format", "rgb565be", "--arena", "204800", AS_FIRMWARE, "--tile", "16", "--reach", "12",
+        "--bus", "66500000", "--panel-hz", "58.6", "--cpu", "cortex-m0plus:133000000", "--round", NULL } },
+    { "tufty", "320x240 IPS, ST7789 behind eight wires at 15 MHz, otherwise as rp2040",
+      { "--size", "320x240", "--format", "rgb565be", "--arena", "212992", AS_FIRMWARE, "--tile", "16", "--reach", "12",
+        "--bus", "120000000", "--panel-hz", "58.6", "--cpu", "cortex-m0plus:133000000", NULL } },
+    { "lcd144", "128x128 LCD, ST7735S on 16.6 MHz SPI, otherwise as rp2040",
+      { "--size", "128x128", "--format", "rgb565be", "--arena", "204800", AS_FIRMWARE, "--tile", "16", "--reach", "6",
+        "--bus", "16625000", "--panel-hz", "61", "--cpu", "cortex-m0plus:133000000", NULL } },
     { "gba", "Game Boy Advance: 240x160 in mode 3, ARM7TDMI at 16.78 MHz, 256 kB of work RAM",
-      { "--size", "240x160", "--format", "rgb555", "--arena", "229376", "--method", "reconstruct",
+      { "--size", "240x160", "--format", "rgb555", "--arena", "229376", AS_FIRMWARE, "--tile", "16", "--reach", "8",
         "--cpu", "arm7tdmi:16777216", NULL } },
+    { "pizero", "Raspberry Pi Zero on HDMI: 640x480, RGB565, 16 MB for the context",
+      { "--size", "640x480", "--format", "rgb565", "--arena", "16777216", AS_FIRMWARE, "--tile", "32", "--reach", "24", NULL } },
     { "memlcd", "400x240 1-bit reflective memory display at 50 Hz, Cortex-M7 at 168 MHz, 1 MB",
       { "--size", "400x240", "--format", "l1", "--dither", "blue", "--arena", "1048576", "--bus",
         "6000000", "--cpu", "cortex-m7:168000000", "--tint", "322f29,b1aea7", NULL } },
