@@ -3,6 +3,7 @@
  * span.c, whose blocks begin and end here, too; where two meet, colours are found once. */
 #include "raster/texture_rows.h"
 
+#include "kernels/hidden_run.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD
@@ -114,10 +115,13 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
     }
 }
 
-static void draw_run(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
-                     const struct span_side *side)
+/* Pixels [p->a, p->b) from the first that is seen on: those of rows that are hidden need no colours. */
+static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32_t y, const struct span_side *side)
 {
     struct shade k;
+    p->a += hidden_run(s->target->depth + (at + p->a), p->b - p->a, p->z + p->dz * (uint32_t)p->a, p->dz);
+    if (p->a == p->b)
+        return;
     if (s->perspective_color) {
         draw_blocks(s, p, at, y, side->left, side->right);
         return;
