@@ -15,27 +15,6 @@ SMEAR_INLINE int32_t hidden_run_reference(const uint16_t *depth, int32_t n, uint
     return i;
 }
 
-/* Four pixels a round. */
-SMEAR_INLINE int32_t hidden_run_unrolled(const uint16_t *depth, int32_t n, uint32_t z, uint32_t dz)
-{
-    const uint16_t *at = depth, *const end = depth + (n & ~3);
-    for (; at != end; at += 4) {
-        if (z >> 16 > at[0])
-            return (int32_t)(at - depth);
-        z += dz;
-        if (z >> 16 > at[1])
-            return (int32_t)(at - depth) + 1;
-        z += dz;
-        if (z >> 16 > at[2])
-            return (int32_t)(at - depth) + 2;
-        z += dz;
-        if (z >> 16 > at[3])
-            return (int32_t)(at - depth) + 3;
-        z += dz;
-    }
-    return (n & ~3) + hidden_run_reference(at, n & 3, z, dz);
-}
-
 #if SMEAR_VECTORS
 /* Eight pixels a round, in the order of signed numbers. */
 SMEAR_INLINE int32_t hidden_run_vector(const uint16_t *depth, int32_t n, uint32_t z, uint32_t dz)
@@ -59,10 +38,8 @@ SMEAR_INLINE int32_t hidden_run(const uint16_t *depth, int32_t n, uint32_t z, ui
 {
 #if SMEAR_VECTORS
     return hidden_run_vector(depth, n, z, dz);
-#elif defined(__OPTIMIZE_SIZE__)
-    return hidden_run_reference(depth, n, z, dz);
 #else
-    return hidden_run_unrolled(depth, n, z, dz);
+    return hidden_run_reference(depth, n, z, dz);
 #endif
 }
 

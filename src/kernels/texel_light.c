@@ -21,6 +21,7 @@ uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index)
 {
     const uint32_t pair = 0xff00ffu, t = texel_fetch(l->texels, l->palette, index, l->format) & 0xffffffu;
     l->index = index;
+    l->near = 0;
     if (t == l->texel)
         return l->pixel;
     if (SMEAR_WITH_LINEAR && l->linear)

@@ -32,8 +32,11 @@ struct texel_table {
 /* Light that is the same throughout a triangle, its texture, and the last texel with the pixel that it became: where
  * textures are magnified, most pixels look like those before them. */
 struct texel_light {
-    uint32_t index, pixel;              /* the order in which the assembly loads registers */
+    uint32_t pixel;                     /* the order in which the assembly loads registers */
+    uint32_t near, at_u, at_v;          /* the pixel is that of all coordinates that are less than `near` beyond these */
+    uint32_t cell;                      /* a texel's width or height, whichever is less: what `near` becomes */
     uint32_t from_v, mask_v, from_u;    /* index = v >> from_v & mask_v | u >> from_u */
+    uint32_t index;
     uint32_t texel;
     uint32_t red, green, blue;          /* of the light: codes, or linear light, 65536 is one */
     const void *texels;
@@ -51,6 +54,8 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->index = ~0u;
     l->texel = 0;
     l->pixel = 0;           /* that of black */
+    l->near = l->at_u = l->at_v = 0;
+    l->cell = 1u << (32 - (log2_width > log2_height ? log2_width : log2_height));
     l->red = l->green = l->blue = linear ? 65536 : 255;
     l->texels = texels;
     l->palette = palette;

@@ -13,9 +13,11 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, end) == 20 && offsetof(struct tex
                         && offsetof(struct texel_run, depth) == 28 && offsetof(struct texel_run, z) == 32
                         && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, count) == 48
                     && offsetof(struct texel_run, light) == 52, "the assembly knows struct texel_run");
-SMEAR_STATIC_ASSERT(offsetof(struct texel_light, index) == 0 && offsetof(struct texel_light, pixel) == 4
-                        && offsetof(struct texel_light, from_v) == 8 && offsetof(struct texel_light, mask_v) == 12
-                    && offsetof(struct texel_light, from_u) == 16, "the assembly knows struct texel_light");
+SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct texel_light, near) == 4
+                        && offsetof(struct texel_light, at_u) == 8 && offsetof(struct texel_light, at_v) == 12
+                        && offsetof(struct texel_light, cell) == 16 && offsetof(struct texel_light, from_v) == 20
+                        && offsetof(struct texel_light, mask_v) == 24 && offsetof(struct texel_light, from_u) == 28,
+                    "the assembly knows struct texel_light");
 
 /* One pixel, whose depth lies AT bytes and whose colour lies PLACE bytes further on; LABEL is behind it. r0 points to colours,
  * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
@@ -95,9 +97,8 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         ARMV6M_PAIRS("ldr", "str", "2", "4", "8");
 }
 
-/* As ARMV6M_PIXEL, for lit texels of any size. On the stack from sp on lie the words of struct texel_light up to from_u, the
- * run's end, pointers to the light and to the run. u and v make the index in r5, which smear_texel_light_find takes if it is
- * new, at 8. */
+/* As ARMV6M_PIXEL, for lit texels of any size. u in r3 and v in r4 count from the cell of the last pixel drawn, which is in lr;
+ * r5 is the cell's size. Beyond it the code at 8 makes another, whose texel is found. */
 #define ARMV6M_LIT_PIXEL(STORE, AT, PLACE, LABEL, KNOWN) \
         "lsrs r6, r2, #16\n\t" \
         "ldrh r7, [r1, #" AT "]\n\t" \
@@ -105,48 +106,46 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         "cmp r7, r6\n\t" \
         "bhs " LABEL "f\n\t" \
         "strh r6, [r1, #" AT "]\n\t" \
-        "ldr r7, [sp, #8]\n\t" \
-        "movs r6, r4\n\t" \
-        "lsrs r6, r7\n\t" \
-        "ldr r7, [sp, #12]\n\t" \
-        "ands r6, r7\n\t" \
-        "ldr r7, [sp, #16]\n\t" \
-        "movs r5, r3\n\t" \
-        "lsrs r5, r7\n\t" \
-        "orrs r5, r6\n\t" \
-        "ldr r7, [sp]\n\t" \
-        "cmp r5, r7\n\t" \
-        "beq " KNOWN "f\n\t" \
+        "movs r6, r3\n\t" \
+        "orrs r6, r4\n\t" \
+        "cmp r6, r5\n\t" \
+        "blo " KNOWN "f\n\t" \
         "bl 8f\n" \
-        KNOWN ": ldr r6, [sp, #4]\n\t" \
+        KNOWN ": mov r6, lr\n\t" \
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-#define ARMV6M_LIT_PAIRS(STORE, NEXT, STEP) \
+#define ARMV6M_STEP \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t"
+
+#define ARMV6M_BEND \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t"
+
+/* On the stack from sp on lie the run's end, pointers to the light and to the run. BEND is ARMV6M_BEND or nothing. */
+#define ARMV6M_LIT_PAIRS(STORE, NEXT, STEP, BEND) \
     __asm__ volatile( \
         ARMV6M_LOAD_STEPS \
         "ldr r7, [r0, #28]\n\t" \
         "push {r6, r7}\n\t" \
-        "ldm r7!, {r1, r2, r3, r4, r5}\n\t" \
-        "push {r1, r2, r3, r4, r5}\n\t" \
-        "ldm r0, {r0, r1, r2, r3, r4}\n" \
+        "ldm r7!, {r1, r5, r6}\n\t" \
+        "mov lr, r1\n\t" \
+        "ldm r0, {r0, r1, r2, r3, r4}\n\t" \
+        "subs r3, r3, r6\n\t" \
+        "ldr r6, [r7]\n\t" \
+        "subs r4, r4, r6\n" \
         "1:\n\t" \
         ARMV6M_LIT_PIXEL(STORE, "0", "0", "2", "3") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
+        ARMV6M_STEP BEND \
         ARMV6M_LIT_PIXEL(STORE, "2", NEXT, "4", "5") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
+        ARMV6M_STEP BEND \
         "adds r0, #" STEP "\n\t" \
         "adds r1, #4\n\t" \
-        "ldr r7, [sp, #20]\n\t" \
+        "ldr r7, [sp]\n\t" \
         "cmp r1, r7\n\t" \
         "bne 1b\n\t" \
-        "ldr r6, [sp, #28]\n\t" \
+        "ldr r6, [sp, #8]\n\t" \
         "ldr r6, [r6, #48]\n\t" \
         "lsrs r6, r6, #1\n\t" \
         "bcc 9f\n\t" \
@@ -154,21 +153,43 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         "adds r0, #" NEXT "\n\t" \
         "adds r1, #2\n\t" \
         "b 9f\n" \
-        "8: push {r0, r1, r2, r3}\n\t" \
+        "8: push {r0, r1, r2, lr}\n\t" \
         "mov r6, r12\n\t" \
-        "mov r7, lr\n\t" \
-        "push {r6, r7}\n\t" \
-        "str r5, [sp, #24]\n\t" \
-        "ldr r0, [sp, #48]\n\t" \
-        "movs r1, r5\n\t" \
+        "push {r6}\n\t" \
+        "ldr r0, [sp, #24]\n\t" \
+        "ldr r5, [r0, #8]\n\t" \
+        "adds r1, r5, r3\n\t" \
+        "ldr r5, [r0, #12]\n\t" \
+        "adds r2, r5, r4\n\t" \
+        "ldr r5, [r0, #16]\n\t" \
+        "subs r6, r5, #1\n\t" \
+        "movs r3, r1\n\t" \
+        "ands r3, r6\n\t" \
+        "movs r4, r2\n\t" \
+        "ands r4, r6\n\t" \
+        "subs r6, r1, r3\n\t" \
+        "str r6, [r0, #8]\n\t" \
+        "subs r6, r2, r4\n\t" \
+        "str r6, [r0, #12]\n\t" \
+        "ldr r6, [r0, #20]\n\t" \
+        "lsrs r2, r6\n\t" \
+        "ldr r6, [r0, #24]\n\t" \
+        "ands r2, r6\n\t" \
+        "ldr r6, [r0, #28]\n\t" \
+        "lsrs r1, r6\n\t" \
+        "orrs r1, r2\n\t" \
+        "movs r6, r3\n\t" \
+        "movs r7, r0\n\t" \
         "bl %c[find]\n\t" \
-        "str r0, [sp, #28]\n\t" \
-        "pop {r6, r7}\n\t" \
-        "mov r12, r6\n\t" \
-        "mov lr, r7\n\t" \
-        "pop {r0, r1, r2, r3}\n\t" \
-        "bx lr\n" \
-        "9: add sp, #28\n\t" \
+        "str r5, [r7, #4]\n\t" \
+        "movs r3, r6\n\t" \
+        "movs r6, r0\n\t" \
+        "pop {r7}\n\t" \
+        "mov r12, r7\n\t" \
+        "pop {r0, r1, r2, r7}\n\t" \
+        "mov lr, r6\n\t" \
+        "bx r7\n" \
+        "9: add sp, #8\n\t" \
         "pop {r7}\n\t" \
         "str r0, [r7, #24]\n\t" \
         "str r1, [r7, #28]\n\t" \
@@ -177,14 +198,22 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         : [find] "i"(smear_texel_light_find) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Lit texels: 26 instructions a pixel. */
+/* Lit texels: 18 instructions a pixel, 16 where the changes of coordinates don't change. */
 SMEAR_INLINE void texels_light_armv6m(struct texel_run *p, enum texel_kind kind)
 {
+    const bool bends = (p->ddu | p->ddv) != 0;
     register struct texel_run *r0 __asm__("r0") = p;
-    if (texels_are_narrow(kind))
-        ARMV6M_LIT_PAIRS("strh", "2", "4");
-    else
-        ARMV6M_LIT_PAIRS("str", "4", "8");
+    if (texels_are_narrow(kind)) {
+        if (bends)
+            ARMV6M_LIT_PAIRS("strh", "2", "4", ARMV6M_BEND);
+        else
+            ARMV6M_LIT_PAIRS("strh", "2", "4", "");
+    } else {
+        if (bends)
+            ARMV6M_LIT_PAIRS("str", "4", "8", ARMV6M_BEND);
+        else
+            ARMV6M_LIT_PAIRS("str", "4", "8", "");
+    }
 }
 
 #endif

@@ -104,6 +104,12 @@ static int unknown(int value)
 
 CALLS(reference)
 CALLS(unrolled)
+#if TEXELS_PACKED && SMEAR_VECTORS
+CALLS(vector)
+#define VECTOR(CALL) , { "vector", CALL }
+#else
+#define VECTOR(CALL)
+#endif
 #if SMEAR_ASM_ARMV6M
 CALLS(armv6m)
 #define ARMV6M(CALL) , { "armv6m", CALL }
@@ -113,7 +119,7 @@ CALLS(armv6m)
 
 #define KERNEL(NAME, KIND, SIZE) \
     { .name = NAME, .least = TEXELS_LEAST, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
-      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } ARMV6M(KIND##_armv6m) } }
+      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) } }
 
 extern const struct kernel kernels_texels_draw[];
 const struct kernel kernels_texels_draw[] = {
