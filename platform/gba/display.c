@@ -98,7 +98,8 @@ bool display_wait(void)
 
 unsigned display_keys(void)
 {
-    unsigned held = ~GBA_KEYS;      /* A B select start right left up down */
-    return (held & 1 ? KEY_A : 0u) | (held & 8 ? KEY_START : 0u) | (held & 16 ? KEY_RIGHT : 0u) |
-           (held & 32 ? KEY_LEFT : 0u) | (held & 64 ? KEY_UP : 0u) | (held & 128 ? KEY_DOWN : 0u);
+    /* A B select start right left up down R L: the shoulders are left and right, B is start. */
+    const unsigned held = ~GBA_KEYS;
+    return (held & 1 ? KEY_A : 0u) | (held & (8 | 2) ? KEY_START : 0u) | (held & (16 | 256) ? KEY_RIGHT : 0u) |
+           (held & (32 | 512) ? KEY_LEFT : 0u) | (held & 64 ? KEY_UP : 0u) | (held & 128 ? KEY_DOWN : 0u);
 }

@@ -1,7 +1,7 @@
 @ SPDX-License-Identifier: MIT
 @ start.S - cartridge header and the way to main on a Game Boy Advance.
 @
-@ The header's logo is left blank: emulators do not look at it, a console's BIOS does. The command
+@ The header's logo is left blank: emulators do not look at it, a console's BIOS does (cartridge.c puts it in). The command
 @ line is zeros on a cartridge; gbarun.c writes one for tests.
     .section .header, "ax"
     .arm

@@ -56,6 +56,21 @@ $(BUILD)/gbarun: platform/gba/gbarun.c
 	@mkdir -p $(@D)
 	$(or $(HOST_CC),cc) -std=gnu11 -O2 -Wall -Wextra -o $@ $< -lmgba
 
+# What a cartridge takes; LOGO=FILE.gba: with the logo of that ROM, which a console wants to see.
+$(BUILD)/cartridge: platform/gba/cartridge.c
+	$(call say,CC,$<)
+	@mkdir -p $(@D)
+	$(or $(HOST_CC),cc) -std=c11 -O2 -Wall -Wextra -o $@ $<
+
+$(BUILD)/%.gba: $(BUILD)/%.elf $(BUILD)/cartridge always
+	$(call say,GBA)
+	arm-none-eabi-objcopy -O binary $< $@.new
+	$(BUILD)/cartridge $@.new $(LOGO) || { rm -f $@.new; exit 1; }
+	mv $@.new $@
+
+demo-firmware: $(BUILD)/demo.gba
+model-firmware: $(BUILD)/model.gba
+
 symbols-test: gba-stages-test
 
 .PHONY: gba-stages-test gba-hot
