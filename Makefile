@@ -131,7 +131,7 @@ $(BIN)/smear-demo: $(call objects,$(DEMO_SRC)) $(LIB)
 # by its CRCs (platform/host/desktop_display.c).
 HOST_DISPLAY_SRC := platform/host/platform.c platform/host/desktop_display.c tools/player/picture.c \
     $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
-        console.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
+        console.c evdev.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
 
 ## a desktop's display for firmware: build/host/libsmear-display.a
 host-display: $(BUILD)/libsmear-display.a
@@ -273,7 +273,7 @@ TESTS    := $(BUILD)/run
 KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
 TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c
 

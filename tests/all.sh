@@ -125,6 +125,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
         suite target-gba $make -s TARGET=gba target-test
         suite demo-gba $make -s TARGET=gba demo-test
+        suite gba-cartridge sh tests/shell/gba_cartridge.sh
     fi
     suite objects-cortex-m0plus sh tests/shell/target_objects.sh build/objects
     # 47.5 kB of code for the renderer and its filter: all surfaces and formats, SMEAR_RECONSTRUCT and SMEAR_ACCUMULATE. (40 kB
@@ -136,6 +137,18 @@ if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-
     suite target-rv32imc $make -s TARGET=rv32imc target-test
     suite symbols-rv32imc $make -s TARGET=rv32imc symbols-test
     suite demo-rv32imc $make -s TARGET=rv32imc demo-test
+fi
+if needs arm-linux-gnueabi-gcc "gcc-arm-linux-gnueabi libc6-dev-armel-cross" && needs qemu-arm-static "qemu-user-static"; then
+    suite target-linux-armel $make -s TARGET=linux-armel target-test
+    suite demo-linux-armel $make -s TARGET=linux-armel demo-test
+fi
+if needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
+    suite target-linux-armhf $make -s TARGET=linux-armhf target-test
+    suite demo-linux-armhf $make -s TARGET=linux-armhf demo-test
+fi
+if needs aarch64-linux-gnu-gcc "gcc-aarch64-linux-gnu libc6-dev-arm64-cross" && needs qemu-aarch64-static "qemu-user-static"; then
+    suite target-linux-aarch64 $make -s TARGET=linux-aarch64 target-test
+    suite demo-linux-aarch64 $make -s TARGET=linux-aarch64 demo-test
 fi
 if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
     && needs qemu-s390x-static "qemu-user-static"; then

@@ -19,14 +19,18 @@ cd "$base" || exit 1
 kernel=$(ls "$package"/boot/vmlinuz-*)
 modules=$(ls -d "$package"/lib/modules/*/kernel)
 
-# boot NAME DISPLAY-OPTIONS KERNEL-OPTIONS MODULES: with ./commands; $log is the serial line
+# boot NAME DISPLAY-OPTIONS KERNEL-OPTIONS MODULES: with ./commands; $log is the serial line; MODULE:PARAMETER
 boot() {
     name=$1
     files=
     : >list
     for module in $4; do
+        parameter=
+        case $module in
+        *:*) parameter=" ${module#*:}" module=${module%%:*} ;;
+        esac
         files="$files $(find "$modules" -name "$module.ko")=modules/$module.ko"
-        echo "$module.ko" >>list
+        echo "$module.ko$parameter" >>list
     done
     # shellcheck disable=SC2086
     "$mkcpio" "$init=init" "$static=smear" commands=commands $files list=modules/list >initramfs || return 1
@@ -93,10 +97,21 @@ off
 
 cat >commands <<END
 smear view --out fb $race --size $size --format rgb565 $look
+@alone smear view --out fb $race --size $size --format rgb565 $look
+@kill=15 smear view --out fb $race --size $size
+@kill=11 smear view --out fb $race --size $size
+@alone @kill=11 smear view --out fb $race --size $size
 END
-boot vesa16 "-vga std" vga=0x311 ""
+boot vesa16 "-vga std" vga=0x311 evdev
 claim "framebuffer, 16 bits: starts" wait_log "^RUN 0"
 claim "the picture is the frame" shows 0 rgb565
+claim "q ends it, the console is text again" eval 'key q && ends 0 0'
+claim "without a terminal: the picture is the frame" eval 'wait_log "^RUN 1" && shows 0 rgb565'
+claim "keys come from input devices" eval 'key dot && shows 1 rgb565'
+claim "so does q" eval 'key q && ends 1 0'
+claim "SIGTERM leaves the console as it was" ends 2 0
+claim "so does a crash" ends 3 -11
+claim "without a terminal, too" ends 4 -11
 off
 
 # ------------------------------------------------------------------ display cards

@@ -10,6 +10,7 @@
 #include "tools/scenes/xform.h"
 #include "tools/view/board.h"
 #include "tools/view/bus.h"
+#include "tools/view/evdev.h"
 #include "tools/view/font.h"
 #include "tools/view/orbit.h"
 #include "tools/view/panel.h"
@@ -347,6 +348,19 @@ static void test_keys_of_terminals_are_known(void)
     CHECK(is_key("\033[B", SCREEN_DOWN) && is_key("\033[C", SCREEN_RIGHT) && is_key("\033[D", SCREEN_LEFT));
     CHECK(is_key("\033[H", SCREEN_HOME) && is_key("\033[1~", SCREEN_HOME) && is_key("\033[F", SCREEN_END));
     CHECK(is_key("\033[5~", SCREEN_PAGE_UP) && is_key("\033[6~", SCREEN_PAGE_DOWN));
+}
+
+/* Codes of <linux/input-event-codes.h>. */
+static void test_keys_of_input_devices_are_known(void)
+{
+#ifdef __linux__
+    CHECK(evdev_key(2) == '1' && evdev_key(11) == '0' && evdev_key(16) == 'q' && evdev_key(30) == 'a' && evdev_key(45) == 'x');
+    CHECK(evdev_key(52) == '.' && evdev_key(57) == ' ' && evdev_key(1) == SCREEN_ESCAPE && evdev_key(28) == SCREEN_ENTER);
+    CHECK(evdev_key(103) == SCREEN_UP && evdev_key(105) == SCREEN_LEFT && evdev_key(106) == SCREEN_RIGHT && evdev_key(108) == SCREEN_DOWN);
+    CHECK(evdev_key(0x130) == 'a' && evdev_key(0x136) == SCREEN_LEFT && evdev_key(0x137) == SCREEN_RIGHT);
+    CHECK(evdev_key(0x13b) == SCREEN_ENTER && evdev_key(0x13c) == SCREEN_ESCAPE && evdev_key(0x220) == SCREEN_UP);
+    CHECK(evdev_key(0) == 0 && evdev_key(29) == 0 && evdev_key(0x2ff) == 0 && evdev_key(-1) == 0);
+#endif
 }
 
 static void test_half_a_sequence_waits_for_the_rest(void)
@@ -715,6 +729,7 @@ void suite_view(void)
     RUN(test_the_tear_is_where_reading_and_writing_meet);
     RUN(test_panels_in_step_do_not_tear);
     RUN(test_keys_of_terminals_are_known);
+    RUN(test_keys_of_input_devices_are_known);
     RUN(test_half_a_sequence_waits_for_the_rest);
     RUN(test_the_pointer_of_terminals_drags_and_scrolls);
     RUN(test_ctrl_c_closes);

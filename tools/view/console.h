@@ -6,8 +6,9 @@
 
 #include "tools/view/screen.h"
 
-/* Where there is no terminal, no keys come; that is no failure. Signals put everything right. */
-void console_open(void);
+/* Keys come from the terminal and from pads or, where there is no terminal, from all input devices; there may be none. Signals
+ * put everything right, and call `also`, which may do what a signal handler may; it may be null. */
+void console_open(void (*also)(void));
 void console_close(void);
 
 /* As the event of a screen. */

@@ -234,7 +234,7 @@ static struct screen *display_open(const struct screen_wish *wish, struct failur
         d->file = -1;
         if (open_card(d, card, &why)) {
             d->screen.kind = &screen_drm;
-            console_open();
+            console_open(NULL);
             return &d->screen;
         }
         bool is_there = d->file >= 0;

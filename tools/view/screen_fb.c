@@ -62,6 +62,17 @@ static bool show_page(struct framebuffer *b, unsigned row)
     return ioctl(b->file, FBIOPAN_DISPLAY, &var) == 0;
 }
 
+/* What is shown while a program is ended by a signal. */
+static struct framebuffer *volatile shown;
+
+static void show_before(void)
+{
+    struct framebuffer *b = shown;
+    shown = NULL;
+    if (b != NULL && b->has_two)
+        show_page(b, b->row_before);
+}
+
 static bool map(struct framebuffer *b, const struct fb_fix_screeninfo *fix, struct failure *f)
 {
     size_t first = (size_t)b->var.yoffset * fix->line_length;
@@ -121,10 +132,9 @@ static void fb_close(struct screen *screen)
         if (first + picture_bytes(b) > b->size)
             first = 0;
         memcpy(b->memory + first, b->kept, picture_bytes(b));
-        if (b->has_two)
-            show_page(b, b->row_before);
     }
     console_close();
+    shown = NULL;
     if (b->memory != NULL)
         munmap(b->memory, b->size);
     if (b->file >= 0)
@@ -172,7 +182,8 @@ static struct screen *fb_open(const struct screen_wish *wish, struct failure *f)
     b->screen.kind = &screen_fb;
     b->screen.width = (int)b->var.xres;
     b->screen.height = (int)b->var.yres;
-    console_open();
+    shown = b;
+    console_open(show_before);
     return &b->screen;
 }
 
