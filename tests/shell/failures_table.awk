@@ -24,6 +24,12 @@ function finish(    i) {
     printf "\n"
 }
 
+# Rows beyond the catalogue have no number.
+/^\+ / {
+    finish()
+    row = ""
+}
+
 /^[0-9]+ / {
     finish()
     row = $1

@@ -87,6 +87,10 @@ const struct scene_entry scene_catalog[] = {
     {"fail/layers", "34: behind one bar and before another", failure_make},
     {"fail/ghosts", "35: white over black, 40 px", failure_make},
     {"fail/far", "36: a car and a camera that can be far away", failure_make},
+    {"fail/sign", "37: letters aslant", failure_make},
+    {"fail/fan", "38: two fans that overlap", failure_make},
+    {"fail/rotor", "39: two thin blades, 40 degrees", failure_make},
+    {"fail/wheel", "40: a wheel that rolls", failure_make},
 };
 
 const int scene_catalog_count = sizeof scene_catalog / sizeof *scene_catalog;

@@ -720,6 +720,82 @@ static void ghosts_move(const struct stage *stage, double time, struct scene_ins
     stage_place(out, 1, xform_move(-100 + FAIL_GHOST_STREAK * u, 0, 0));
 }
 
+/* ------------------------------------------------------------------ 37 sign */
+
+/* Letters of 15x21 px, aslant. */
+static void sign_build(struct stage *stage)
+{
+    flat_back(stage);
+    fail_plane(stage, text_image(stage), 72, 30, 3);
+}
+
+static void sign_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    double u = still_camera(stage, time, out);
+    stage_place(out, 1, xform_mul(xform_move(28 * u, 6 * u, 0), xform_turn_z(0.15)));
+}
+
+/* ------------------------------------------------------------------ 38 fan, 39 rotor, 40 wheel */
+
+/* Blades about the origin: narrow at the hub, with a tip of another colour. */
+static void add_blades(struct stage *stage, int blades, double length, double width, uint32_t rgb, uint32_t tip)
+{
+    struct build b = build_begin(stage, BUILD_COLOR);
+    for (int i = 0; i < blades; i++) {
+        b.at = xform_turn_z(2 * PI * i / blades);
+        build_color(&b, rgb);
+        build_quad(&b, vec3(0, -width / 4, 0), vec3(0.8 * length, -width / 2, 0), vec3(0.8 * length, width / 2, 0),
+                   vec3(0, width / 4, 0));
+        build_color(&b, tip);
+        build_quad(&b, vec3(0.8 * length, -width / 2, 0), vec3(length, -width / 2, 0), vec3(length, width / 2, 0),
+                   vec3(0.8 * length, width / 2, 0));
+    }
+    stage_add(stage, fail_unlit(&b));
+}
+
+static void fan_build(struct stage *stage)
+{
+    noise_back(stage, 38);
+    add_blades(stage, 5, FAIL_FAN_RADIUS, 12, 0xfff4d8, 0xe0402a);
+    add_blades(stage, 5, FAIL_FAN_RADIUS, 12, 0x2f6fd0, 0xf3b52c);
+}
+
+/* They turn against each other, by 40 degrees in half a frame, and overlap. */
+static void fan_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    double u = still_camera(stage, time, out), turn = 4 * PI / 9 * u;
+    stage_place(out, 1, xform_mul(xform_move(-FAIL_FAN_ASIDE, 0, 0), xform_turn_z(turn)));
+    stage_place(out, 2, xform_mul(xform_move(FAIL_FAN_ASIDE, 0, FRONT), xform_turn_z(0.4 - turn)));
+}
+
+static void rotor_build(struct stage *stage)
+{
+    flat_back(stage);
+    add_blades(stage, 2, FAIL_ROTOR_RADIUS, 6, 0xfff4d8, 0xe0402a);
+}
+
+static void rotor_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    double u = still_camera(stage, time, out);
+    stage_place(out, 1, xform_mul(xform_move(6 * u, 2 * u, 0), xform_turn_z(0.3 + 4 * PI / 9 * u)));
+}
+
+static void wheel_build(struct stage *stage)
+{
+    noise_back(stage, 40);
+    add_disc(stage, FAIL_ROLLING_RADIUS, 0x181c24);
+    add_blades(stage, 6, FAIL_ROLLING_RADIUS - 4, 7, 0xc8ccd4, 0xf3b52c);
+}
+
+/* It rolls to the right, 30 px per frame. */
+static void wheel_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    double u = still_camera(stage, time, out), way = 30 * u;
+    struct xform turn = xform_turn_z(0.1 - way / FAIL_ROLLING_RADIUS);
+    stage_place(out, 1, xform_mul(xform_move(way, 0, 0), turn));
+    stage_place(out, 2, xform_mul(xform_move(way, 0, 1), turn));
+}
+
 /* ------------------------------------------------------------------ */
 
 const struct stage_kind failure_flat_kinds[] = {
@@ -754,6 +830,10 @@ const struct stage_kind failure_flat_kinds[] = {
     {"fail/stop", 192, 64, FAIL_TIME, 0, stop_build, stop_move},
     {"fail/layers", 192, 160, FAIL_TIME, 0, layers_build, layers_move},
     {"fail/ghosts", 128, 64, FAIL_TIME, 0, ghosts_build, ghosts_move},
+    {"fail/sign", 192, 96, FAIL_TIME, 0, sign_build, sign_move},
+    {"fail/fan", 192, 112, FAIL_TIME, 0, fan_build, fan_move},
+    {"fail/rotor", 160, 144, FAIL_TIME, 0, rotor_build, rotor_move},
+    {"fail/wheel", 160, 112, FAIL_TIME, 0, wheel_build, wheel_move},
 };
 
 const int failure_flat_count = sizeof failure_flat_kinds / sizeof *failure_flat_kinds;
