@@ -27,6 +27,12 @@ ifeq ($(CHECK),1)
 BUILD  := $(BUILD)-check
 CFLAGS += -DSMEAR_CHECK=1
 endif
+# COVERAGE=1: counts which branches of src/ are taken; each inline function is one.
+ifeq ($(COVERAGE),1)
+BUILD   := $(BUILD)-coverage
+LDFLAGS += --coverage
+$(BUILD)/src/%.o: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic -Dalways_inline=unused
+endif
 # EXR=1: tests keep their pictures as OpenEXR, too, and the suites that need it are there.
 ifeq ($(EXR),1)
 BUILD    := $(BUILD)-exr
@@ -46,7 +52,7 @@ SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
-TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz target shell)
+TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz proofs target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
@@ -68,7 +74,7 @@ TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
 LIB := $(BUILD)/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
-BIN := $(if $(SAN)$(CHECK)$(EXR),$(BUILD),build)
+BIN := $(if $(SAN)$(CHECK)$(EXR)$(COVERAGE),$(BUILD),build)
 
 CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
@@ -298,6 +304,31 @@ print-san-suites:
 ## one suite of `make test`, SUITE=api; `make print-suites` lists them
 run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
+
+# Suites of seconds that reach into every room of src/.
+COVERAGE_SUITES := $(filter-out accuracy assets blur chart cover failures filters metrics ref scenes view x11 json,$(SUITES))
+.PHONY: coverage run-coverage
+## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
+coverage:
+	$(MAKE) --no-print-directory COVERAGE=1 run-coverage
+
+run-coverage: $(TESTS) $(BUILD)/frames
+	sh tests/coverage.sh $(BUILD) "$(COVERAGE_SUITES)"
+
+$(BUILD)/frames: $(call objects,tests/fuzz/frames.c tests/fuzz/cases.c tests/fuzz/cases_wild.c) $(LIB)
+	$(call say,LD)
+	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
+
+.PHONY: proofs
+## fixed.h and fixmath.h free of run-time errors, by Frama-C and by trying all numbers; STEP=n tries every n-th
+proofs: build/proofs/reciprocals
+	sh tests/proofs/proofs.sh $< $(STEP)
+
+build/proofs/reciprocals: tests/proofs/reciprocals.c src/base/tables.c src/base/fixmath.h src/base/fixed.h
+	$(call say,CC,$<)
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -O2 -Wall -Wextra -Iinclude -Isrc -I. -fsanitize=signed-integer-overflow,shift,bounds \
+	    -fsanitize-undefined-trap-on-error -o $@ $(filter %.c,$^)
 
 .PHONY: check-kernels
 ## every variant of an inner loop against its reference, and nanoseconds per pixel of both

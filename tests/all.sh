@@ -87,6 +87,9 @@ needs tcc "tcc" || true
 needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" || true
 suite dist-single $make -s dist-single-test
 suite template $make -s template-test
+if needs frama-c "frama-c-base"; then
+    suite proofs $make -s proofs STEP=7
+fi
 suite demo-host $make -s TARGET=host demo-test
 suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run

@@ -9,10 +9,11 @@
 /* Returns floor(a / b) for b > 0, and the remainder in [0, b). */
 static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
 {
-    int32_t q = a / b, r = a - q * b;
+    /* Exact: |q b| <= |a|, and where r < 0, q > INT32_MIN. Wrapping words say so to whoever sees only ranges. */
+    int32_t q = a / b, r = sub_wrap(a, mul_wrap(q, b));
     if (r < 0) {
-        q--;
-        r += b;
+        q = sub_wrap(q, 1);
+        r = add_wrap(r, b);
     }
     *remainder = r;
     return q;
@@ -58,7 +59,7 @@ SMEAR_SHARED int count_leading_zeros_64(uint64_t x)
     return high != 0 ? count_leading_zeros(high) : 32 + count_leading_zeros((uint32_t)x);
 }
 
-/* Returns 2^61 / m for a normalised m in [2^31, 2^32): a number in [2^29, 2^30], relative error below 2^-18.
+/* Returns 2^61 / m for a normalised m in [2^31, 2^32): a number in [2^29 - 2^11, 2^30], relative error below 2^-18.
  *
  * The seed r has 9.4 good bits in 11. m r is 2^31 (1 + e) with |e| < 2^-9.4; one Newton
  * step r (1 - e) squares the error. All products fit 32 bits: m is cut to 21 bits, r

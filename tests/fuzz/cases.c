@@ -186,14 +186,17 @@ static void make_mesh(struct fuzz_case *c, int at)
     int across = source_range(s, 1, most), down = source_range(s, 1, most), vertices = source_range(s, 1, 2 * most),
         triangles = source_range(s, 0, c->large ? 30 : 8);
     const bool grid = source_chance(s, 2);
-    if (grid && source_chance(s, c->large ? 30 : 3000)) {
+    const bool huge = at == 0 && source_chance(s, c->large ? 8 : 800);
+    if (huge) /* in parts, it would take minutes */
+        c->desc.max_triangles = 20000;
+    if (grid && huge) {
         across = source_range(s, 100, 254);
         down = source_range(s, 100, 255);
     }
     if (grid) {
         vertices = (across + 1) * (down + 1);
         triangles = 2 * across * down;
-    } else if (source_chance(s, c->large ? 50 : 5000)) {
+    } else if (huge) {
         vertices = 65535;
     }
     int16_t *position = take(c, (size_t)vertices * 3 * sizeof *position);
@@ -304,7 +307,9 @@ static void make_moved_camera(struct fuzz_case *c, smear_camera *camera, const s
 static void make_draw(struct fuzz_case *c, int i)
 {
     struct source *s = &c->source;
-    const int mesh = source_range(s, 0, CASE_MESHES - 1);
+    int mesh = source_range(s, 0, CASE_MESHES - 1);
+    if (mesh == 0 && i != 0 && c->mesh[0].vertex_count > 1000) /* once is enough */
+        mesh = 1;
     const uint32_t look = source_word(s), kind = source_word(s);
     smear_material *m = &c->material[i];
     *m = (smear_material){
@@ -335,9 +340,9 @@ static void make_draw(struct fuzz_case *c, int i)
                       .path = (uint8_t)option(s, 2, SMEAR_PATH_DEFAULT, SMEAR_PATH_SCREW),
                       .layers = (uint8_t)option(s, 3, 1, 255) };
     if (source_chance(s, 12)) { /* poses of another mesh: nothing is known of the deformation */
-        const smear_mesh *m = c->draw[i].mesh;
-        c->draw[i].open_count = (uint16_t)source_range(s, 0, m->vertex_count);
-        c->draw[i].close_count = (uint16_t)source_range(s, 0, m->vertex_count);
+        const int32_t most = c->draw[i].mesh->vertex_count;
+        c->draw[i].open_count = (uint16_t)source_range(s, 0, most);
+        c->draw[i].close_count = (uint16_t)source_range(s, 0, most);
     }
     if (kind >> 16 & 1)
         c->draw[i].material = m;
@@ -441,7 +446,9 @@ smear_desc case_other_desc(struct fuzz_case *c)
     d.workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 1);
     d.vertex_cache = (uint16_t)(16 << source_range(s, 0, 8));
     d.bands = (uint8_t)source_range(s, 0, 2);
-    d.max_triangles = source_chance(s, 2) ? 4000 : (uint32_t)source_range(s, !c->large && source_chance(s, 8) ? 1 : 60, 400);
+    d.max_triangles = (uint32_t)source_range(s, !c->large && source_chance(s, 8) ? 1 : 60, 400);
+    if (c->mesh[0].vertex_count > 1000 || source_chance(s, 2))
+        d.max_triangles = 20000;
     d.reuse.cache_static = d.reuse.buffer_age = 0;
     const uint8_t format = d.format;
     make_band_rows(s, &d);

@@ -325,7 +325,7 @@ enum mode { MODE_VALID,
 static void make_comparable(struct fuzz_case *c)
 {
     if ((c->desc.methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0)
-        c->desc.max_triangles = 4000;
+        c->desc.max_triangles = 20000;
 }
 
 /* Draws a case; returns a sum of its pictures. */
