@@ -6,6 +6,7 @@
  * Beyond not crashing: bands come in order and cover the frame, and a second context with ample
  * room for triangles, another vertex cache and band height draws the same picture. */
 #include "smear.h"
+#include "smear_math.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -200,7 +201,11 @@ static void take_camera(struct source *s, smear_camera *c)
     static const smear_transform identity = SMEAR_IDENTITY;
     uint8_t kind = take(s);
     *c = (smear_camera){ .pose = identity, .focal = 1 << 16, .near_plane = 1 << 13, .far_plane = 0 };
-    if (kind & 1)
+    if (kind & 1) {
+        const uint32_t about_y = take_word(s), about_x = take_word(s);
+        c->pose = smear_compose(smear_rotate_y(about_y), smear_rotate_x(about_x));
+    }
+    if (kind >> 6 == 3 && take_chance(s, 8))    /* no rotation: such a camera is refused */
         for (int i = 0; i < 9; i++) {
             int32_t v = take_value(s, SMEAR_BASIS_ONE);
             c->pose.basis[i] = v > 2 * SMEAR_BASIS_ONE ? 2 * SMEAR_BASIS_ONE
