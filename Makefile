@@ -315,7 +315,7 @@ coverage:
 run-coverage: $(TESTS) $(BUILD)/frames
 	sh tests/coverage.sh $(BUILD) "$(COVERAGE_SUITES)"
 
-$(BUILD)/frames: $(call objects,tests/fuzz/frames.c tests/fuzz/cases.c tests/fuzz/cases_wild.c) $(LIB)
+$(BUILD)/frames: $(call objects,tests/fuzz/frames.c $(wildcard tests/fuzz/cases*.c)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
 

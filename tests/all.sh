@@ -90,6 +90,7 @@ suite template $make -s template-test
 if needs frama-c "frama-c-base"; then
     suite proofs $make -s proofs STEP=7
 fi
+suite coverage $make -s $jobs coverage
 suite demo-host $make -s TARGET=host demo-test
 suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run

@@ -77,7 +77,7 @@ static void *take(struct fuzz_case *c, size_t size)
     return c->block[c->blocks++] = block;
 }
 
-static void *take_random(struct fuzz_case *c, size_t size)
+void *case_random(struct fuzz_case *c, size_t size)
 {
     uint8_t *bytes = take(c, size);
     for (size_t i = 0; i < size; i++)
@@ -112,8 +112,8 @@ static void make_texture(struct fuzz_case *c, smear_texture *t)
     t->format = (uint8_t)source_range(s, 0, SMEAR_TEXEL_PALETTE8);
     t->wrap_u = (uint8_t)source_range(s, 0, SMEAR_MIRROR);
     t->wrap_v = (uint8_t)source_range(s, 0, SMEAR_MIRROR);
-    t->texels = take_random(c, (size_t)t->width * t->height * bytes[t->format]);
-    t->palette = t->format == SMEAR_TEXEL_PALETTE8 ? take_random(c, 256 * 4) : NULL;
+    t->texels = case_random(c, (size_t)t->width * t->height * bytes[t->format]);
+    t->palette = t->format == SMEAR_TEXEL_PALETTE8 ? case_random(c, 256 * 4) : NULL;
 }
 
 /* A grid of squares, which shares vertices as models do. */
@@ -164,9 +164,9 @@ static void make_surface(struct fuzz_case *c, smear_mesh *m)
     struct source *s = &c->source;
     const size_t vertices = m->vertex_count, triangles = m->triangle_count;
     const uint32_t has = source_word(s);
-    m->normal = has & 1 ? take_random(c, vertices * 3) : NULL;
-    m->color = has & 4 ? take_random(c, vertices * 4) : NULL;
-    m->face_color = has & 8 ? take_random(c, triangles * 4) : NULL;
+    m->normal = has & 1 ? case_random(c, vertices * 3) : NULL;
+    m->color = has & 4 ? case_random(c, vertices * 4) : NULL;
+    m->face_color = has & 8 ? case_random(c, triangles * 4) : NULL;
     /* Whatever the texture's size: so many texels at most are below 32768. */
     m->uv_shift = (uint8_t)source_range(s, 13, 15);
     if (!(has & 2))
@@ -595,6 +595,8 @@ void case_frame(struct fuzz_case *c, int k)
     if (k == 0 || source_chance(s, keeps ? 6 : 2))
         make_settings(c);
     c->frame.refresh = 0;
+    if (c->with_overlay)
+        case_frame_overlay(c);
     if (k == 0)
         return;
     if (source_chance(s, keeps ? 6 : 2))
@@ -632,6 +634,9 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild)
     make_camera(c, &c->camera[0], source_chance(s, 4));
     for (int i = 1; i < 3; i++)
         make_moved_camera(c, &c->camera[i], &c->camera[0]);
+    c->with_overlay = source_chance(s, 3);
+    if (c->with_overlay)
+        case_make_overlay(c);
     c->draws = source_range(s, 0, c->large ? CASE_DRAWS : 4);
     for (int i = 0; i < CASE_DRAWS; i++)
         make_draw(c, i);

@@ -7,6 +7,7 @@
 #define SMEAR_FUZZ_CASES_H
 
 #include "smear.h"
+#include "smear_overlay.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,6 +32,7 @@ bool source_chance(struct source *s, int one_in);
 enum { CASE_TEXTURES = 3,
        CASE_MESHES = 4,
        CASE_DRAWS = 8,
+       CASE_ITEMS = 4,
        CASE_BLOCKS = 64 };
 
 struct fuzz_case {
@@ -38,6 +40,7 @@ struct fuzz_case {
     bool wild;
     bool extreme; /* numbers of any size are frequent */
     bool large;   /* many triangles, pixels, instants: rare, as it costs 50 times more */
+    bool with_overlay;
     int frames;
     smear_desc desc; /* without callbacks */
     smear_texture texture[CASE_TEXTURES];
@@ -52,6 +55,11 @@ struct fuzz_case {
     smear_layer layer[SMEAR_LAYERS_MAX];
     smear_light light;
     uint8_t curve[SMEAR_SHUTTER_POINTS];
+    smear_image image;
+    smear_font font;
+    char text[12];
+    smear_overlay_item item[CASE_ITEMS];
+    smear_overlay overlay;
     smear_frame frame;
     void *block[CASE_BLOCKS];
     int blocks;
@@ -62,6 +70,13 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild);
 
 /* Makes frame `k` of it: settings, cameras, poses. */
 void case_frame(struct fuzz_case *c, int k);
+
+/* What lies over the frames: cases_overlay.c. */
+void case_make_overlay(struct fuzz_case *c);
+void case_frame_overlay(struct fuzz_case *c);
+
+/* Bytes of noise, which case_free gives back. */
+void *case_random(struct fuzz_case *c, size_t size);
 
 /* Puts anything into some fields of a wild case: of the desc, or of what a frame is made of. */
 void case_spoil_desc(struct fuzz_case *c);

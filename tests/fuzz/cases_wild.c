@@ -80,6 +80,11 @@ static const struct part material_parts[] = {
     PART(smear_material, double_sided), PART(smear_material, bilinear)
 };
 static const struct part texture_parts[] = { PART(smear_texture, wrap_u), PART(smear_texture, wrap_v) };
+static const struct part item_parts[] = {
+    PART(smear_overlay_item, x), PART(smear_overlay_item, y), PART(smear_overlay_item, width),
+    PART(smear_overlay_item, height), PART(smear_overlay_item, color), PART(smear_overlay_item, scale),
+    PART(smear_overlay_item, cell)
+};
 static const struct part transform_parts[] = { PART(smear_transform, basis), PART(smear_transform, origin) };
 
 static void spoil_index(struct fuzz_case *c, const smear_mesh *m)
@@ -96,7 +101,7 @@ void case_spoil_frame(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     const int i = source_range(s, 0, CASE_DRAWS - 1), mesh = source_range(s, 0, CASE_MESHES - 1);
-    switch (source_range(s, 0, 12)) {
+    switch (source_range(s, 0, 13)) {
     case 0: SPOIL(&c->camera[source_range(s, 0, 2)], camera_parts); break;
     case 1: SPOIL(&c->frame, frame_parts); break;
     case 2: SPOIL(&c->layer[source_range(s, 0, SMEAR_LAYERS_MAX - 1)], layer_parts); break;
@@ -109,6 +114,7 @@ void case_spoil_frame(struct fuzz_case *c)
     case 9: c->draw[i].mesh = source_chance(s, 2) ? NULL : c->draw[i].mesh; break;
     case 10: SPOIL(&c->layer_camera[source_range(s, 0, 2)], camera_parts); break;
     case 11: c->frame.camera = source_chance(s, 4) ? NULL : &c->camera[1]; break;
+    case 12: SPOIL(&c->item[source_range(s, 0, CASE_ITEMS - 1)], item_parts); break;
     default: memset(c->curve, source_chance(s, 2) ? 0 : 255, sizeof c->curve); break;
     }
 }

@@ -32,7 +32,7 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 
 # ---------------------------------------------------------------------- frames
 
-FRAMES_SRC := tests/fuzz/frames.c tests/fuzz/cases.c tests/fuzz/cases_wild.c $(LIB_SRC)
+FRAMES_SRC := tests/fuzz/frames.c $(wildcard tests/fuzz/cases*.c) $(LIB_SRC)
 
 # frames_build NAME,COMPILER,FLAGS: the program build/fuzz/frames-NAME.
 define frames_build

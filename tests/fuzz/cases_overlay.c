@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* cases_overlay.c - boxes, sprites and text over the frames of a case: see cases.h. */
+#include "tests/fuzz/cases.h"
+
+#include <string.h>
+
+static void make_image(struct fuzz_case *c, smear_image *image)
+{
+    static const uint8_t bits[] = { 1, 4, 4, 8 };
+    struct source *s = &c->source;
+    *image = (smear_image){ .width = (uint16_t)source_range(s, 1, 20),
+                            .height = (uint16_t)source_range(s, 1, 12),
+                            .cells = (uint16_t)source_range(s, 0, 5),
+                            .format = (uint8_t)source_range(s, SMEAR_IMAGE_MASK1, SMEAR_IMAGE_PALETTE8) };
+    if (source_chance(s, 40))
+        image->width = (uint16_t)source_range(s, 1, 2048);
+    const int cells = image->cells != 0 ? image->cells : 1;
+    image->pixels = case_random(c, (size_t)(image->width * bits[image->format] + 7) / 8 * image->height * (size_t)cells);
+    image->palette = image->format >= SMEAR_IMAGE_PALETTE4 ? case_random(c, 256 * 4) : NULL;
+}
+
+static void make_item(struct fuzz_case *c, smear_overlay_item *item)
+{
+    struct source *s = &c->source;
+    const bool far = source_chance(s, 6);
+    *item = (smear_overlay_item){ .x = (int16_t)source_range(s, far ? INT16_MIN : -20, far ? INT16_MAX : 80),
+                                  .y = (int16_t)source_range(s, far ? INT16_MIN : -20, far ? INT16_MAX : 60),
+                                  .width = (uint16_t)source_range(s, 0, far ? 65535 : 60),
+                                  .height = (uint16_t)source_range(s, 0, far ? 65535 : 40),
+                                  .scale = (uint8_t)source_range(s, 0, source_chance(s, 3) ? 8 : 2) };
+    for (int i = 0; i < 4; i++)
+        item->color[i] = (uint8_t)source_word(s);
+    if (source_chance(s, 3)) {
+        item->text = c->text;
+        item->font = &c->font;
+    } else if (source_chance(s, 2)) {
+        item->image = &c->image;
+        item->cell = (uint16_t)source_range(s, 0, c->image.cells != 0 ? c->image.cells - 1 : 0);
+    }
+}
+
+void case_make_overlay(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    make_image(c, &c->image);
+    make_image(c, &c->font.glyph);
+    c->font.first = (uint8_t)source_range(s, 0, 100);
+    c->font.advance = (uint8_t)source_range(s, 0, 30);
+    for (int i = 0; i < CASE_ITEMS; i++)
+        make_item(c, &c->item[i]);
+}
+
+void case_frame_overlay(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    for (size_t i = 0; i + 1 < sizeof c->text; i++)
+        if (c->text[0] == 0 || source_chance(s, 4))
+            c->text[i] = (char)source_range(s, i < 2, 127);
+    if (source_chance(s, 2))
+        make_item(c, &c->item[source_range(s, 0, CASE_ITEMS - 1)]);
+    c->overlay = (smear_overlay){ c->item, (uint16_t)source_range(s, 0, CASE_ITEMS) };
+    c->frame.overlay = source_chance(s, 3) ? &c->overlay : NULL;
+}
