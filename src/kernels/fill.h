@@ -6,17 +6,40 @@
 #include "base/pixel.h"
 #include "kernels/kernels.h"
 
-static inline void fill_eight(pixel_word *p, uint32_t value)
+/* Sets n >= 0 times eight words; returns where the next lies. */
+#if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && defined(__OPTIMIZE__)
+/* Four registers a store: half the cycles of single words, and a fifth of the instructions. */
+static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 {
-    p[0] = value;
-    p[1] = value;
-    p[2] = value;
-    p[3] = value;
-    p[4] = value;
-    p[5] = value;
-    p[6] = value;
-    p[7] = value;
+    register uint32_t a __asm__("r3") = value, b __asm__("r4") = value, c __asm__("r5") = value,
+                      d __asm__("r6") = value;
+    if (n > 0)
+        __asm__ volatile(".syntax unified\n"
+                         "1: stmia %[p]!, {r3, r4, r5, r6}\n\t"
+                         "stmia %[p]!, {r3, r4, r5, r6}\n\t"
+                         "subs %[n], %[n], #1\n\t"
+                         "bne 1b"
+                         : [p] "+l"(p), [n] "+l"(n)
+                         : "r"(a), "r"(b), "r"(c), "r"(d)
+                         : "cc", "memory");
+    return p;
 }
+#else
+static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
+{
+    for (; n > 0; n--, p += 8) {
+        p[0] = value;
+        p[1] = value;
+        p[2] = value;
+        p[3] = value;
+        p[4] = value;
+        p[5] = value;
+        p[6] = value;
+        p[7] = value;
+    }
+    return p;
+}
+#endif
 
 /* Sets n >= 0 words. */
 static inline void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
@@ -28,10 +51,8 @@ static inline void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
 /* Eight words a round: stores of many registers where a core has them. */
 static inline void pixels_fill_unrolled(uint32_t *p, uint32_t value, int32_t n)
 {
-    int32_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        fill_eight(p + i, value);
-    for (; i < n; i++)
+    fill_eights(p, value, n >> 3);
+    for (int32_t i = n & ~7; i < n; i++)
         p[i] = value;
 }
 
@@ -53,9 +74,8 @@ static inline void pixels_fill_narrow_unrolled(uint16_t *p, uint32_t value, int3
     }
     pixel_word *pairs = (pixel_word *)(void *)p;
     value |= value << 16;
-    for (; n >= 16; n -= 16, pairs += 8)
-        fill_eight(pairs, value);
-    for (; n >= 2; n -= 2)
+    pairs = fill_eights(pairs, value, n >> 4);
+    for (n &= 15; n >= 2; n -= 2)
         *pairs++ = value;
     if (n > 0)
         *(uint16_t *)(void *)pairs = (uint16_t)value;
