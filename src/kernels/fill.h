@@ -11,8 +11,10 @@
 /* Four registers a store: half the cycles of single words, and a fifth of the instructions. */
 static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 {
-    register uint32_t a __asm__("r3") = value, b __asm__("r4") = value, c __asm__("r5") = value,
-                      d __asm__("r6") = value;
+    register uint32_t a __asm__("r3") = value;
+    register uint32_t b __asm__("r4") = value;
+    register uint32_t c __asm__("r5") = value;
+    register uint32_t d __asm__("r6") = value;
     if (n > 0)
         __asm__ volatile(".syntax unified\n"
                          "1: stmia %[p]!, {r3, r4, r5, r6}\n\t"
