@@ -51,7 +51,7 @@ include platform/$(TARGET)/target.mk
 SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports temporal layers methods model) src
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
-PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template
+PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game
 TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz proofs target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
@@ -446,6 +446,7 @@ faults-injected: $(BUILD)/faults-injected
 	$< .
 
 include platform/programs.mk
+include platform/game/game.mk
 include tools/web/web.mk
 include tests/fuzz/fuzz.mk
 
@@ -453,9 +454,14 @@ include tests/fuzz/fuzz.mk
 NOT_OF_SCREENS := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o)
 $(BUILD)/demo-screen:  $(filter-out $(NOT_OF_SCREENS),$(FIRMWARE_OBJ))
 $(BUILD)/model-screen: $(filter-out $(NOT_OF_SCREENS),$(MODEL_OBJ))
-$(BUILD)/demo-screen $(BUILD)/model-screen: $(BUILD)/platform/print.o $(BUILD)/libsmear-display.a $(LIB)
+$(BUILD)/game-screen: $(GAME_OBJ)
+$(BUILD)/demo-screen $(BUILD)/model-screen $(BUILD)/game-screen: $(BUILD)/platform/print.o $(BUILD)/libsmear-display.a $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+
+## a race in a window or terminal: left and right steer, down brakes; build/host/game-screen
+game: $(BUILD)/game-screen
+	SMEAR_FPS=30 $< show window
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

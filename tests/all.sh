@@ -92,6 +92,7 @@ if needs frama-c "frama-c-base"; then
 fi
 suite coverage $make -s $jobs coverage
 suite demo-host $make -s TARGET=host demo-test
+suite game-host $make -s TARGET=host game-test
 suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
 suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
 for name in $($make -s print-san-suites); do
@@ -113,6 +114,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba raspi0; do
         suite "symbols-$target" $make -s TARGET=$target symbols-test
     done
+    suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
     suite tiny $make -s TARGET=microbit tiny-test
     suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
     suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test

@@ -10,7 +10,7 @@
 #include "base/base.h"
 
 /* Pixels of a row that are copied at once. A multiple of 8, which formats of less than a byte per pixel need. */
-enum { OVERLAY_PART = 128 };
+enum { OVERLAY_PART = SMEAR_FAST_STACK ? 32 : 128 };
 
 /* Pixels of the frame that an item may touch: columns [x0, x1), rows [y0, y1). */
 struct overlay_box {

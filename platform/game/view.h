@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* view.h - what a race looks like. */
+#ifndef GAME_VIEW_H
+#define GAME_VIEW_H
+
+#include "platform/game/race.h"
+
+/* Draws at most: chunks, a gate, cars, sparks. */
+enum { VIEW_CHUNKS = 4, VIEW_DRAWS = VIEW_CHUNKS + 1 + RACE_CARS + RACE_SPARKS };
+
+void view_make(void);
+
+/* Begins a frame and submits all that is seen of it. Returns a smear_result. */
+int view_submit(smear_context *ctx, const struct race *race, int16_t width, int16_t height);
+
+#endif
