@@ -429,6 +429,12 @@ rates-readme:
 	MAKE="$(MAKE)" sh platform/rates.sh $(or $(RATES),pico gba lm3s6965evb microbit) > build/rates.md
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
+.PHONY: board-table
+## measures what the demo costs on boards, by scene and method, BOARDS="pico gba", and writes it into platform/README.md
+board-table:
+	MAKE="$(MAKE)" sh platform/board_table.sh $(or $(BOARDS),pico gba lm3s6965evb raspi0) > build/boards.md
+	awk -f platform/footprint_readme.awk platform/README.md > build/readme.md && mv build/readme.md platform/README.md
+
 # The program with its calls of the system wrapped: each can be made to fail.
 FAULTS_WRAPPED := main malloc calloc realloc open fopen fdopen fileno open_memstream realpath fsync rename link unlink pthread_create
 $(BUILD)/faults-injected: $(call objects,$(wildcard tests/faults/*.c) $(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)

@@ -126,6 +126,7 @@ if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-sys
     if pico; then
         suite demo-pico $make -s TARGET=pico demo-test
         suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
+        suite pico-stranger sh tests/shell/pico_stranger.sh tests/data/arm.gltf
     fi
     suite model sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
     if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then

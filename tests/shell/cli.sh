@@ -567,6 +567,10 @@ claim "info counts what is skipped" out_has '^skipped primitives: 1$'
 claim "info of a textured file" works info "$base/in/card.obj"
 claim "has its size" out_has '0 16x16$'
 claim "info of a built-in scene" works info builtin:suite/pan
+claim "info for a board" works info builtin:suite/pan --board rp2040
+claim "info names the board's memory" out_has '^  auto at 240x240 takes [0-9]* bytes of 204800$'
+run info builtin:suite/pan --board fridge
+claim "info knows no such board" has_failed 2 --board
 claim "has its frame rate" out_has '^fps: '
 claim "the built-in scenes" works info builtin:
 claim "are listed" out_has '^builtin:demo/race '

@@ -206,7 +206,7 @@ static const char *const compare_help[] = {
 };
 
 static const char *const info_help[] = {
-    "smear info SCENE [--outside]\n"
+    "smear info SCENE [--board NAME] [--outside]\n"
     "\n"
     "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
     "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
@@ -214,6 +214,7 @@ static const char *const info_help[] = {
     "smallest list of triangles that draws it in one part.\n"
     "\n"
     "smear info builtin: lists the built-in scenes.\n"
+    "--board: what it takes of the memory there is on that board, too (smear help view lists boards).\n"
     "--outside: files that SCENE names may lie outside of its folder.\n",
     NULL
 };

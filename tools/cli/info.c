@@ -6,9 +6,11 @@
 #include "tools/player/memory.h"
 #include "tools/options/say.h"
 #include "tools/options/source.h"
+#include "tools/view/board.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *read_outside(void *to, const char *value)
@@ -18,7 +20,17 @@ static const char *read_outside(void *to, const char *value)
     return NULL;
 }
 
-static const struct option table[] = { { "--outside", false, read_outside }, { NULL, false, NULL } };
+/* The board whose memory is compared with what the frame takes; null: none. */
+static const struct board *info_board;
+
+static const char *read_board(void *to, const char *value)
+{
+    (void)to;
+    info_board = board_find(value);
+    return info_board != NULL ? NULL : "is no board (smear help view lists them)";
+}
+
+static const struct option table[] = { { "--outside", false, read_outside }, { "--board", true, read_board }, { NULL, false, NULL } };
 
 /* ------------------------------------------------------------------ a model's parts */
 
@@ -201,6 +213,25 @@ static void print_memory(const struct presented *presented, int width, int heigh
     }
 }
 
+/* What the board's method takes of the arena that firmware has there. */
+static void print_board(const struct presented *presented, const struct board *board)
+{
+    struct memory_need need;
+    struct failure why = { "" };
+    const char *arena = board_option(board, "--arena"), *size = board_option(board, "--size");
+    int width, height;
+    if (sscanf(size, "%dx%d", &width, &height) != 2)
+        return;
+    printf("board %s: %s\n", board->name, board->what);
+    if (presented->triangle_count > MAX_MEASURED)
+        printf("  not measured for more than %d triangles\n", MAX_MEASURED);
+    else if (!memory_measure(presented, width, height, MEMORY_AUTO_SHARP, &need, &why))
+        printf("  %s\n", why.text);
+    else
+        printf("  auto at %s takes %zu bytes of %s%s\n", size, need.total, arena,
+               need.total <= strtoul(arena, NULL, 10) ? "" : ": frames like this one are drawn in parts");
+}
+
 static int print_frame(struct source *source, double time)
 {
     static const int size[2][2] = { { 320, 240 }, { 240, 240 } };
@@ -225,6 +256,8 @@ static int print_frame(struct source *source, double time)
     ok = presented != NULL;
     for (int i = 0; i < 2 && ok; i++)
         print_memory(presented, size[i][0], size[i][1]);
+    if (ok && info_board != NULL)
+        print_board(presented, info_board);
     presenter_free(presenter);
     return ok ? STATUS_OK : say_bad_input(source->name, &f);
 }
@@ -242,6 +275,7 @@ int command_info(int count, char **text)
     struct source_view view = { .aspect = 4.0 / 3.0, .fov_degrees = 45.0 };
     const char *name;
     bool wants_help;
+    info_board = NULL;
     int status = arguments_read(count, text, table, &view, &name, 1, &wants_help);
     if (status == STATUS_OK && wants_help)
         return help_print("info");

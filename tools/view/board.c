@@ -40,6 +40,14 @@ const struct board board_list[] = {
     { NULL, NULL, { NULL } },
 };
 
+const char *board_option(const struct board *board, const char *option)
+{
+    for (int i = 0; board->option[i] != NULL; i++)
+        if (strcmp(board->option[i], option) == 0)
+            return board->option[i + 1];
+    return NULL;
+}
+
 const struct board *board_find(const char *name)
 {
     for (const struct board *b = board_list; b->name != NULL; b++)

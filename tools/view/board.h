@@ -15,4 +15,7 @@ extern const struct board board_list[];         /* name null ends it */
 /* Null when there is none of this name. */
 const struct board *board_find(const char *name);
 
+/* The value that a board gives an option; null when it gives none. All have a --size and an --arena. */
+const char *board_option(const struct board *board, const char *option);
+
 #endif
