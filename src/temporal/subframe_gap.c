@@ -55,7 +55,7 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
         /* what is left is the same on both sides */
         whole = max_u32((length * gap->unit + 16) >> 5 << 1, gap->unit);
         if (gap->unit == 1)
-            whole |= 1u;
+            whole = min_u32(whole | 1u, 2 * GAP_PAIRS_MAX + 1);
         if (gap->unit == 1 || whole * f->instants <= most)
             break;
     }
