@@ -346,7 +346,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
                 struct texel_run run = k.run;       /* that one stays in registers */
                 if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
                     break;
-                least_rest = right - 1 - p.b;
+                least_rest = p.a > end ? INT32_MAX : right - 1 - p.b;
                 k.run = run;
             }
         } while (rest > 0);
