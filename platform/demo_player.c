@@ -8,47 +8,48 @@
 #define DAY 0xa9d6efu
 
 /* Triangle lists have room for every frame of the loop, also with places at three instants: nothing is drawn in parts. Of
- * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips, one for each core. */
+ * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips, one for each core.
+ * Boards' displays have steps of 4 and 8 codes, and rounding to these errs by some 3 codes: blur aims at no less, SMEAR_DRAFT. */
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
                 .max_triangles = 264, .vertex_cache = 32, .reuse = { .buffer_age = 1, .one_pose = 1 } },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", SMEAR_PATH_LINE, 0 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", SMEAR_PATH_LINE, 0, SMEAR_DRAFT },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
                .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,
                .reuse.buffer_age = 2 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
                     .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 160, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 64, .max_draws = DEMO_DRAWS,
                     .max_triangles = 400, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pi-640", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_RGB565, .bands = 1,
                   .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .strip = 640, .max_draws = DEMO_DRAWS,
                   .max_triangles = 530, .reuse.buffer_age = 2 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 0 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 0, SMEAR_DRAFT },
     { "pi-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565, .bands = 1,
                   .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .strip = 320, .max_draws = DEMO_DRAWS,
                   .max_triangles = 530, .reuse.buffer_age = 2 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 0 },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 0, SMEAR_DRAFT },
     { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888, .bands = 1,
                  .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .max_draws = DEMO_DRAWS, .max_triangles = 530 },
-      SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", SMEAR_PATH_CURVE, 0 },
+      SMEAR_RECONSTRUCT, SMEAR_LIGHT_LINEAR, DAY, "large", SMEAR_PATH_CURVE, 0, 0 },
 };
 
 const int demo_screen_count = sizeof demo_screens / sizeof *demo_screens;
@@ -148,12 +149,14 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
         .filter.flags = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
-        .light_space = player->screen->light, .shutter = { .degrees = player->shutter_degrees, .path = player->screen->path }
+        .light_space = player->screen->light, .target = player->screen->target,
+        .shutter = { .degrees = player->shutter_degrees, .path = player->screen->path }
     };
     if (blur != NULL) {
         how.method = blur->method;
         how.samples = blur->method != SMEAR_AUTO ? blur->number : 0;
-        how.target = blur->method == SMEAR_AUTO ? blur->number : 0;
+        if (blur->method == SMEAR_AUTO && blur->number != 0)
+            how.target = blur->number;
     }
     int result = submit(player, &how);
     return result == SMEAR_OK && draw ? smear_render(player->ctx) : result;

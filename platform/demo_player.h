@@ -14,13 +14,14 @@ struct demo_screen {
     const char *level;              /* of detail, in demo_props.c */
     uint8_t path;                   /* smear_path */
     uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE, which has none to keep; 0: desc's, for all ways to blur */
+    uint16_t target;                /* of SMEAR_AUTO; 0: the default */
 };
 
 /* A way to blur, to compare costs (make demo-cost BLUR=...). */
 struct demo_blur {
     const char *name;
     uint8_t method;                 /* smear_method */
-    uint16_t number;                /* samples, or the target of SMEAR_AUTO; 0: the default */
+    uint16_t number;                /* samples, or the target of SMEAR_AUTO; 0: the default, or the screen's target */
 };
 
 extern const struct demo_blur demo_blurs[];

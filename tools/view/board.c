@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#define AS_FIRMWARE "--method", "auto", "--light", "encoded", "--keep-display"
+#define AS_FIRMWARE "--method", "auto", "--quality", "draft", "--light", "encoded", "--keep-display"
 
 const struct board board_list[] = {
     { "oled", "128x64 OLED, SSD1306 on 8 MHz SPI, Cortex-M4 at 100 MHz, 128 kB of RAM",

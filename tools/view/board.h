@@ -3,7 +3,7 @@
 #ifndef SMEAR_TOOLS_VIEW_BOARD_H
 #define SMEAR_TOOLS_VIEW_BOARD_H
 
-enum { BOARD_MAX_OPTIONS = 24 };
+enum { BOARD_MAX_OPTIONS = 32 };
 
 struct board {
     const char *name, *what;
