@@ -38,6 +38,7 @@ struct subframes {
     uint32_t *listed;           /* moving triangles, then blended triangles */
     uint32_t moving_listed, all_listed;
     uint32_t moving_rest, blend_rest;
+    uint32_t moving_seen;       /* moving triangles that may be seen, whether they are listed or not */
     uint32_t lowest, highest;   /* depth codes of the background */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */
     struct subframe_box area;      /* and nothing of it is seen elsewhere */

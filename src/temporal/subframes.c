@@ -55,9 +55,17 @@ static bool touches(const struct subframes *f, uint32_t triangle)
 static void note(struct subframes *f, const struct smear_moving_triangle *m)
 {
     const struct smear_path_bounds *b = bins_bounds(f->t->frame->bins, m->triangle);
+    f->moving_seen++;
     f->nearest = max_u32(f->nearest, m->nearest);
     const struct subframe_box path = { b->x0, b->y0, b->x1, b->y1 };
     box_add(&f->area, &path);
+}
+
+static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
+{
+    const struct smear_bins *g = f->t->frame->bins;
+    f->blends = true;
+    *moves = *moves || g->segment[bins_triangle(g, triangle)->segment].path;
 }
 
 static void begin_list(struct subframes *f, const struct subframe_box *whole)
@@ -65,7 +73,7 @@ static void begin_list(struct subframes *f, const struct subframe_box *whole)
     const struct depth_range depths = smear_subframe_depths(f, whole, 0);
     f->lowest = depths.least;
     f->highest = depths.most;
-    f->nearest = 0;
+    f->nearest = f->moving_seen = 0;
     f->area = no_box;
 }
 
@@ -83,7 +91,6 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
     uint32_t n = 0;
-    bool moves = false;
     const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
     begin_list(f, &whole);
     for (f->moving_rest = 0; f->moving_rest < t->moving_count && n < LISTED; f->moving_rest++) {
@@ -96,25 +103,24 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     for (uint32_t i = f->moving_rest; i < t->moving_count; i++)
         if (is_seen(f, &t->moving[i]))
             note(f, &t->moving[i]);
-    moves = n != 0;
+    bool moves = n != 0;
     f->moving_listed = n;
     f->blends = false;
     for (f->blend_rest = t->blend; f->blend_rest != SMEAR_NO_TRIANGLE && n < LISTED;) {
-        const struct smear_triangle *b = bins_triangle(g, f->blend_rest);
         if (touches(f, f->blend_rest)) {
             f->listed[n++] = f->blend_rest;
-            f->blends = true;
-            moves = moves || g->segment[b->segment].path;
+            note_blended(f, f->blend_rest, &moves);
         }
-        f->blend_rest = b->next;
+        f->blend_rest = bins_triangle(g, f->blend_rest)->next;
     }
     f->all_listed = n;
-    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !f->blends; i = bins_triangle(g, i)->next)
-        f->blends = touches(f, i);
+    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !(f->blends && moves); i = bins_triangle(g, i)->next)
+        if (touches(f, i))
+            note_blended(f, i, &moves);
     if (!f->blends)
         f->blend_rest = SMEAR_NO_TRIANGLE;
     end_list(f, &whole);
-    return moves || f->blend_rest != SMEAR_NO_TRIANGLE;
+    return moves;
 }
 
 /* ------------------------------------------------------------------ several fills */
@@ -129,32 +135,24 @@ static bool fill(struct subframes *f, int kinds, bool next)
     return true;
 }
 
-/* Finds out what list() does, where nothing can be listed. */
+/* Finds out what list() does, where nothing can be listed: the same, as instants depend on it. */
 static SMEAR_RARE bool list_refilled(struct subframes *f)
 {
     const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
-    bool moves = false, touched = false, any_blended = false;
-    uint32_t seen = 0;
+    bool moves = false;
     const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
     begin_list(f, &whole);
     for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
         for (uint32_t i = 0; i < t->moving_count; i++)
-            if (is_seen(f, &t->moving[i])) {
+            if (is_seen(f, &t->moving[i]))
                 note(f, &t->moving[i]);
-                seen++;
-            }
     for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
-        for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
-            any_blended = true;
-            if (!touches(f, i))
-                continue;
-            touched = true;
-            moves = moves || g->segment[bins_triangle(g, i)->segment].path;
-        }
-    f->blends = touched || (any_blended && seen >= LISTED);
+        for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next)
+            if (touches(f, i))
+                note_blended(f, i, &moves);
     end_list(f, &whole);
-    return moves || any_blended || seen != 0;
+    return moves || f->moving_seen != 0;
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -279,7 +277,7 @@ static uint32_t cost_of(const struct subframes *f, const struct subframe_box *bo
 {
     enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000 };
     const uint32_t pixels = subframe_box_is_empty(box) ? 0 : (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
-    return f->moving_listed * TRIANGLE + pixels * PIXEL + RUN;
+    return min_u32(f->moving_seen, LISTED) * TRIANGLE + pixels * PIXEL + RUN;
 }
 
 /* Draws the middle of the exposure, by which the plan says how many instants there are; where they are odd it is one of
