@@ -2,8 +2,6 @@
 /* row_blocks.c - see row_blocks.h. Constants are fitted to the scenes of `smear-bench promise`. */
 #include "temporal/row_blocks.h"
 
-#if SMEAR_WITH_SUBFRAMES
-
 struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
 {
     enum {
@@ -36,5 +34,3 @@ struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32
     }
     return smear_closing_of(here->x, here->y, unlike);
 }
-
-#endif

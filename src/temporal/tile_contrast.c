@@ -4,8 +4,6 @@
 
 #include "temporal/tile_method.h"
 
-#if SMEAR_WITH_SUBFRAMES
-
 /* A block [x, x1) x [y, y1) of pixels, its displacement, and the same to the next pixels that are looked at: 2 px. */
 struct look {
     int32_t x, y, x1, y1;
@@ -149,5 +147,3 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
             look_at_block(c, f, plan, &look, x < box->x1 && look.x1 > box->x0 && y < box->y1 && look.y1 > box->y0);
         }
 }
-
-#endif
