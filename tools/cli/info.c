@@ -189,7 +189,7 @@ static bool find_bounds(const struct scene_instant *instant, double low[3], doub
 /* No device draws more. */
 enum { MAX_MEASURED = 32768 };
 
-static void print_memory(const struct presented *presented, int width, int height)
+static void print_memory(const struct presented *presented, int width, int height, double *work)
 {
     static const char *const names[MEMORY_SETUPS] = { "auto", "auto, no window", "reconstruct",
                                                       "none" };
@@ -200,7 +200,7 @@ static void print_memory(const struct presented *presented, int width, int heigh
             printf("memory at %dx%d: not measured for more than %d triangles\n", width, height, MAX_MEASURED);
             return;
         }
-        if (!memory_measure(presented, width, height, (enum memory_setup)i, &need, &why)) {
+        if (!memory_measure(presented, width, height, (enum memory_setup)i, &need, work, &why)) {
             printf("memory at %dx%d: %s\n", width, height, why.text);
             return;
         }
@@ -214,7 +214,7 @@ static void print_memory(const struct presented *presented, int width, int heigh
 }
 
 /* What the board's method takes of the arena that firmware has there. */
-static void print_board(const struct presented *presented, const struct board *board)
+static void print_board(const struct presented *presented, const struct board *board, double *work)
 {
     struct memory_need need;
     struct failure why = { "" };
@@ -225,7 +225,7 @@ static void print_board(const struct presented *presented, const struct board *b
     printf("board %s: %s\n", board->name, board->what);
     if (presented->triangle_count > MAX_MEASURED)
         printf("  not measured for more than %d triangles\n", MAX_MEASURED);
-    else if (!memory_measure(presented, width, height, MEMORY_AUTO_SHARP, &need, &why))
+    else if (!memory_measure(presented, width, height, MEMORY_AUTO_SHARP, &need, work, &why))
         printf("  %s\n", why.text);
     else
         printf("  auto at %s takes %zu bytes of %s%s\n", size, need.total, arena,
@@ -238,7 +238,7 @@ static int print_frame(struct source *source, double time)
     const struct present_options options = { .fps = 30.0, .shutter_degrees = 180.0 };
     struct failure f = { "" };
     struct scene_instant instant = { 0 };
-    double low[3], high[3];
+    double low[3], high[3], work = 0.0;
     bool ok = scene_pose(&source->scene, time, &instant, &f);
     if (ok && find_bounds(&instant, low, high))
         printf("bounds at %.6g s: %.6g %.6g %.6g to %.6g %.6g %.6g\n", time, low[0], low[1], low[2],
@@ -255,9 +255,9 @@ static int print_frame(struct source *source, double time)
                (unsigned)presented->triangle_count);
     ok = presented != NULL;
     for (int i = 0; i < 2 && ok; i++)
-        print_memory(presented, size[i][0], size[i][1]);
+        print_memory(presented, size[i][0], size[i][1], &work);
     if (ok && info_board != NULL)
-        print_board(presented, info_board);
+        print_board(presented, info_board, &work);
     presenter_free(presenter);
     return ok ? STATUS_OK : say_bad_input(source->name, &f);
 }

@@ -4,8 +4,8 @@
 
 #include "tools/player/device.h"
 
-/* What the search may draw: triangles and, for 16 of them, pixels. */
-static const double max_work = 5e6;
+/* What all searches of a command may draw: triangles and, for 16 of them, pixels. */
+static const double max_work = 6e6;
 
 /* Draws the frame with room for so many triangles; a method that has too little is not done in one either. */
 static bool draws_in_one(struct device *device, const struct presented *presented,
@@ -27,16 +27,22 @@ static bool draws_in_one(struct device *device, const struct presented *presente
     return true;
 }
 
-/* Halves the interval in which the smallest sufficient list lies. Begins with all triangles, as many parts take
- * long. */
+/* How many triangles' room a frame filled that was drawn with room for `triangles`. */
+static uint32_t filled(const smear_stats *stats, uint32_t triangles)
+{
+    const smear_fill *fill = &stats->fill.geometry;
+    return fill->room > 0 ? (uint32_t)(((uint64_t)fill->used * triangles + fill->room - 1) / fill->room) : 0;
+}
+
+/* Narrows the interval in which the smallest sufficient list lies, from what the frame filled, in growing steps. Begins with
+ * room for all, as many parts take long. */
 static bool find_smallest(struct device *device, const struct presented *presented, uint32_t *list,
-                          uint32_t *drawn, struct failure *f)
+                          uint32_t *drawn, double *work, struct failure *f)
 {
     smear_stats stats;
-    uint32_t low = DEVICE_MIN_TRIANGLES, all = presented->triangle_count, high = all > low ? all : low;
-    double work = 0;
+    uint32_t low = DEVICE_MIN_TRIANGLES, all = 2 * presented->triangle_count, high = all > low ? all : low;
     for (;; high *= 2) {
-        if (!draws_in_one(device, presented, high, &stats, &work, f))
+        if (!draws_in_one(device, presented, high, &stats, work, f))
             return false;
         if (stats.parts_added == 0)
             break;
@@ -45,14 +51,20 @@ static bool find_smallest(struct device *device, const struct presented *present
             break;                      /* cannot be: clipping makes a few of one, not more */
     }
     *drawn = stats.triangles_drawn;
+    uint32_t guess = filled(&stats, high), up = 0, down = 0;
     while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (!draws_in_one(device, presented, middle, &stats, &work, f))
+        const uint32_t middle = guess >= low && guess < high ? guess : low + (high - low) / 2;
+        if (!draws_in_one(device, presented, middle, &stats, work, f))
             return false;
-        if (stats.parts_added == 0)
+        if (stats.parts_added == 0) {
             high = middle;
-        else
+            guess = high - 1 - down;
+            down = 2 * down + 1;
+        } else {
             low = middle + 1;
+            guess = low + up;
+            up = 2 * up + 1;
+        }
     }
     *list = high;
     return true;
@@ -78,7 +90,7 @@ static void split_up(struct memory_need *need, const smear_desc *desc)
 }
 
 bool memory_measure(const struct presented *presented, int width, int height,
-                    enum memory_setup which, struct memory_need *need, struct failure *f)
+                    enum memory_setup which, struct memory_need *need, double *work, struct failure *f)
 {
     static const struct {
         uint8_t method;
@@ -99,7 +111,7 @@ bool memory_measure(const struct presented *presented, int width, int height,
     setup.tile = setup.reach <= 8 ? 8 : setup.reach <= 16 ? 16 : setup.reach <= 32 ? 32 : 64;
     *need = (struct memory_need){ .reach = setup.reach, .tile = setup.tile };
     bool ok = device_open(&device, &setup, f) &&
-              find_smallest(&device, &drawn, &need->triangles, &need->triangles_drawn, f);
+              find_smallest(&device, &drawn, &need->triangles, &need->triangles_drawn, work, f);
     if (ok) {
         smear_desc desc = device.desc;
         desc.max_triangles = need->triangles;

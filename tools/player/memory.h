@@ -20,8 +20,9 @@ struct memory_need {
 };
 
 /* For RGB565, one band, one core and the default reach: with the smallest list of triangles that
- * draws the frame in one part. */
+ * draws the frame in one part. `work`, 0 at first, adds up what is drawn for it: there is a limit to that of all
+ * measurements of a command. */
 bool memory_measure(const struct presented *presented, int width, int height,
-                    enum memory_setup setup, struct memory_need *need, struct failure *f);
+                    enum memory_setup setup, struct memory_need *need, double *work, struct failure *f);
 
 #endif

@@ -144,22 +144,25 @@ static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure 
     return true;
 }
 
-/* Instants of the clip that the automatic camera looks at: fewer of models whose poses are much work, and only the first
- * where nothing moves. */
+/* Instants of the clip that the automatic camera looks at: fewer of models whose poses are much work, by their vertices or by
+ * nodes and channels, and only the first where nothing moves. */
 static int bounds_instants(const struct model_scene *m, const struct model_pose *first, double *duration)
 {
-    enum { INSTANTS = 25, VERTICES = 1 << 21 };
+    enum { INSTANTS = 25, FEWEST = 3, VERTICES = 1 << 21, PLACES = 1 << 20 };
     const struct model *model = m->model;
-    size_t vertices = 1;
+    size_t vertices = 1, places = (size_t)model->node_count + 1;
     *duration = 0;
     for (int i = 0; i < model->clip_count; i++)
-        if (m->clip == MODEL_CLIP_ALL || m->clip == i)
+        if (m->clip == MODEL_CLIP_ALL || m->clip == i) {
             *duration = fmax(*duration, model->clip[i].duration);
+            places += (size_t)model->clip[i].channel_count;
+        }
     for (int i = 0; i < first->draw_count; i++) {
         const struct model_primitive *p = first->draw[i].primitive;
         vertices += (size_t)p->vertex_count * (size_t)(1 + p->target_count + p->influences);
     }
-    const size_t affordable = VERTICES / vertices + 1;
+    const size_t deformed = VERTICES / vertices + 1, placed = PLACES / places > FEWEST ? PLACES / places : FEWEST;
+    const size_t affordable = deformed < placed ? deformed : placed;
     return *duration <= 0 ? 1 : affordable < INSTANTS ? (int)affordable : INSTANTS;
 }
 
