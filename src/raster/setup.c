@@ -224,11 +224,12 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
     }
 }
 
-/* How long blocks may be whose error over 16 pixels is `off` and grows by so much when their length doubles. */
+/* How long blocks may be whose error over 16 pixels is `off` and grows by so much when their length doubles: half of what
+ * short ones may err by, as more pixels come near it and show the next texel. */
 static uint8_t block_longest(uint32_t off, uint32_t growth, uint32_t limit, int32_t width)
 {
     int32_t block = COLOR_BLOCK_MAX;
-    while (block < BLOCK_LONGEST && block < width && off * growth <= limit) {
+    while (block < BLOCK_LONGEST && block < width && off * growth <= limit >> 1) {
         off *= growth;
         block *= 2;
     }
