@@ -110,7 +110,7 @@ static bool is_covered(const struct row_job *r, int32_t x0, int32_t x1)
 
 static void convert_row(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y, bool covered)
 {
-    if (covered)
+    if (SMEAR_WITH_OVERLAY && covered)
         convert_covered(r, in, x0, x1, y);
     else
         convert(r, in, x0, x1, y);

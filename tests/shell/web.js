@@ -197,7 +197,7 @@ const tests = {
         }
         await browser.type("#panel", "Game");
         check(await browser.until("S.panel === 'gba'"), "the panel does not change");
-        equal(await browser.run("return METHODS[S.method].name"), "reconstruct", "the board's own method");
+        equal(await browser.run("return METHODS[S.method].name"), "auto", "the board's own method");
         await sameAsHost("gba");
         await screenshot("gba");
     },
