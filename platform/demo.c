@@ -16,6 +16,7 @@
 #include "platform/platform.h"
 
 #include "platform/print.h"
+#include "platform/words.h"
 
 #include <stdbool.h>
 
@@ -35,21 +36,6 @@ static int failed(const char *what, int result)
     platform_print(smear_error_text(result));
     platform_print(")\n");
     return 1;
-}
-
-static bool is_word(const char *text, const char *word)
-{
-    while (*text != '\0' && *text == *word)
-        text++, word++;
-    return *text == *word;
-}
-
-static uint32_t read_number(const char *text)
-{
-    uint32_t value = 0;
-    for (; *text >= '0' && *text <= '9'; text++)
-        value = value * 10 + (uint32_t)(*text - '0');
-    return value;
 }
 
 /* Exactly as much memory as the library asks for, from the arena's start. */
@@ -300,7 +286,7 @@ static int show(const struct demo_screen *screen, const char *frame)
     display_attach(player.ctx);
     struct demo_controls controls = { .held = display_keys() };
     if (frame != NULL)
-        return hold(read_number(frame) % DEMO_LOOP, &controls);
+        return hold(read_decimal(frame) % DEMO_LOOP, &controls);
     for (uint32_t i = 0; result == SMEAR_OK; i = (i + !controls.is_paused) % DEMO_LOOP) {
         demo_player_obey(&player, &controls, display_keys());
         result = demo_player_frame(&player, i, true);
@@ -313,7 +299,7 @@ static int show(const struct demo_screen *screen, const char *frame)
 int main(int argc, char **argv)
 {
     const char *command = argc > 1 ? argv[1] : "show", *name = argc > 2 ? argv[2] : DEMO_SCREEN;
-    uint32_t step = argc > 3 ? read_number(argv[3]) : 0;
+    uint32_t step = argc > 3 ? read_decimal(argv[3]) : 0;
     const struct demo_screen *screen = demo_screen_find(name);
     if (screen == NULL)
         return failed("no screen of this name", 0);
@@ -322,7 +308,7 @@ int main(int argc, char **argv)
     if (is_word(command, "check"))
         return check(screen, step > 0 ? step : 1, argc > 4);
     if (is_word(command, "cost"))
-        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_number(argv[4]) : 1);
+        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_decimal(argv[4]) : 1);
     if (is_word(command, "memory"))
         return memory();
     return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);

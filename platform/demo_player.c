@@ -4,6 +4,7 @@
 
 #include "platform/display.h"
 #include "platform/play.h"
+#include "platform/words.h"
 
 #define DAY 0xa9d6efu
 
@@ -54,17 +55,10 @@ const struct demo_screen demo_screens[] = {
 
 const int demo_screen_count = sizeof demo_screens / sizeof *demo_screens;
 
-static int same(const char *a, const char *b)
-{
-    while (*a != '\0' && *a == *b)
-        a++, b++;
-    return *a == *b;
-}
-
 const struct demo_screen *demo_screen_find(const char *name)
 {
     for (int i = 0; i < demo_screen_count; i++)
-        if (same(demo_screens[i].name, name))
+        if (is_word(demo_screens[i].name, name))
             return &demo_screens[i];
     return NULL;
 }
@@ -88,7 +82,7 @@ const int demo_blur_count = sizeof demo_blurs / sizeof *demo_blurs;
 const struct demo_blur *demo_blur_find(const char *name)
 {
     for (int i = 0; i < demo_blur_count; i++)
-        if (same(demo_blurs[i].name, name))
+        if (is_word(demo_blurs[i].name, name))
             return &demo_blurs[i];
     return NULL;
 }
@@ -113,7 +107,7 @@ void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *scre
 static const smear_draw *find_props(const char *level)
 {
     for (int i = 0; i < tape_count; i++)
-        if (same(tape_list[i]->name, level))
+        if (is_word(tape_list[i]->name, level))
             return tape_list[i]->frame[0].draw;
     return NULL;
 }

@@ -12,6 +12,7 @@
 #include "platform/platform.h"
 
 #include "platform/print.h"
+#include "platform/words.h"
 
 #include MODEL_HEADER
 
@@ -60,13 +61,6 @@ static int failed(const char *what, int result)
     }
     platform_print("\n");
     return 1;
-}
-
-static bool is_word(const char *text, const char *word)
-{
-    while (*text != '\0' && *text == *word)
-        text++, word++;
-    return *text == *word;
 }
 
 /* As `smear render` looks at a file without a camera: from the

@@ -12,6 +12,7 @@
 #include "platform/display.h"
 #include "platform/platform.h"
 #include "platform/print.h"
+#include "platform/words.h"
 
 #include <stdbool.h>
 
@@ -43,21 +44,6 @@ static int failed(const char *what)
     platform_print(what);
     platform_print("\n");
     return 1;
-}
-
-static bool is_word(const char *text, const char *word)
-{
-    while (*text != '\0' && *text == *word)
-        text++, word++;
-    return *text == *word;
-}
-
-static uint32_t read_decimal(const char *text)
-{
-    uint32_t value = 0;
-    for (; *text >= '0' && *text <= '9'; text++)
-        value = value * 10 + (uint32_t)(*text - '0');
-    return value;
 }
 
 static const struct screen *find_screen(const char *name)

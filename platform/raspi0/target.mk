@@ -24,7 +24,7 @@ SCRIPTS       := platform/raspi0/kernel.ld
 TEST_LDFLAGS  := -T kernel.ld
 BENCH_LDFLAGS := -T kernel.ld
 
-RUN       := sh platform/raspi0/run.sh
+RUN       := env IMAGE_AT=0x8000 sh platform/common/qemu.sh qemu-system-arm -M raspi0
 RUN_BENCH := sh platform/raspi0/cost.sh
 
 DISPLAY_SRC := platform/raspi0/display.c
