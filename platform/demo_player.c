@@ -30,7 +30,7 @@ const struct demo_screen demo_screens[] = {
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
-                    .max_triangles = 520, .reuse.buffer_age = 1 },
+                    .max_triangles = 500, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 160, .max_draws = DEMO_DRAWS,
