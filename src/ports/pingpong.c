@@ -332,8 +332,9 @@ uint32_t smear_pingpong_pass(uint32_t *out, int32_t stride, const uint32_t *in, 
     const struct smear_tile_neighborhood *around = &window_around(w, row)[column];
     const struct smear_pixel_velocity top = { around->x >> 5, around->y >> 5 };
     const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < pass->reach + 1
-                  || x1 + pass->reach + 1 > w->width;
+    /* Short streaks are taken whole by the last pass, and go to both sides: they may be longer than what it reaches. */
+    const int32_t beyond = max_i32(pass->reach, (pass->direct_up_to + 1) >> 1) + 1;
+    const bool any = !PLAIN_ROWS || pass->spread || pass->jitter != 0 || x0 < beyond || x1 + beyond > w->width;
     uint32_t taken = 0;
     p.limit = nearest_allowed(&p, 0);
     for (int32_t y = y0; y < y1; y++) {

@@ -362,6 +362,24 @@ static void test_the_depth_mask_keeps_what_is_in_front_from_bleeding(void)
     }
 }
 
+/* Short streaks are taken whole by the last pass, whose own taps reach less far. Where a tile lies that close to the right
+ * side, columns beyond it stand for the last one, not for the next row's first. */
+static void test_short_streaks_end_at_the_frames_side(void)
+{
+    for (int width = 97; width <= 127; width += 6)
+        for (int velocity = -32; velocity <= 32; velocity += 64) {
+            struct strip strip = { .width = width };
+            strip_fill(&strip, 0, 48, 0xffffff, 10, velocity);
+            strip_fill(&strip, 48, width, 0x000000, 10, velocity);
+            if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_PINGPONG,
+                                                      .filter.pingpong = { .passes = 2, .taps = 32, .base = 64 } }))
+                continue;
+            for (int x = 65; x < width; x++)
+                if (!CHECK_EQ((int64_t)strip.out[x] & 0xffffff, 0))
+                    return;
+        }
+}
+
 static void test_silhouettes_spread_where_that_is_asked_for(void)
 {
     for (int spread = 0; spread < 2; spread++) {
@@ -499,6 +517,7 @@ void suite_filters(void)
     RUN(test_scatter_goes_with_filters_alone);
     RUN(test_even_passes_are_a_box_and_the_original_is_a_comb);
     RUN(test_the_depth_mask_keeps_what_is_in_front_from_bleeding);
+    RUN(test_short_streaks_end_at_the_frames_side);
     RUN(test_silhouettes_spread_where_that_is_asked_for);
     RUN(test_still_pictures_pass_every_filter_unchanged);
     RUN(test_half_size_keeps_the_detail_of_what_it_does_not_touch);

@@ -1451,6 +1451,50 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
+/* Texture coordinates of little perspective are found at the ends of long blocks of pixels; the last ones are shorter.
+ * Columns that begin or end within one draw their own pixels, and no other. */
+static bool check_columns(int32_t x0, int32_t x1)
+{
+    planes_clear(&cut);
+    struct smear_raster_target t = target_of(&cut);
+    t.x0 = x0;
+    t.x1 = x1;
+    smear_raster_list(&frame, &t, 0);
+    for (int32_t i = 0; i < W * H; i++) {
+        const bool inside = i % W >= x0 && i % W < x1;
+        if (!CHECK_EQ(cut.color[i], inside ? full.color[i] : 0x123456u)
+            || !CHECK_EQ(cut.depth[i], inside ? full.depth[i] : 0))
+            return CHECK_EQ(x0 * 100 + x1, i % W);
+    }
+    return true;
+}
+
+static void test_columns_within_long_blocks_draw_their_own_pixels(void)
+{
+    random_state = 53;
+    for (uint32_t i = 0; i < TEXELS; i++)
+        texels[i] = random_u32() & 0xffffffu;
+    for (int n = 0; n < 60; n++) {
+        uint16_t v[3];
+        list_begin();
+        set_layout(0, true, false, 0, SHADE_NONE);
+        set_texture(0, 64, 64, SMEAR_REPEAT, SMEAR_REPEAT, 15);
+        const int32_t left = between(-40 * 256, 30 * 256), right = between(50 * 256, 120 * 256);
+        for (int i = 0; i < 3; i++) {
+            const int32_t depth = (1600 - (n & 1 ? 0 : between(0, 600))) * (1 << 18), x = i == 1 ? right : left;
+            v[i] = add_vertex(0, x, i == 2 ? H * 256 * 2 : -256, depth);
+            const int32_t s = x / 2 + between(-500, 500), t = between(-500, 500);
+            set_uv(0, v[i], s, t);
+        }
+        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+        planes_clear(&full);
+        draw_list(&full);
+        for (int32_t x0 = 0; x0 < W; x0++)
+            if (!check_columns(x0, min_i32(x0 + between(1, 24), W)))
+                return;
+    }
+}
+
 /* Triangles with loops of their own, of any size and near any break of the depth code. */
 static void random_kind(int level, int far)
 {
@@ -1710,6 +1754,7 @@ void suite_raster(void)
     RUN(test_cutouts_leave_what_lies_behind_their_holes);
     RUN(test_blended_triangles_only_change_colour);
     RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
+    RUN(test_columns_within_long_blocks_draw_their_own_pixels);
     RUN(test_texels_in_rows_are_those_of_the_general_loop);
     RUN(test_colors_in_rows_are_those_of_the_general_loop);
     RUN(test_rings_of_rows_change_nothing);
