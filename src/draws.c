@@ -104,6 +104,10 @@ SMEAR_NOINLINE void smear_draws_find_layers(struct smear_context *c, const struc
         const struct smear_layer_setting *setting = &l->setting[l->layer_of[i]];
         poses_of(&poses, c, i);
         const bool moves = setting->layer.method != SMEAR_NONE && poses_differ(&poses);
+        if (moves && !c->raster_draw[i].moves) {        /* before the layer's camera alone */
+            c->raster_draw[i].moves = true;
+            c->stats.draws_moved++;
+        }
         if (!moves && !setting->has_camera && !setting->layer.over)
             continue;
         smear_draw_poses_place(&key[0], &poses, &c->shot, draw->mesh, moves ? &open : &smear_instant_now);

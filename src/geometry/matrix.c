@@ -69,8 +69,8 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
                         const smear_mesh *mesh, const smear_transform *camera)
 {
-    /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 2 in
-     * magnitude (smear_begin checks), so a product of q24 and q24 has 57 bits and three fit. */
+    /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 1 and a 64th in
+     * magnitude (smear_begin checks), so a product of them and any 32 bits has 56 bits and three fit. */
     int64_t turned[9], scaled[9];
     int64_t offset[3];
     for (int j = 0; j < 3; j++)

@@ -698,6 +698,8 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
         s.frame.shutter.exposure = (uint8_t)(n % 3);
         s.frame.samples = 3;
         s.frame.shutter.poses = n % 7 == 0;
+        if (n % 11 == 0)        /* the largest there are */
+            s.frame.scale = (smear_motion_scale){ 16128, 16128, 16128 };
         const int result = rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS);
         if (!CHECK(result == SMEAR_OK || (result == SMEAR_ERR_ROOM && s.frame.method == SMEAR_TIMEMASK))
             || !CHECK(guards_intact(&r)))

@@ -667,6 +667,64 @@ static void test_a_layer_with_its_own_camera_stays_sharp_over_the_view(void)
     }
 }
 
+/* A layer whose camera moves is blurred as the frame is where its camera moves so: by either method, and where what it
+ * sees stands still. */
+static void test_a_layers_camera_blurs_what_stands_still(void)
+{
+    static uint32_t view[W * H];
+    smear_camera before = camera;
+    before.pose.origin[0] = -8 * 65536;
+    struct mover m;
+    mover_make(&m, 4, 4, 20, 12, 8, 0, 0);
+    const smear_draw draw = draw_of(&m, &green);
+    for (int k = 0; k < 2; k++) {
+        const smear_layer layer = { .mask = 255, .camera = &camera, .open = &before };
+        smear_frame frame = frame_of(both[k]);
+        frame.open = &before;
+        if (!render(view, &frame, &draw, 1))
+            return;
+        frame.open = NULL;
+        frame.layer = &layer;
+        frame.layer_count = 1;
+        if (!render(picture, &frame, &draw, 1))
+            return;
+        CHECK_EQ(stats.draws_moved, 1);
+        CHECK_EQ(difference(picture, view, 0, 0, W, H), 0);
+        CHECK(channel(view[(H / 2 - 4) * W + W / 2 - 9], 8) > 60 && channel(view[(H / 2 - 4) * W + W / 2 - 9], 8) < 220);
+    }
+}
+
+/* Between a perspective and an orthographic view there is no path: neither in a layer nor in the frame. */
+static void test_cameras_of_two_kinds_are_as_a_camera_that_stands(void)
+{
+    static uint32_t still[W * H];
+    const smear_camera lens = { .pose = SMEAR_IDENTITY, .focal = 1 << 16, .near_plane = 1 << 16, .far_plane = 101 << 16 };
+    smear_camera beside = lens, above = camera;
+    beside.pose.origin[0] = above.pose.origin[1] = 3 << 16;
+    struct mover behind, front;
+    mover_make(&behind, 0, 0, -20, 12, 8, 0, 0);
+    mover_make(&front, 4, 4, 20, 12, 8, 0, 0);
+    const smear_draw draw[2] = { draw_of(&behind, &red), draw_of(&front, &green) };
+    for (int i = 0; i < 8; i++) {
+        const smear_camera *const now = i & 1 ? &lens : &camera, *const other = i & 1 ? &above : &beside;
+        smear_frame frame = frame_of(both[i >> 1 & 1]);
+        smear_layer layer = { .mask = 255, .camera = now };
+        if (i < 4) {
+            frame.layer = &layer;
+            frame.layer_count = 1;
+        } else {
+            frame.camera = now;
+        }
+        if (!render(still, &frame, draw, 2))
+            return;
+        layer.open = other;
+        if (i >= 4)
+            frame.open = other;
+        if (!render(picture, &frame, draw, 2) || !CHECK_EQ(difference(picture, still, 0, 0, W, H), 0))
+            CHECK_EQ(i, -1);
+    }
+}
+
 static void test_a_layer_may_lie_over_all(void)
 {
     struct mover bar, ball;
@@ -853,6 +911,8 @@ void suite_layers(void)
     RUN(test_a_layer_has_its_own_shutter);
     RUN(test_a_layer_has_its_own_method);
     RUN(test_a_layer_with_its_own_camera_stays_sharp_over_the_view);
+    RUN(test_a_layers_camera_blurs_what_stands_still);
+    RUN(test_cameras_of_two_kinds_are_as_a_camera_that_stands);
     RUN(test_a_layer_may_lie_over_all);
     RUN(test_a_plain_layer_has_no_dark_fringe);
     RUN(test_the_first_frame_and_cuts_have_no_motion);

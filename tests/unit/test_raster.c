@@ -1451,6 +1451,27 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
+/* Jobs of layers end within tiles: two of them would write one mark. Their rows have none, and the same velocities. */
+static void test_rows_without_marks_have_the_same_velocities(void)
+{
+    random_state = 59;
+    for (int n = 0; n < 20; n++) {
+        random_list();
+        planes_clear(&full);
+        draw_list(&full);
+        planes_clear(&cut);
+        for (int i = 0; i < W / 8; i++)
+            moving[i] = 0;
+        struct smear_raster_target t = target_of(&cut);
+        t.moving = NULL;
+        smear_raster_list(&frame, &t, 0);
+        if (!same_planes(&full, &cut))
+            return;
+        for (int i = 0; i < W / 8; i++)
+            CHECK_EQ(moving[i], 0);
+    }
+}
+
 /* Texture coordinates of little perspective are found at the ends of long blocks of pixels; the last ones are shorter.
  * Columns that begin or end within one draw their own pixels, and no other. */
 static bool check_columns(int32_t x0, int32_t x1)
@@ -1755,6 +1776,7 @@ void suite_raster(void)
     RUN(test_blended_triangles_only_change_colour);
     RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
     RUN(test_columns_within_long_blocks_draw_their_own_pixels);
+    RUN(test_rows_without_marks_have_the_same_velocities);
     RUN(test_texels_in_rows_are_those_of_the_general_loop);
     RUN(test_colors_in_rows_are_those_of_the_general_loop);
     RUN(test_rings_of_rows_change_nothing);
