@@ -160,6 +160,7 @@ SMEAR_INLINE uint32_t gather(const struct passing *p, const struct taps *t, uint
         uint32_t column = (uint32_t)place >> 16;
         if (edge)
             column = (uint32_t)clamp_i32((int32_t)column - EDGE, 0, right);
+        SMEAR_ASSERT(column < (uint32_t)p->w->width);
         uint32_t tap = row[place >> 48] + column;
         if (depth[tap] <= limit) {
             even_add(&s, in[tap], linear);

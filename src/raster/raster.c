@@ -138,6 +138,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         *moved = true;
     if (!known) {
         const uint64_t area = setup_edges(s);
+        SMEAR_ASSERT((int64_t)area > 0);
         if (draw_tiny(s, area, pixels, &box)) {
             if (entry != NULL)
                 entry->triangle = SMEAR_NO_TRIANGLE;

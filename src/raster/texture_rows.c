@@ -338,11 +338,11 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             const int32_t n = block_next(block, rest);
             track_next(&k, t, n);
             rest -= n;
-            const int32_t last = rest == 0, count = n + last;
+            const int32_t last = rest == 0, count = n + last, end = right - 1 - rest + last;
             if (rest - last >= least_rest) {
+                SMEAR_ASSERT(end - count >= target->x0 && end <= target->x1);
                 texels_draw(&k.run, count, log2_width, log2_height, kind);
             } else {
-                const int32_t end = right - 1 - rest + last;
                 struct texel_run run = k.run;       /* that one stays in registers */
                 if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
                     break;

@@ -63,6 +63,7 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
         whole = gap->unit;
     const uint32_t side = (whole - gap->unit) >> 1;
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
+    SMEAR_ASSERT(gap->pairs <= GAP_PAIRS_MAX);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
     for (int32_t i = 0; i < gap->pairs; i++) {
         gap->x[i] = (int8_t)nearest_pixel(x, (int32_t)length, i + 1);

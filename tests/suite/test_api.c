@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_api.c - the library through its public interface: arguments, order, memory, capacities, poses kept from frame
  * to frame, bands, workers and the filter alone. Host only: threads and floating point. */
+#include "tests/random.h"
 #include "tests/rig.h"
 #include "tests/test.h"
 
@@ -713,6 +714,40 @@ static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
         same_picture(&r, fresh.picture);
     }
     rig_end(&fresh);
+    rig_end(&r);
+}
+
+/* Thin triangles that the near plane cuts, as they go on by less than a step of a pixel: rounding turns over some of what is
+ * left of them. */
+static void test_slivers_that_the_near_plane_cuts_are_drawn_without_harm(void)
+{
+    enum { SLIVERS = 12 };
+    struct rig r;
+    smear_desc desc = small_desc(40, 24);
+    desc.methods |= SMEAR_SET_TEMPORAL;
+    random_state = 61;
+    bool ok = rig_begin(&r, &desc, true);
+    for (int n = 0; n < 1500 && ok; n++) {
+        int16_t position[SLIVERS * 9];
+        uint16_t index[SLIVERS * 3];
+        for (int i = 0; i < SLIVERS * 3; i++) {
+            index[i] = (uint16_t)i;
+            for (int k = 0; k < 3; k++)
+                position[3 * i + k] = (int16_t)(i % 3 == 2 ? (position[3 * i + k - 3] + position[3 * i + k - 6]) / 2 + between(-2, 2)
+                                                           : between(-3000, 3000));
+        }
+        const smear_mesh mesh = { .position = position, .index = index, .vertex_count = SLIVERS * 3, .triangle_count = SLIVERS,
+                                  .shift = 10 };
+        const smear_material material = { .double_sided = 1, .unlit = 1 };
+        const smear_transform now = pose_at(uniform(-1, 1), uniform(-1, 1), uniform(-3, 0), uniform(0, 6), uniform(0, 6));
+        smear_transform open = now;
+        open.origin[n % 3] += 1;
+        const smear_draw draw = { .mesh = &mesh, .material = &material, .now = &now, .open = &open };
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        camera.near_plane = q16(uniform(0.1, 2));
+        const smear_frame frame = { .camera = &camera, .method = (uint8_t)(n & 1 ? SMEAR_AUTO : SMEAR_SUBFRAMES), .samples = 3 };
+        ok = CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK) && CHECK(guards_intact(&r));
+    }
     rig_end(&r);
 }
 
@@ -2300,6 +2335,7 @@ void suite_api(void)
     RUN(test_a_row_of_a_heap_is_drawn_of_many_fills);
     RUN(test_the_size_of_the_vertex_cache_changes_no_pixel);
     RUN(test_wild_transforms_and_cameras_are_drawn_without_harm);
+    RUN(test_slivers_that_the_near_plane_cuts_are_drawn_without_harm);
     RUN(test_frames_of_every_shape_are_covered_by_bands_in_order);
     RUN(test_an_index_out_of_range_drops_its_triangle_only);
     RUN(test_meshes_without_triangles_or_vertices_draw_nothing);
