@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* smear_overlay.h - boxes, sprites and text over a frame: a lap time, a bar, a crosshair.
+/* smear_overlay.h - what lies over a frame: boxes, sprites and text, as a lap time, a bar, a crosshair; and points in the
+ * world, as sparks, rain, snow, dust.
  *
  *     smear_overlay_item item[2] = { { 0 }, { 0 } };          // zero: white, opaque, 1:1
  *     item[0].x = 4, item[0].y = 4, item[0].text = "LAP 1", item[0].font = &smear_font_8x8;
  *     item[1].x = 4, item[1].y = 16, item[1].width = speed, item[1].height = 3;
- *     smear_overlay overlay = { item, 2 };
+ *     smear_overlay overlay = { item, 2, NULL };              // the last one: points
  *     frame.overlay = &overlay;                               // and smear_begin, smear_submit, smear_render as ever
  *
  * Items are drawn in their order into finished pixels, just before these become the display's: sharp whatever the method
@@ -60,9 +61,52 @@ typedef struct smear_overlay_item {
     const char *text;           /* one line, up to its NUL */
 } smear_overlay_item;
 
+/* ------------------------------------------------------------------ points */
+
+typedef enum smear_point_mode {
+    SMEAR_POINT_ADD,            /* its light is added: sparks, rain; black shows nothing */
+    SMEAR_POINT_BLEND           /* it covers what is behind it: snow, dust */
+} smear_point_mode;
+
+/* What the library finds out about a point while it renders; of no use to others. */
+typedef struct smear_point_place {
+    int32_t x, y, length;
+    uint32_t gain;
+    int16_t along_x, along_y, x0, x1, y0, y1;
+    uint16_t depth, next;
+} smear_point_place;
+
+/* A soft dot with the light of a disc, and, where it or the camera moves, the streak that it leaves during the exposure: as
+ * long and as faint as that of a dot drawn at ever so many instants, at the price of a dot. Light falls off smoothly,
+ * over a pixel at least, so points neither twinkle nor vanish: smaller ones are fainter. */
+typedef struct smear_point {
+    int32_t now[3];             /* Q16.16 world units, any */
+    int32_t before[3];          /* where it was one frame ago (with smear_shutter.poses: at shutter open); of a new one, as
+                                 * `now`. It goes straight on, as frame.scale.object says */
+    int32_t size;               /* Q16.16 world units, not negative: diameter of the disc; 128 pixels on the screen at most */
+    uint8_t color[3];           /* r g b, sRGB-encoded */
+    uint8_t fade;               /* 0: all of its light (ADD), opaque in the middle (BLEND); up to 255: nothing */
+    uint8_t mode;               /* smear_point_mode */
+    smear_point_place place;
+} smear_point;
+
+/* Points of a frame, drawn in their order over what the frame shows, whatever its method is, and below all items. Seen by
+ * the frame's camera, between its planes. With SMEAR_NONE they are dots, now. A shutter's curve is a box for them. Streaks of
+ * more than 700 pixels across or down are not drawn.
+ *
+ * Where the scene is nearer than the near side of the dot, a point is hidden, pixel by pixel, its whole streak at the depth
+ * of mid-exposure. The scene's depth is that of the sharp picture in the middle of the exposure, whatever moves there;
+ * SMEAR_ACCUMULATE compares at every instant the part of the streak that belongs to it. Blended draws hide nothing. */
+typedef struct smear_points {
+    smear_point *point;         /* `place` is written from smear_begin on until smear_render returns, all else is read: one
+                                 * array is of one context at a time */
+    uint16_t count;
+} smear_points;
+
 struct smear_overlay {
     const smear_overlay_item *item;
     uint16_t count;
+    const smear_points *points; /* or null; not with smear_filter_begin */
 };
 
 #ifdef __cplusplus

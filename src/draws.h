@@ -12,6 +12,9 @@ void smear_draws_find_curves(struct smear_context *c);
 /* Looks at all draws of the frame: what moves, what is blended, whose velocity comes from where. */
 void smear_draws_prepare(struct smear_context *c);
 
+/* Finds where points are seen in a part of the exposure, from -65536 at shutter open to 65536 at close. */
+void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to);
+
 /* Finds which draws are blurred as layers, and how they move. */
 void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);
 

@@ -60,6 +60,9 @@
     X(ITEM_IMAGE, "overlay.item.image: without pixels or palette, or out of range") \
     X(ITEM_CELL, "overlay.item.cell: not below image.cells") \
     X(ITEM_FONT, "overlay.item.font: missing, or as image") \
+    X(FRAME_POINTS, "overlay.points: without points, or with smear_filter_begin") \
+    X(POINT_SIZE, "overlay.point.size: negative") \
+    X(POINT_MODE, "overlay.point.mode: unknown") \
     X(DRAW_ID, "draw.id: twice in this frame") \
     X(DRAW_MESH, "draw.mesh: missing, or a value out of range") \
     X(DRAW_MESH_COLORS, "draw.mesh: colours, normals: not compiled in") \

@@ -10,6 +10,7 @@
 
 #include "draws.h"
 #include "display/band.h"
+#include "display/points.h"
 #include "methods/layered.h"
 #include "methods/sharp.h"
 
@@ -94,16 +95,21 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
     smear_sums_clear(&c->sums, &c->rows, first, end);
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_instant instant = smear_instant_at(&c->shot, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
+        smear_draws_place_points(c, (int32_t)(2 * k * 65536u / n) - 65536, (int32_t)(2 * (k + 1) * 65536u / n) - 65536);
         for (int row = first; row < end;) {
             struct smear_refill refill;
             const int part = smear_draws_assemble(c, row, row, end, &instant, &refill);
             for (; row < part; row++) {
                 smear_sharp_draw_row(&c->rows, row, NULL);
                 smear_row_blend(&c->rows, row);
+                if (rows_have_points(&c->rows))
+                    smear_points_draw_window(&c->rows, row);
                 smear_sums_add_row(&c->sums, &c->rows, row);
             }
         }
     }
+    if (rows_have_points(&c->rows))
+        smear_points_hide(&c->rows);
 }
 
 static int render_accumulated(struct smear_context *c)

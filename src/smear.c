@@ -101,7 +101,7 @@ static int resolve(struct smear_context *c, smear_frame *f)
     if (result == SMEAR_OK)
         result = smear_check_layers(f);
     if (result == SMEAR_OK)
-        result = smear_check_overlay(f->overlay);
+        result = smear_check_overlay(f->overlay, true);
     if (result == SMEAR_OK && SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f->shutter.curve))
         result = FAULT(FRAME_CURVE);
     return result;
@@ -243,7 +243,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
         return FAULT(FRAME_CAMERA);
     int result = smear_resolve_frame(&f, &c->desc);
     if (result == SMEAR_OK)
-        result = smear_check_overlay(f.overlay);
+        result = smear_check_overlay(f.overlay, false);
     if (result != SMEAR_OK)
         return result;
     if (!smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA)

@@ -369,7 +369,19 @@ static int check_item(const smear_overlay_item *item)
     return m != NULL && item->cell != 0 && item->cell >= m->cells ? FAULT(ITEM_CELL) : SMEAR_OK;
 }
 
-int smear_check_overlay(const smear_overlay *overlay)
+static int check_points(const smear_points *points)
+{
+    if (points->point == NULL && points->count != 0)
+        return FAULT(FRAME_POINTS);
+    for (int i = 0; i < points->count; i++) {
+        const smear_point *point = &points->point[i];
+        if (point->size < 0 || point->mode > SMEAR_POINT_BLEND)
+            return point->size < 0 ? FAULT(POINT_SIZE) : FAULT(POINT_MODE);
+    }
+    return SMEAR_OK;
+}
+
+int smear_check_overlay(const smear_overlay *overlay, bool in_world)
 {
     if (overlay == NULL)
         return SMEAR_OK;
@@ -380,6 +392,8 @@ int smear_check_overlay(const smear_overlay *overlay)
         if (result != SMEAR_OK)
             return result;
     }
+    if (SMEAR_OVERLAY_MOST && overlay->points != NULL)
+        return in_world ? check_points(overlay->points) : FAULT(FRAME_POINTS);
     return SMEAR_OK;
 }
 

@@ -13,7 +13,10 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d);
 /* Return SMEAR_OK or the number of what is wrong. */
 int smear_check_cameras(const smear_frame *f);
 int smear_check_layers(const smear_frame *f);
-int smear_check_overlay(const smear_overlay *overlay);
+
+/* `in_world`: there is a camera that sees points. */
+int smear_check_overlay(const smear_overlay *overlay, bool in_world);
+
 int smear_check_draw(const smear_draw *draw);
 
 #endif

@@ -3,11 +3,13 @@
 #include "display/band.h"
 
 #include "base/crc32.h"
-#include "display/overlay.h"
 #include "display/pixel_format.h"
+#include "display/points.h"
 
-uint8_t *smear_band_begin(struct smear_rows *rows)
+uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1)
 {
+    if (rows_have_points(rows))
+        smear_points_list(rows, y0, y1);
     const smear_desc *d = rows->desc;
     struct smear_bands *b = &rows->bands;
     /* With two buffers, the one from two bands ago must have been sent. */
@@ -27,7 +29,7 @@ bool smear_band_next(struct row_job *job)
     job->y1 = min_i32(job->y0 + rows->desc->band_rows, row_bottom(rows, job->row));
     if (job->y0 >= job->y1)
         return false;
-    job->band = smear_band_begin(rows);
+    job->band = smear_band_begin(rows, job->y0, job->y1);
     return true;
 }
 
@@ -65,6 +67,8 @@ int smear_band_flush(const struct row_job *r)
     return result;
 }
 
+static const struct overlay_box no_points = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
+
 /* Converts columns [x0, x1) of row y of the frame. */
 static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
@@ -78,11 +82,16 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                      (smear_dither)rows->desc->dither);
 }
 
-/* Converts columns [x0, x1) of row y with what lies over them. */
-static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
+/* Converts columns [x0, x1) of row y with what lies over them. `depth`: of the scene there. */
+static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0,
+                                           int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;
-    const struct overlay_box box = smear_overlay_row(rows->overlay, y);
+    const struct overlay_box row = { x0, y, x1, y + 1 };
+    const struct overlay_box points = rows_have_points(rows) ? smear_points_box(rows, &row) : no_points;
+    struct overlay_box box = smear_overlay_row(rows->overlay, y);
+    box.x0 = min_i32(box.x0, points.x0);
+    box.x1 = max_i32(box.x1, points.x1);
     /* Parts begin and end on whole bytes of every format. */
     const int32_t first = clamp_i32(box.x0, x0, x1) & ~7, covered = max_i32(first, x0), end = min_i32((box.x1 + 7) & ~7, x1);
     uint32_t part[OVERLAY_PART];
@@ -93,9 +102,16 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
     if (covered > x0)
         convert(r, in, x0, covered, y);
     for (int32_t x = covered, next; x < end; x = next) {
+        const uint32_t *pixels = in + (x - x0);
         next = min_i32((x & ~7) + OVERLAY_PART, end);
-        const bool drawn = smear_overlay_draw(rows->overlay, part, in + (x - x0), x, next, y, frame_is_linear(&rows->raster));
-        convert(r, drawn ? part : in + (x - x0), x, next, y);
+        if (points.x0 < next && points.x1 > x) {
+            __builtin_memcpy(part, pixels, (size_t)(next - x) * sizeof *part);
+            smear_points_draw(rows, part, depth + (x - x0), x, next, y);
+            pixels = part;
+        }
+        if (smear_overlay_draw(rows->overlay, part, pixels, x, next, y, frame_is_linear(&rows->raster)))
+            pixels = part;
+        convert(r, pixels, x, next, y);
     }
     if (end < x1)
         convert(r, in + (end - x0), end, x1, y);
@@ -105,13 +121,21 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
 static bool is_covered(const struct row_job *r, int32_t x0, int32_t x1)
 {
     const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
-    return rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
+    if (!rows_have_overlay(r->rows))
+        return false;
+    if (rows_have_points(r->rows)) {
+        const struct overlay_box points = smear_points_box(r->rows, &box);
+        if (points.x0 < points.x1)
+            return true;
+    }
+    return smear_overlay_touches(r->rows->overlay, &box);
 }
 
-static void convert_row(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y, bool covered)
+static void convert_row(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y,
+                        bool covered)
 {
     if (SMEAR_WITH_OVERLAY && covered)
-        convert_covered(r, in, x0, x1, y);
+        convert_covered(r, in, depth, x0, x1, y);
     else
         convert(r, in, x0, x1, y);
 }
@@ -121,7 +145,8 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
 {
     const bool covered = is_covered(r, x0, x1);
     for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
-        convert_row(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y, covered);
+        convert_row(r, t->color + target_row(&t->color_rows, t, y) + x0, t->depth + target_row(&t->window_rows, t, y) + x0, x0,
+                    x1, y, covered);
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
@@ -133,10 +158,11 @@ void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
 
 void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile)
 {
+    const struct smear_window *w = &r->rows->window;
     const int32_t x0 = tile_left(r->rows, column), x1 = tile_right(r->rows, column);
     const bool covered = is_covered(r, x0, x1);
-    for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += r->rows->window.tile)
-        convert_row(r, tile, x0, x1, y, covered);
+    for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += w->tile)
+        convert_row(r, tile, w->depth + window_ring_row(w, y) * w->width + x0, x0, x1, y, covered);
 }
 
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)

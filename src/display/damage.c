@@ -168,21 +168,42 @@ static void add_items(uint32_t *over, const smear_overlay *overlay, const struct
     }
 }
 
+/* Adds the hashes of where points are seen. */
+static void add_points(uint32_t *over, const smear_points *points, const struct smear_window *w, uint32_t sign)
+{
+    for (int32_t i = 0; points != NULL && i < points->count; i++) {
+        const smear_point *point = &points->point[i];
+        const smear_point_place *p = &point->place;
+        const struct overlay_box box = { p->x0, p->y0, p->x1, p->y1 };
+        const int32_t word[] = { i, p->x, p->y, p->length, (int32_t)p->gain, p->along_x, p->along_y, p->depth,
+                                 bytes(point->color[0], point->color[1], point->color[2], point->mode) };
+        uint32_t h[2] = { 0, 0 };
+        mix(h, word, (int)(sizeof word / sizeof *word));
+        add_box(over, w, &box, sign * (h[0] + h[1]));
+    }
+}
+
+static void add_all(uint32_t *over, const smear_overlay *overlay, const struct smear_window *w, uint32_t sign)
+{
+    add_items(over, overlay, w, sign);
+    add_points(over, overlay->points, w, sign);
+}
+
 /* What is left of a tile's sum without this frame's items is what differs. */
 void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows)
 {
-    static const smear_overlay none = { NULL, 0 };
+    static const smear_overlay none = { NULL, 0, NULL };
     const struct smear_window *w = &rows->window;
     const smear_overlay *overlay = rows->overlay != NULL ? rows->overlay : &none;
     if (!damage_has_tiles(d))
         return;
-    add_items(d->over, overlay, w, 0u - 1u);
+    add_all(d->over, overlay, w, 0u - 1u);
     for (int32_t i = 0; i < w->columns * w->rows; i++) {
         if (d->over[i] != 0)
             d->tiles.tile[i] = rows->desc->reuse.buffer_age;
         d->over[i] = 0;
     }
-    add_items(d->over, overlay, w, 1);
+    add_all(d->over, overlay, w, 1);
 }
 
 #endif

@@ -195,7 +195,7 @@ struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y)
 bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
                         bool linear)
 {
-    struct part p = { out, in, x0, x1, linear, false };
+    struct part p = { out, in, x0, x1, linear, out == in };
     for (int32_t i = 0; i < overlay->count; i++) {
         const smear_overlay_item *item = &overlay->item[i];
         const smear_image *m = item->image;

@@ -13,6 +13,7 @@
 
 #include "kernels/fill.h"
 #include "display/band.h"
+#include "display/points.h"
 #include "layers/layer_gather.h"
 #include "layers/streak.h"
 
@@ -350,7 +351,7 @@ static void merge_group(struct layers_row *r, struct smear_group *group)
     if (group->method == SMEAR_LAYERED)
         smear_gather_cells(&r->gather);
     smear_jobs_run(&frame->jobs, merge_job, r, frame->jobs.workers);
-    if (frame->blends)
+    if (frame->blends || rows_have_points(frame))
         keep_depths(r);
     mark_tiles(r);
 }
@@ -441,7 +442,7 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
     merge_row(&r);
     stage_end(rows, &rows->stats->time.blur, start);
     start = stage_start(rows);
-    r.row.band = smear_band_begin(rows);
+    r.row.band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row));
     smear_jobs_run(&rows->jobs, convert_job, &r, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.convert, start);
     return smear_band_flush(&r.row);

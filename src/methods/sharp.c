@@ -4,8 +4,8 @@
 
 #include "kernels/fill.h"
 #include "display/band.h"
-#include "display/overlay.h"
 #include "display/pixel_format.h"
+#include "display/points.h"
 #include "raster/velocity.h"
 
 /* ------------------------------------------------------------------ into the window */
@@ -101,7 +101,7 @@ static int draw_direct_row(struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-    struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows) };
+    struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row)) };
     smear_jobs_run(&rows->jobs, direct_job, &job, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.raster, start);
     return smear_band_flush(&job);
@@ -111,7 +111,8 @@ static int draw_direct_row(struct smear_rows *rows, int row)
 static bool is_covered(const struct smear_rows *rows, int row)
 {
     const struct overlay_box box = { 0, row_top(rows, row), rows->window.width, row_bottom(rows, row) };
-    return rows_have_overlay(rows) && smear_overlay_touches(rows->overlay, &box);
+    return rows_have_overlay(rows)
+        && (smear_overlay_touches(rows->overlay, &box) || smear_points_touch(rows, box.y0, box.y1));
 }
 
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)

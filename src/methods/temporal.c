@@ -9,6 +9,7 @@
 #include "methods/temporal.h"
 
 #include "display/band.h"
+#include "display/points.h"
 #include "smear_memory.h"
 
 #if SMEAR_WITH_SUBFRAMES
@@ -108,6 +109,14 @@ static void hand_on(const struct finish *f, const struct smear_tile_run *t)
     struct smear_raster_target out = t->background;
     out.color = t->out;
     out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
+    if (rows_have_points(f->row.rows)) {
+        const struct overlay_box area = { t->x0, out.y0, t->x1, out.y1 };
+        const struct overlay_box box = smear_points_box(f->row.rows, &area);
+        if (box.x0 < box.x1) {
+            out.depth = smear_subframes_depth(t, box.x0, box.x1);
+            out.window_rows = out.color_rows;
+        }
+    }
     smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
 }
 
@@ -255,7 +264,7 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     stage_end(rows, &rows->stats->time.raster, start);
 
     start = stage_start(rows);
-    finish.row.band = smear_band_begin(rows);
+    finish.row.band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row));
     const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run))
         finish_static(&finish, run->first, run->end);

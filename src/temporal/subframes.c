@@ -311,7 +311,7 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
     return samples;
 }
 
-uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
+static struct subframes make(const struct smear_tile_run *t, int32_t instants)
 {
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
@@ -328,7 +328,12 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     f.work.color = t->out;
     f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_WORDS * pixels);
     f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
+    return f;
+}
 
+uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
+{
+    struct subframes f = make(t, instants);
     struct subframe_box all;
     struct smear_tile_run own;
     if (t->fill != NULL) {
@@ -342,4 +347,21 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     if (samples != 0)
         smear_subframe_average(&f, &all, plan);
     return samples;
+}
+
+uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int32_t x1)
+{
+    struct smear_tile_run part = *t;
+    struct subframes f = make(t, 1);
+    const struct subframe_box box = { max_i32(x0 & ~15, f.work.x0), f.work.y0, min_i32((x1 + 15) & ~15, f.work.x1), f.work.y1 };
+    struct subframe_box all = no_box;
+    f.work.color = f.listed + LISTED;       /* of no use to anybody */
+    smear_subframe_restore_depth(&f, &box);
+    f.work = within(&f, &box);
+    part.background.x0 = box.x0;
+    part.background.x1 = box.x1;
+    f.t = &part;
+    f.refilled = t->fill != NULL ? &part : NULL;
+    draw_moving(&f, smear_shutter_instant(t->shutter, 0, 1), &all);
+    return f.work.depth;
 }

@@ -28,4 +28,8 @@ struct smear_tile_plan;
  * instants are closed, unless something is blended there. Returns the samples taken. */
 uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
 
+/* Finds depths in the middle of the exposure of what is opaque, of columns [x0, x1) of the tiles, when their pixels are done.
+ * Returns them, in the work memory, in rows like those of `out`. */
+uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int32_t x1);
+
 #endif

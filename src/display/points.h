@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* points.h - points of smear_overlay.h: found on the screen once a frame, drawn as streaks over parts of rows on their way to
+ * the display.
+ *
+ * A dot's light falls off as (1 - (r / a)^2)^2 up to its radius a. The light that a pixel gets while a dot passes at distance
+ * d is the integral of that along a chord, a polynomial, from where the dot is at shutter open to where it is at close:
+ * neither instants nor tables are needed, and streaks look alike in all directions. */
+#ifndef SMEAR_DISPLAY_POINTS_H
+#define SMEAR_DISPLAY_POINTS_H
+
+#include "display/overlay.h"
+#include "display/row.h"
+#include "geometry/shot.h"
+
+enum { SMEAR_NO_POINT = UINT16_MAX };
+
+static inline bool rows_have_points(const struct smear_rows *rows)
+{
+    return rows_have_overlay(rows) && rows->overlay->points != NULL;
+}
+
+/* Finds where all points are seen from one instant of the exposure to another. */
+void smear_points_place(const struct smear_rows *rows, const struct smear_shot *shot, const struct smear_instant *from,
+                        const struct smear_instant *to);
+
+/* Has no point seen any more until they are placed again. */
+void smear_points_hide(const struct smear_rows *rows);
+
+/* Lists the points that may touch pixel rows [y0, y1): rows->points. */
+void smear_points_list(struct smear_rows *rows, int32_t y0, int32_t y1);
+
+/* Returns the part of `area` that listed points may touch; x0 is not below x1 where there is none. */
+struct overlay_box smear_points_box(const struct smear_rows *rows, const struct overlay_box *area);
+
+/* Whether any point may touch pixel rows [y0, y1), listed or not. */
+bool smear_points_touch(const struct smear_rows *rows, int32_t y0, int32_t y1);
+
+/* Draws listed points over pixels [x0, x1) of row y. `depth`: codes of the scene at the same pixels. */
+void smear_points_draw(const struct smear_rows *rows, uint32_t *out, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y);
+
+/* Lists points of a tile row and draws them into the window. */
+void smear_points_draw_window(struct smear_rows *rows, int row);
+
+#endif
