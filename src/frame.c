@@ -102,14 +102,12 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
             for (; row < part; row++) {
                 smear_sharp_draw_row(&c->rows, row, NULL);
                 smear_row_blend(&c->rows, row);
-                if (rows_have_points(&c->rows))
-                    smear_points_draw_window(&c->rows, row);
+                rows_draw_points(&c->rows, row);
                 smear_sums_add_row(&c->sums, &c->rows, row);
             }
         }
     }
-    if (rows_have_points(&c->rows))
-        smear_points_hide(&c->rows);
+    rows_hide_points(&c->rows);
 }
 
 static int render_accumulated(struct smear_context *c)

@@ -55,7 +55,7 @@ struct overlay_box smear_points_box(const struct smear_rows *rows, const struct 
 
 /* ------------------------------------------------------------------ pixels */
 
-enum { RADIUS = 1 << 13, ONE = 1 << 15 };
+enum { RADIUS = 1 << SMEAR_POINT_RADIUS, ONE = 1 << 15 };
 
 /* A point while a part of a row is drawn. */
 struct brush {
@@ -75,16 +75,23 @@ static inline int32_t chord_light(int32_t v, int32_t c2, int32_t half)
     return clamp_i32(light, -half, half);
 }
 
-/* Returns a pixel's share of the light, q15. `u`: along the streak from its start; `d`: across, less than a radius. */
+/* Returns the light of a dot at v along a chord, q30. */
+static inline uint32_t dot_light(int32_t v, int32_t c2)
+{
+    const int32_t q = max_i32(c2 - (v * v >> 11), 0);
+    return (uint32_t)q * (uint32_t)q;
+}
+
+/* Returns a pixel's share of the light, q15. `u`: along the streak from its start, of a short one from its middle; `d`:
+ * across, less than a radius. Over a short one, two places tell the mean (Gauss), and better than a difference of chords. */
 static inline uint32_t weight_of(const smear_point_place *p, int32_t u, int32_t d)
 {
-    const int32_t c2 = (RADIUS * RADIUS - d * d) >> 11, c4 = c2 * c2 >> 15;
+    const int32_t c2 = (RADIUS * RADIUS - d * d) >> 11;
     int32_t light;
-    if (p->length == 0) {
-        const int32_t q = c2 - (u * u >> 11);
-        light = q > 0 && u < RADIUS && u > -RADIUS ? q * q >> 15 : 0;
+    if (p->length < SMEAR_POINT_SHORT) {
+        light = (int32_t)((dot_light(u - p->length, c2) + dot_light(u + p->length, c2)) >> 16);
     } else {
-        const int32_t half = (c4 * smear_sqrt_q3[c2 < ONE ? c2 >> 5 : 1023] >> 8) * 17476 >> 15;
+        const int32_t half = ((c2 * c2 >> 15) * smear_sqrt_q3[c2 < ONE ? c2 >> 5 : 1023] >> 8) * 17476 >> 15;
         light = chord_light(u, c2, half) - chord_light(u - p->length, c2, half);
     }
     return light > 0 ? (uint32_t)light * p->gain >> 16 : 0;

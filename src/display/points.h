@@ -12,7 +12,12 @@
 #include "display/row.h"
 #include "geometry/shot.h"
 
-enum { SMEAR_NO_POINT = UINT16_MAX };
+enum {
+    SMEAR_NO_POINT = UINT16_MAX,
+    SMEAR_POINT_RADIUS = 13,    /* fraction bits of lengths in radii of a dot */
+    /* Streaks of less are short: `x`, `y` is their middle, and `length` is from there to where two places weigh. */
+    SMEAR_POINT_SHORT = 1 << (SMEAR_POINT_RADIUS - 1)
+};
 
 static inline bool rows_have_points(const struct smear_rows *rows)
 {
@@ -22,9 +27,6 @@ static inline bool rows_have_points(const struct smear_rows *rows)
 /* Finds where all points are seen from one instant of the exposure to another. */
 void smear_points_place(const struct smear_rows *rows, const struct smear_shot *shot, const struct smear_instant *from,
                         const struct smear_instant *to);
-
-/* Has no point seen any more until they are placed again. */
-void smear_points_hide(const struct smear_rows *rows);
 
 /* Lists the points that may touch pixel rows [y0, y1): rows->points. */
 void smear_points_list(struct smear_rows *rows, int32_t y0, int32_t y1);
@@ -38,7 +40,21 @@ bool smear_points_touch(const struct smear_rows *rows, int32_t y0, int32_t y1);
 /* Draws listed points over pixels [x0, x1) of row y. `depth`: codes of the scene at the same pixels. */
 void smear_points_draw(const struct smear_rows *rows, uint32_t *out, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y);
 
-/* Lists points of a tile row and draws them into the window. */
+/* Where each instant has its part of the streaks: list points of a tile row and draw them into the window; have no point seen
+ * any more until they are placed again. */
 void smear_points_draw_window(struct smear_rows *rows, int row);
+void smear_points_hide(const struct smear_rows *rows);
+
+static inline void rows_draw_points(struct smear_rows *rows, int row)
+{
+    if (rows_have_points(rows))
+        smear_points_draw_window(rows, row);
+}
+
+static inline void rows_hide_points(const struct smear_rows *rows)
+{
+    if (rows_have_points(rows))
+        smear_points_hide(rows);
+}
 
 #endif

@@ -214,25 +214,24 @@ static bool make_streak(smear_point_place *p, const struct end end[2], const str
     const int32_t most = max_i32(abs_i32(x), abs_i32(y)), per_radius = ((1 << 21) + a / 2) / a;
     if (dot->light == 0 || most > LONGEST || !find_box(p, end, a, v))
         return false;
-    const int down = most >= 1 << 15 ? 3 : 0;
-    const int32_t dx = x >> down, dy = y >> down;
+    const int down = most >= 1 << 15 ? 3 : most < 1 << 11 ? -4 : 0;
+    const int32_t dx = down >= 0 ? x >> down : x * 16, dy = down >= 0 ? y >> down : y * 16;
     const uint32_t square = (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
-    if (most < 1 << 11 && 256u * square <= (uint32_t)(a * a)) {     /* a sixteenth of the radius: a dot */
-        p->x = (end[0].s.x + end[1].s.x) >> 1;
-        p->y = (end[0].s.y + end[1].s.y) >> 1;
-        p->length = 0;
-        p->along_x = (int16_t)per_radius;
-        p->along_y = 0;
-        p->gain = dot->light;
-        return true;
-    }
-    const int32_t length = (int32_t)root_of(square);
+    const int32_t root = (int32_t)root_of(square), length = down >= 0 ? root << down : (root + 8) >> 4;
     p->x = end[0].s.x;
     p->y = end[0].s.y;
-    p->along_x = (int16_t)((dx * (1 << 15) / length * per_radius + (1 << 14)) >> 15);
-    p->along_y = (int16_t)((dy * (1 << 15) / length * per_radius + (1 << 14)) >> 15);
-    p->length = (int32_t)((int64_t)(length << down) * per_radius >> 8);
-    p->gain = (uint32_t)a * dot->light / (uint32_t)(length << down);
+    p->along_x = (int16_t)((dx * (1 << 15) / root * per_radius + (1 << 14)) >> 15);
+    p->along_y = (int16_t)((dy * (1 << 15) / root * per_radius + (1 << 14)) >> 15);
+    p->length = (int32_t)((int64_t)length * per_radius >> 8);
+    p->gain = (uint32_t)a * dot->light / (uint32_t)max_i32(length, 1);
+    if (p->length >= SMEAR_POINT_SHORT)
+        return true;
+    p->x += x >> 1;
+    p->y += y >> 1;
+    p->length = p->length * 9459 >> 15;         /* 1 / sqrt(12) */
+    p->gain = dot->light;
+    if (square == 0)
+        p->along_x = (int16_t)per_radius;
     return true;
 }
 
@@ -256,8 +255,9 @@ static bool place(smear_point *point, struct lens *l)
     const struct dot dot = dot_of(radius, (seen >> 1) * ((255u - point->fade) * 257u + (point->fade == 0)) >> 15);
     p->depth_shift = (int16_t)(l->depth_shift - (is_orthographic(p) ? 0 : shift));
     for (int e = 0; e < 2; e++) {
+        const int32_t nearer = scale_sat(point->size, clamp_i32(p->distance_scale - 17, -31, 31));
         if (is_orthographic(p))
-            end[e].h.distance = max_i32(end[e].h.distance - scale_sat(point->size, clamp_i32(p->distance_scale - 17, -31, 31)), near);
+            end[e].h.distance = max_i32(sub_wrap(end[e].h.distance, nearer), near);
         end[e].h.w = max_i32(end[e].h.w, 1);
         smear_project(&end[e].s, p, &end[e].h, &l->viewport);
     }
