@@ -443,7 +443,8 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
                                  * moves */
     uint8_t layer_count;
-    const smear_overlay *overlay;       /* text and sprites over the frame: smear_overlay.h. Null: none */
+    const smear_overlay *overlay;       /* text and sprites over the frame, points in the world:
+                                         * smear_overlay.h. Null: none */
 } smear_frame;
 
 /* ------------------------------------------------------------------ output */

@@ -83,7 +83,7 @@
 #ifndef SMEAR_WITH_WORKERS              /* desc.workers > 1 */
 #define SMEAR_WITH_WORKERS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_OVERLAY              /* smear_overlay.h: boxes, sprites, text */
+#ifndef SMEAR_WITH_OVERLAY              /* smear_overlay.h: boxes, sprites, text, points */
 #define SMEAR_WITH_OVERLAY SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_DEBUG                /* what smear_error_text says; desc.debug.inspect, which
