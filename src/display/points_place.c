@@ -271,7 +271,7 @@ void smear_points_place(const struct smear_rows *rows, const struct smear_shot *
                         const struct smear_instant *to)
 {
     const smear_points *points = rows->overlay->points;
-    struct lens lens = { .shot = shot, .at = { from, to } };
+    struct lens lens = { .at = { from, to }, .shot = shot };
     if (points->count == 0)
         return;
     make_lens(&lens, rows);
