@@ -381,6 +381,17 @@ typedef struct smear_light {
 /* What smear_frame.light is when it is null: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70, white. */
 #define SMEAR_LIGHT_DEFAULT { { 5898, 13107, 7864 }, { 19661, 19661, 19661 }, { 45875, 45875, 45875 } }
 
+/* Fog that grows evenly with the distance along the view. What lies beyond its far plane is all fog: it is cut off as by a
+ * camera's far plane, which costs nothing per pixel and saves triangles. The background is fog, too: frame.clear does not
+ * count. Colours are mixed in the frame's light space, each surface's before it is blended over others; layers with cameras
+ * of their own, a cockpit, have no fog. */
+typedef struct smear_fog {
+    uint32_t color;             /* 0xRRGGBB, sRGB-encoded */
+    int32_t near_plane;         /* Q16.16 world units from the eye, where it begins: 0 or more */
+    int32_t far_plane;          /* where all is fog: more than near_plane by at least a 256th of itself, and beyond the
+                                 * camera's near_plane */
+} smear_fog;
+
 /* When the shutter is open. */
 typedef struct smear_shutter {
     uint16_t degrees;           /* 1..3600 of the frame time; 0 means 180 */
@@ -437,6 +448,7 @@ typedef struct smear_frame {
                                  * same frame has the same picture; 0: no bound */
     uint32_t clear;             /* 0xRRGGBB, sRGB-encoded */
     const smear_light *light;   /* copied; null: SMEAR_LIGHT_DEFAULT */
+    const smear_fog *fog;       /* copied; null: none */
     smear_shutter shutter;
     smear_filter filter;
     smear_motion_scale scale;

@@ -59,14 +59,14 @@
 #ifndef SMEAR_WITH_DEFORM               /* draws whose positions differ from pose to pose */
 #define SMEAR_WITH_DEFORM SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_BILLBOARDS           /* draws that turn with the camera */
-#define SMEAR_WITH_BILLBOARDS SMEAR_WITH_ALL
-#endif
 #ifndef SMEAR_WITH_LINEAR               /* linear light, and its tables of 4.6 kB */
 #define SMEAR_WITH_LINEAR SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_ORTHOGRAPHIC         /* cameras without perspective */
-#define SMEAR_WITH_ORTHOGRAPHIC SMEAR_WITH_ALL
+#ifndef SMEAR_WITH_VIEWS                /* cameras without perspective, draws that turn with the camera */
+#define SMEAR_WITH_VIEWS SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_FOG                  /* frame.fog */
+#define SMEAR_WITH_FOG SMEAR_WITH_ALL
 #endif
 
 /* What a frame and a context may have. */

@@ -35,6 +35,7 @@
     X(FRAME_LIGHT_SPACE, "frame.light_space: unknown here") \
     X(FRAME_SAMPLES, "frame.samples: above 1024, or what the method takes") \
     X(FRAME_LIGHT, "frame.light: no direction") \
+    X(FRAME_FOG, "frame.fog: planes out of order or too near each other, or not compiled in") \
     X(FRAME_DEGREES, "frame.shutter.degrees: above 3600") \
     X(FRAME_EXPOSURE, "frame.shutter.exposure: unknown") \
     X(FRAME_MODE, "frame.shutter.mode: unknown here") \

@@ -2,8 +2,10 @@
 /* smear.c - the public functions: check, keep poses, call the frame. */
 #include "frame.h"
 
+#include "base/compiled.h"
 #include "layout.h"
 #include "probe.h"
+#include "raster/fog.h"
 #include "validate.h"
 
 /* ------------------------------------------------------------------ memory */
@@ -99,6 +101,8 @@ static int resolve(struct smear_context *c, smear_frame *f)
     if (result == SMEAR_OK)
         result = smear_resolve_frame(f, &c->desc);
     if (result == SMEAR_OK)
+        result = smear_check_fog(f);
+    if (result == SMEAR_OK)
         result = smear_check_layers(f);
     if (result == SMEAR_OK)
         result = smear_check_overlay(f->overlay, true);
@@ -114,8 +118,22 @@ static void keep_frame(struct smear_context *c, const smear_frame *f)
     c->frame.camera = c->frame.open = c->frame.close = NULL;
     c->frame.shutter.curve = NULL;
     c->frame.light = NULL;
+    c->frame.fog = NULL;
     c->frame.layer = NULL;
     c->rows.overlay = f->overlay;
+}
+
+/* Cuts at the fog's far plane, and clears to its colour. */
+static void keep_fog(struct smear_context *c, const smear_fog *fog)
+{
+    for (int i = 0; fog != NULL && i < 3; i++) {
+        smear_camera *camera = &c->shot.camera[i];
+        if (camera->far_plane == 0 || camera->far_plane > fog->far_plane)
+            camera->far_plane = fog->far_plane;
+    }
+    if (fog != NULL)
+        c->frame.clear = fog->color;
+    smear_fog_make(&c->rows.raster, fog, &c->shot.camera[0]);
 }
 
 int smear_begin(smear_context *c, const smear_frame *frame)
@@ -140,6 +158,8 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     c->has_kept_camera = true;
     smear_sun_make(&c->sun, f.light);
     keep_frame(c, &f);
+    if (SMEAR_FOG_MOST)
+        keep_fog(c, f.fog);
     c->history.frame++;
     c->draw_count = 0;
     c->state = STATE_BEGUN;

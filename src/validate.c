@@ -331,6 +331,17 @@ int smear_check_cameras(const smear_frame *f)
     return is_camera_or_null(f->close) ? SMEAR_OK : FAULT(FRAME_CLOSE);
 }
 
+/* A camera near the end of the fog would see nothing but fog. */
+int smear_check_fog(const smear_frame *f)
+{
+    const smear_fog *fog = f->fog;
+    if (fog == NULL)
+        return SMEAR_OK;
+    return SMEAR_FOG_MOST && fog->near_plane >= 0 && fog->far_plane > f->camera->near_plane
+                && fog->far_plane - fog->near_plane > fog->far_plane >> 8
+             ? SMEAR_OK : FAULT(FRAME_FOG);
+}
+
 static bool is_layer(const smear_layer *l)
 {
     return l->mask != 0 && (l->method == 0 || l->method == SMEAR_NONE || smear_method_has_layers(l->method))

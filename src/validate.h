@@ -12,6 +12,7 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d);
 
 /* Return SMEAR_OK or the number of what is wrong. */
 int smear_check_cameras(const smear_frame *f);
+int smear_check_fog(const smear_frame *f);
 int smear_check_layers(const smear_frame *f);
 
 /* `in_world`: there is a camera that sees points. */

@@ -107,6 +107,11 @@ void smear_damage_add(struct smear_damage *d, const smear_draw *draw)
 
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh)
 {
+    if (SMEAR_WITH_FOG && frame_has_fog(&rows->raster)) {
+        const struct smear_fog_levels *fog = frame_fog(&rows->raster);
+        const int32_t word[] = { (int32_t)fog->scale, fog->shift, fog->base };
+        mix(d->next, word, 3);
+    }
     d->is_same = d->is_whole && !refresh && d->next[0] == d->scene[0] && d->next[1] == d->scene[1];
     d->is_whole = false;
     d->scene[0] = d->next[0];

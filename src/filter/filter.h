@@ -32,7 +32,7 @@ struct smear_row_table {
 /* Returns the depth units from the eye to the far plane of an orthographic view, 0 for others. */
 static inline uint32_t blur_far_units(const struct smear_blur_settings *settings)
 {
-    if (!SMEAR_WITH_ORTHOGRAPHIC || !settings->orthographic)
+    if (!SMEAR_WITH_VIEWS || !settings->orthographic)
         return 0;
     return (uint32_t)((uint64_t)settings->far_over_range * SMEAR_DEPTH_NEAR >> 16);
 }

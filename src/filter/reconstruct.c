@@ -173,7 +173,7 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
     struct own_depth *d = &g->depth;
     uint32_t step = 1;
     if (d->units != 0)
-        step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic ? part_of(g->far_units - d->units, share_20)
+        step = max_u32(SMEAR_WITH_VIEWS && g->orthographic ? part_of(g->far_units - d->units, share_20)
                                        : part_of(d->units, share_19), 1);
     d->front = d->units + step;
     d->front_scale = inverse_q30(step);
@@ -183,7 +183,7 @@ static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
 static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
 {
     struct own_depth *d = &g->depth;
-    uint32_t step = max_u32(SMEAR_WITH_ORTHOGRAPHIC && g->orthographic
+    uint32_t step = max_u32(SMEAR_WITH_VIEWS && g->orthographic
                                 ? part_of(g->far_units - d->units, share_19)
                                 : part_of(d->units, share_20),
                             1);

@@ -78,7 +78,7 @@ struct smear_segment {
 /* These are false at compile time where the methods and surfaces that need them were left out. */
 static inline bool segment_flat_depth(const struct smear_segment *s)
 {
-    return SMEAR_WITH_ORTHOGRAPHIC && s->flat_depth;
+    return SMEAR_WITH_VIEWS && s->flat_depth;
 }
 
 static inline bool segment_textured(const struct smear_segment *s)

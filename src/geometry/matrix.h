@@ -30,7 +30,7 @@ struct smear_projection {
 
 static inline bool is_orthographic(const struct smear_projection *p)
 {
-    return SMEAR_WITH_ORTHOGRAPHIC && p->orthographic;
+    return SMEAR_WITH_VIEWS && p->orthographic;
 }
 
 /* A draw's transform and its mesh's scale, seen from a camera: mantissas with one exponent. */

@@ -194,7 +194,7 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
     }
     if (SMEAR_BLURS)
         object_poses(p, shot, d);
-    if (SMEAR_WITH_BILLBOARDS && d->billboard != SMEAR_BILLBOARD_NONE)
+    if (SMEAR_WITH_VIEWS && d->billboard != SMEAR_BILLBOARD_NONE)
         turn_billboard(p, d->billboard == SMEAR_BILLBOARD_UPRIGHT);
 }
 

@@ -18,7 +18,7 @@ struct smear_draw_poses {
     bool projected[3];              /* `projection` holds */
     struct smear_projection projection[3];
     /* poses that are not the application's */
-    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_BILLBOARDS ? 3 : 1];
+    smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_VIEWS ? 3 : 1];
 };
 
 /* Finds the poses of a draw, whose `now` is given and whose `open`, if it is not null, is its earlier pose. `camera`: three

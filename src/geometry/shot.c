@@ -121,7 +121,7 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
 
 bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b)
 {
-    return !SMEAR_WITH_ORTHOGRAPHIC || (a->half_height > 0) == (b->half_height > 0);
+    return !SMEAR_WITH_VIEWS || (a->half_height > 0) == (b->half_height > 0);
 }
 
 /* Between a perspective and an orthographic view there is no path, as after a cut. */

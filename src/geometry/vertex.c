@@ -28,7 +28,8 @@ static int sides_beside(const struct smear_placement *p, const smear_mesh *m, co
         const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
         struct smear_homogeneous h;
         smear_transform_vertex(&h, &p->now, corner);
-        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.near_distance ? OUT_NEAR : 0);
+        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.near_distance ? OUT_NEAR : 0)
+               | (h.distance > p->now.far_distance ? OUT_FAR : 0);
     }
     return sides;
 }
@@ -38,7 +39,7 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
     const int16_t *b = d->mesh->bounds;
     if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0)
         return false;
-    int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT & ~OUT_FAR);
+    int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT);
     for (int i = 0; SMEAR_WITH_SUBFRAMES && d->path && i < 2; i++)
         sides = sides_beside(&d->key[i], d->mesh, viewport, sides);
     return sides != 0;

@@ -309,7 +309,7 @@ void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *row
     f->kind = frame->filter.kind;
     f->blur = (struct smear_blur_settings){
         .linear = frame_is_linear(&rows->raster),
-        .orthographic = SMEAR_WITH_ORTHOGRAPHIC && camera->half_height > 0,
+        .orthographic = SMEAR_WITH_VIEWS && camera->half_height > 0,
         .samples = frame->samples, .dense = frame->method == SMEAR_HALF,
         .flags = frame->filter.flags, .weights = frame->filter.weights
     };

@@ -105,7 +105,7 @@ static int32_t farther(const struct gathering *g, const struct sample *a, const 
     uint32_t difference = b->units - a->units, nearer = a->units;
     if (a->units >= b->units)
         return 0;
-    if (SMEAR_WITH_ORTHOGRAPHIC && g->settings->orthographic)
+    if (SMEAR_WITH_VIEWS && g->settings->orthographic)
         nearer = g->far_units - b->units;
     /* Perspective: 1/ua - 1/ub over 1/ub is (ub - ua) / ua. */
     if (nearer == 0 || difference >= nearer)

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* color_rows.c - colours between vertices: interpolated, opaque, without a texture. The same pixels as those of
  * span.c, whose blocks begin and end here, too; where two meet, colours are found once. */
+#include "raster/fog.h"
 #include "raster/texture_rows.h"
 
+#include "kernels/flat_run.h"
 #include "kernels/hidden_run.h"
 #include "raster/texcoord.h"
 
-#if SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD
+#if SMEAR_SPAN_ROWS && (SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG)
 
 /* Red, green and blue, q16 (codes, or linear light >> 8), and their steps. */
 struct shade {
@@ -66,12 +68,28 @@ static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint
         shade_run(pixels, depth, n, z, dz, k, false, true);
 }
 
+/* n pixels from index `at` on, of one colour: rows of level ground in fog are. */
+static void draw_flat(const struct setup *s, uint32_t z, uint32_t dz, int32_t at, int32_t n, const struct shade *k)
+{
+    const struct smear_raster_target *t = s->target;
+    const bool narrow = target_is_direct(t);
+    const uint32_t color = shade_pixel(k->c[0], k->c[1], k->c[2], frame_is_linear(s->frame), narrow);
+    if (narrow)
+        flat_run(t->direct + at, t->depth + at, n, z, dz, color, true);
+    else
+        flat_run(t->color + at, t->depth + at, n, z, dz, color, false);
+}
+
 /* Pixels [a, b) of a row whose column 0 is at index `at`. */
 static void draw(const struct setup *s, const struct row_run *p, int32_t at, int32_t a, int32_t b,
                  const struct shade *k)
 {
     const struct smear_raster_target *t = s->target;
     const uint32_t z = p->z + p->dz * (uint32_t)a;
+    if (SMEAR_WITH_FOG && (k->d[0] | k->d[1] | k->d[2]) == 0) {
+        draw_flat(s, z, p->dz, at + a, b - a, k);
+        return;
+    }
     if (!target_is_direct(t) && !frame_is_linear(s->frame))
         shade_codes(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k);
     else
@@ -79,9 +97,13 @@ static void draw(const struct setup *s, const struct row_run *p, int32_t at, int
                     b - a, z, p->dz, k);
 }
 
-/* Colours whose planes are value / w, at pixel (x, y). */
+/* Colours in fog, or those whose planes are value / w, at pixel (x, y). */
 static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t y)
 {
+    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
+        smear_fog_channels(out, s, x, y);
+        return;
+    }
     const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
     const int zeros = count_leading_zeros(q);
     const int32_t recip = (int32_t)recip_norm(q << zeros);
@@ -97,18 +119,19 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
     int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3];
     colors_at(from, s, x, y);
     for (;;) {
-        const int32_t n = min_i32(s->color_block, last - x), end = x + n + (x + n == last);
+        const int32_t n = block_next(s->color_block, last - x), end = x + n + (x + n == last);
         const int32_t a = max_i32(x, p->a);
         struct shade k;
         if (n > 0)
             colors_at(to, s, x + n, y);
         for (int i = 0; i < 3; i++) {
-            const int32_t step = n > 0 ? part_of(to[i] - from[i], n) : 0;
+            const int32_t step = n > 0 ? part_by(to[i] - from[i], inverse_of(n)) : 0;
             k.c[i] = (uint32_t)(from[i] + step * (a - x));
             k.d[i] = (uint32_t)step;
             from[i] = to[i];
         }
-        draw(s, p, at, a, min_i32(end, p->b), &k);
+        if (end > a)            /* what is left of a long block is in parts */
+            draw(s, p, at, a, min_i32(end, p->b), &k);
         if (end >= p->b)
             return;
         x += n;
@@ -122,7 +145,7 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
     p->a += hidden_run(s->target->depth + (at + p->a), p->b - p->a, p->z + p->dz * (uint32_t)p->a, p->dz);
     if (p->a == p->b)
         return;
-    if (s->perspective_color) {
+    if (s->perspective_color || fog_of(s) != FOG_NONE) {
         draw_blocks(s, p, at, y, side->left, side->right);
         return;
     }

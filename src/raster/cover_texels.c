@@ -8,6 +8,7 @@
  * a code at most, a quarter of its range times c. */
 #include "raster/cover_texels.h"
 
+#include "raster/fog.h"
 #include "raster/span.h"
 
 /* The changes from v[0] to v[1] and to v[2]. */
@@ -214,7 +215,10 @@ SMEAR_INLINE void put_texel(const struct setup *s, const struct few_texels *k, i
             if (alpha < s->draw->cutoff)
                 return;
         }
-        target_put(t, at, k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame)));
+        uint32_t pixel = k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame));
+        if (SMEAR_WITH_FOG && fog_of(s) == FOG_EVEN)
+            pixel = fog_pixel(s->frame, pixel, fog_even_part(s));
+        target_put(t, at, pixel);
     }
     t->depth[at] = (uint16_t)code;
     if (setup_writes_velocity(s))
@@ -259,7 +263,7 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
 {
     const struct smear_sampler *m = &s->draw->sampler;
     struct few_texels k;
-    if (!load_coordinates(&k, s))
+    if (fog_of(s) == FOG_VARIES || !load_coordinates(&k, s))
         return false;
     k.kind = LIGHT_NONE;
     if (s->segment->shade != SHADE_NONE && !load_light(&k, s))
@@ -269,7 +273,7 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
         k.from_v = -1;
 #if FEW_COPIES
     const bool narrow = target_is_direct(s->target);
-    if (turns && k.kind == LIGHT_NONE && draw_is_opaque(s->draw)
+    if (turns && k.kind == LIGHT_NONE && draw_is_opaque(s->draw) && fog_of(s) == FOG_NONE
         && m->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (narrow)
             draw_few(s, &k, area, box, FEW_NARROW);

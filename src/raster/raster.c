@@ -4,6 +4,7 @@
 #include "raster/raster.h"
 
 #include "raster/cover_texels.h"
+#include "raster/fog.h"
 #include "raster/span.h"
 
 /* ------------------------------------------------------------------ a triangle */
@@ -128,6 +129,8 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         for (int i = 0; i < 3; i++)
             s->v[i] = v[i];
         s->bounds = bounds;
+        if (SMEAR_WITH_FOG && frame_has_fog(frame))
+            smear_fog_triangle(s);
     }
     /* The planes start with the background's velocity: static triangles write theirs only over others, after the first
      * one that moves. */
@@ -152,6 +155,15 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     smear_cover(s, &box, small);
 }
 
+/* The colour of a point, in fog where there is some. */
+static inline uint32_t point_color(const struct smear_raster_frame *frame, const struct smear_triangle *t)
+{
+    if (!SMEAR_WITH_FOG || !frame_has_fog(frame))
+        return t->color;
+    const int32_t units = (int32_t)(smear_depth_units(t->vertex[POINT_DEPTH]) << 11);
+    return fog_pixel(frame, t->color, fog_part_256(smear_fog_part(frame_fog(frame), units)));
+}
+
 /* A finished pixel. */
 static inline void draw_point(const struct smear_raster_frame *frame,
                               const struct smear_raster_target *target, const struct smear_triangle *t,
@@ -167,7 +179,7 @@ static inline void draw_point(const struct smear_raster_frame *frame,
     if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
     target->depth[at] = t->vertex[POINT_DEPTH];
-    target_put(target, at, t->color);
+    target_put(target, at, point_color(frame, t));
     if (moved && target_has_velocity(target))
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }

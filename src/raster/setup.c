@@ -6,6 +6,8 @@
  * how long blocks are, is decided here, by bounds of their errors. */
 #include "raster/setup.h"
 
+#include "raster/fog.h"
+
 /* ------------------------------------------------------------------ gradients */
 
 /* Products of 64 bits: where the core has none, from two of 32. */
@@ -465,7 +467,7 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
             setup_divided(s, &k);
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
-    if (segment_gouraud(s->segment))
+    if (setup_is_shaded(s))
         t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
 }
 
@@ -476,6 +478,8 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
+    if (fog_of(s) == FOG_VARIES)
+        return false;
     if (!ALWAYS_FLAT && (segment_textured(s->segment) || !draw_is_opaque(s->draw)))
         return false;
     if (!segment_gouraud(s->segment))
@@ -489,6 +493,8 @@ static bool is_flat(struct setup *s)
         code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
+    if (SMEAR_WITH_FOG && fog_of(s) == FOG_EVEN)
+        s->color = fog_pixel(s->frame, s->color, fog_even_part(s));
     return true;
 }
 
@@ -500,6 +506,8 @@ void smear_setup(struct setup *s, uint64_t area)
     s->has_velocity = false;
     if (!ALWAYS_FLAT && !s->flat)
         setup_color(s);
+    if (SMEAR_WITH_FOG && fog_of(s) == FOG_VARIES)
+        smear_fog_blocks(s);
     if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
         setup_texture(s);
 }

@@ -9,6 +9,7 @@
 #include "raster/target.h"
 
 #include "base/fixmath.h"
+#include "base/tables.h"
 
 struct plane {
     int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
@@ -33,7 +34,7 @@ enum depth_slope {
 };
 
 /* Nothing but opaque triangles of one colour was compiled in. */
-#define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA)
+#define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA && !SMEAR_WITH_FOG)
 
 #define SLOPE_BREAK (32768 << 11)       /* q11 units */
 
@@ -67,6 +68,13 @@ struct texture_setup {
 /* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
 enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
+/* What is still to be done about a triangle's fog. */
+enum setup_fog {
+    FOG_NONE,
+    FOG_EVEN,               /* one part of it throughout */
+    FOG_VARIES
+};
+
 struct setup {
     const struct smear_raster_frame *frame;
     const struct smear_raster_target *target;
@@ -94,6 +102,8 @@ struct setup {
     bool flat;                      /* one colour, opaque: `color` */
     bool velocity_affine;
     bool clamp_velocity;
+    uint8_t fog;                    /* setup_fog */
+    uint8_t fog_part;               /* FOG_EVEN: fog_even_part */
 
     /* What few triangles have comes last: setups that are kept from row to row are cut where a frame needs no more
      * (setup_bytes). */
@@ -134,6 +144,23 @@ static inline int32_t channel_value(const struct setup *s, int vertex, int c)
     uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
     int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
     return frame_is_linear(s->frame) && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+}
+
+/* A code as channel_value has it. */
+static inline int32_t channel_of_code(uint32_t code, bool linear)
+{
+    return linear ? clamp_i32((int32_t)smear_srgb_decode[code] << 8, 0x400, 0xffe000) : (int32_t)(code << 16) + 0x8000;
+}
+
+static inline enum setup_fog fog_of(const struct setup *s)
+{
+    return SMEAR_WITH_FOG && frame_has_fog(s->frame) ? (enum setup_fog)s->fog : FOG_NONE;
+}
+
+/* Whether colours without a texture change from pixel to pixel: those of vertices, or fog. */
+static inline bool setup_is_shaded(const struct setup *s)
+{
+    return segment_gouraud(s->segment) || fog_of(s) != FOG_NONE;
 }
 
 static inline int32_t setup_mesh_u(const struct setup *s, int i)

@@ -2,6 +2,7 @@
 /* span.c - inner loops of the raster: flat, and everything else in blocks. */
 #include "raster/span.h"
 
+#include "raster/fog.h"
 #include "raster/texcoord.h"
 #include "base/pixel.h"
 #include "kernels/flat_run.h"
@@ -85,6 +86,26 @@ struct block {
     int32_t start, end, x;
 };
 
+/* Whether fog goes into channels; else into pixels. */
+static inline bool has_channels_in_fog(const struct setup *s)
+{
+    return fog_of(s) != FOG_NONE && !segment_textured(s->segment) && draw_is_opaque(s->draw);
+}
+
+/* The same, in fog: red, green and blue are exact at the block's ends. */
+static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
+                                           uint32_t d[4])
+{
+    int32_t a[3], b[3];
+    smear_fog_channels(a, s, k->start, p->y);
+    smear_fog_channels(b, s, k->end, p->y);
+    for (int i = 0; i < 3; i++) {
+        const int32_t step = k->end > k->start ? part_by(b[i] - a[i], inverse_of(k->end - k->start)) : 0;
+        c[i] = (uint32_t)(a[i] + step * (k->x - k->start));
+        d[i] = (uint32_t)step;
+    }
+}
+
 /* Channels r g b a (q16) at pixel x of a block, and their steps. Opaque draws have alpha one. */
 static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
                         uint32_t d[4])
@@ -98,6 +119,10 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
             c[i] = (uint32_t)s->channel[i].at;
             d[i] = 0;
         }
+        return;
+    }
+    if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
+        channels_in_fog(s, p, k, c, d);
         return;
     }
     if (!s->perspective_color) {
@@ -237,7 +262,7 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
 /* Blocks without a texture. */
 static int32_t untextured_next(struct walk *w)
 {
-    int32_t n = min_i32(w->block, w->last - w->x);
+    int32_t n = block_next(w->block, w->last - w->x);
     w->start = w->x;
     w->x += n;
     return n + (w->x == w->last);
@@ -275,12 +300,14 @@ void smear_span_general(const struct setup *s, const struct span *p)
             smear_sample(block, &s->draw->sampler, &w.run, k.x - k.start, n);
             if (s->segment->shade != SHADE_NONE)
                 modulate(block, s, p, &k, n);
-        } else if (segment_gouraud(s->segment)) {
+        } else if (segment_gouraud(s->segment) || has_channels_in_fog(s)) {
             shade_untextured(block, s, p, &k, n);
         } else {
             for (int32_t i = 0; i < n; i++)
                 block[i] = s->color;
         }
+        if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE && !has_channels_in_fog(s))
+            smear_fog_pixels(block, s, k.x, n, k.start, k.end, p->y);
         write_block(block, color, depth, z, p->dz, n, s, p->mask, k.x - p->a);
         k.x += n;
         color = pixel_after(color, n, target_is_direct(s->target));

@@ -112,6 +112,16 @@ struct smear_raster_draw {          /* one per draw, indexed by smear_segment.dr
     bool fixed;                     /* still to the eye even where the camera moves: its velocity is zero */
 };
 
+/* The part of fog, q16: scale / units 2^shift - base, or with flat depth base - scale units 2^shift. See fog.c. */
+struct smear_fog_levels {
+    bool on, flat_depth;
+    int8_t shift;
+    uint32_t color;                 /* 0x00RRGGBB */
+    uint32_t scale;
+    int32_t base;
+    int32_t near_units;             /* q11: from here on to the eye there is none */
+};
+
 struct smear_raster_frame {
     const struct smear_bins *bins;
     const struct smear_raster_draw *draw;
@@ -121,7 +131,26 @@ struct smear_raster_frame {
     int32_t inspect_scale;          /* q16: the same to a whole frame */
     bool velocity_from_depth;       /* what has no motion of its own moves as its depth tells */
     int32_t reach_q3;               /* longest stored velocity, 1/8 px */
+#if SMEAR_WITH_FOG
+    struct smear_fog_levels fog;
+#endif
 };
+
+#if SMEAR_WITH_FOG
+static inline const struct smear_fog_levels *frame_fog(const struct smear_raster_frame *f) { return &f->fog; }
+static inline bool frame_has_fog(const struct smear_raster_frame *f) { return f->fog.on; }
+#else
+static inline const struct smear_fog_levels *frame_fog(const struct smear_raster_frame *f)
+{
+    (void)f;
+    return NULL;
+}
+static inline bool frame_has_fog(const struct smear_raster_frame *f)
+{
+    (void)f;
+    return false;
+}
+#endif
 
 /* Its velocity is told by the frame's depth and cameras, or known to be zero (smear_frame.camera_step). */
 static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f)

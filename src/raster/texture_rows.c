@@ -535,8 +535,8 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const struct smear_sampler *t = &s->draw->sampler;
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
     if (s->segment->uv == 0)
-        return draw_is_opaque(s->draw) && !s->flat && segment_gouraud(s->segment) ? smear_rows_shade : NULL;
-    if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
+        return draw_is_opaque(s->draw) && !s->flat && setup_is_shaded(s) ? smear_rows_shade : NULL;
+    if (fog_of(s) != FOG_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
         || t->log2_height == 0)
         return NULL;
     if (s->segment->shade != SHADE_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {

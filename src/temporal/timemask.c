@@ -283,7 +283,7 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         k->slope = timemask_slope_of(k->kept);
         k->size = abs_i32(k->slope);
     }
-    if (s.gouraud || s.sampler != NULL)
+    if (s.gouraud || s.sampler != NULL || s.in_fog)
         j->fragments += paint(j, &c, &p, false, true);
     else if ((s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0)
         j->fragments += paint(j, &c, &p, true, true);

@@ -3,6 +3,7 @@
 #include "temporal/timemask_shade.h"
 
 #include "base/pixel.h"
+#include "raster/fog.h"
 
 enum {
     MOST_SLOPE = 1 << 20,
@@ -323,6 +324,25 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
     }
 }
 
+/* Finds out whether there is fog between the depths of the poses; one colour, and so much of it, become another one. */
+static bool is_in_fog(struct timemask_shade *s, const struct timemask_pose *const pose[3], bool has_one_color)
+{
+    const struct smear_fog_levels *fog = frame_fog(s->frame);
+    int32_t low = INT32_MAX, high = 0;
+    for (int k = 0; k < 3; k++) {
+        low = min_i32(low, least_of(pose[k]->depth));
+        high = max_i32(high, most_of(pose[k]->depth));
+    }
+    if (low >= fog->near_units)
+        return false;
+    const int32_t part = smear_fog_between(fog, low, high, has_one_color ? smear_fog_contrast(s->frame, s->color) : 255u);
+    if (part >= 0 && has_one_color) {
+        s->color = fog_pixel(s->frame, s->color, (uint32_t)part);
+        return false;
+    }
+    return part != 0;
+}
+
 void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_frame *frame,
                           const struct smear_segment *segment, uint32_t color, bool is_flat,
                           const int32_t *const record[3], const struct timemask_pose *const pose[3],
@@ -338,6 +358,7 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
     s->sampler = segment_textured(segment) ? &frame->draw[segment->draw].sampler : NULL;
     s->gouraud = segment_gouraud(segment) && !is_flat;
     const bool has_one_color = !s->gouraud && s->sampler == NULL;
+    s->in_fog = SMEAR_WITH_FOG && frame_has_fog(frame) && is_in_fog(s, pose, has_one_color);
     shade_depth(s, &course, pose, cover, has_one_color);
     if (has_one_color)
         return;
@@ -451,9 +472,12 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
-uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run)
+/* Without fog. */
+static uint32_t color_of(const struct timemask_shade *s, int32_t y, uint32_t run)
 {
     int32_t x = timemask_run_x(run), light[3];
+    if (!s->gouraud && s->sampler == NULL)
+        return s->color;
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
         if (!SMEAR_WITH_TEXTURE || s->sampler == NULL)
@@ -468,4 +492,14 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
         return texture_mean(s, x, y, run, NULL);
     }
     return texture_mean(s, x, y, run, light);
+}
+
+uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run)
+{
+    const uint32_t color = color_of(s, y, run);
+    if (!SMEAR_WITH_FOG || !s->in_fog)
+        return color;
+    const int32_t units = value_at(&s->depth, timemask_run_x(run), y, timemask_middle(s, run));
+    const int32_t part = smear_fog_part(frame_fog(s->frame), clamp_i32(units, s->depth_low, s->depth_high) << 7);
+    return fog_pixel(s->frame, color, fog_part_256(part));
 }

@@ -25,6 +25,7 @@ struct timemask_shade {
     const struct smear_segment *segment;
     const struct smear_sampler *sampler;    /* null: no texture */
     bool gouraud;
+    bool in_fog;                            /* more or less of it from pixel to pixel */
     bool over_w;                            /* channels, u and v are values over w, q is 1/w */
     int8_t turns_shift;                     /* u and v are turns in 2^(32 - shift); texels: 0 */
     uint32_t color;                         /* 0xRRGGBB, without texture and

@@ -51,14 +51,14 @@ static bool is_refused(const struct tape *tape)
             return true;
         if (method != SMEAR_NONE && !f->frame->shutter.poses && f->frame->shutter.path != SMEAR_PATH_LINE && !SMEAR_WITH_CURVES)
             return true;
-        if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_ORTHOGRAPHIC)
+        if ((f->frame->camera->half_height != 0 && !SMEAR_WITH_VIEWS)
             || ((f->frame->scale.rotation | f->frame->scale.translation | f->frame->scale.object) != 0 && !SMEAR_WITH_SCALES)
             || ((f->frame->shutter.mode != SMEAR_SHUTTER_NATIVE || f->frame->shutter.us != 0) && !SMEAR_WITH_SCALES))
             return true;
         for (int k = 0; k < f->draw_count; k++) {
             const smear_draw *draw = &f->draw[k];
             const smear_material *m = draw->material;
-            if (draw->billboard != 0 && !SMEAR_WITH_BILLBOARDS)
+            if (draw->billboard != 0 && !SMEAR_WITH_VIEWS)
                 return true;
             if (((draw->mesh->normal != NULL || draw->mesh->color != NULL) && !SMEAR_WITH_GOURAUD)
                 || ((draw->open_position != NULL || draw->close_position != NULL) && !SMEAR_WITH_DEFORM))

@@ -54,6 +54,8 @@ static const char *const render_help[] = {
     "  --filter nearest|bilinear\n"
     "                        texels [nearest]\n"
     "  --clear RRGGBB        background [000000]\n"
+    "  --fog RRGGBB,NEAR,FAR fog between two distances from the camera, in units of the scene; the\n"
+    "                        background has its colour, and nothing is drawn beyond it [none]\n"
     "\n",
     "Blur\n"
     "  --shutter DEG|SECONDS 360 is the whole frame time; rounded to whole degrees, up to 3600;\n"

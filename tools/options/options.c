@@ -304,6 +304,23 @@ static const char *read_clear(void *to, const char *value)
     return o->has_clear ? NULL : "needs RRGGBB, six hexadecimal digits";
 }
 
+static const char *read_fog(void *to, const char *value)
+{
+    struct present_fog *fog = &((struct render_options *)to)->fog;
+    double part[3];
+    char number[128] = "0,", color[7] = "";
+    if (strlen(value) > 7 && strlen(value) < sizeof number && value[6] == ',') {
+        memcpy(color, value, 6);
+        snprintf(number + 2, sizeof number - 2, "%s", value + 7);
+    }
+    if (!read_color(color, &fog->color) || !read_vector(number, part))
+        return "needs RRGGBB,NEAR,FAR: six hexadecimal digits and two distances";
+    fog->begin = part[1];
+    fog->end = part[2];
+    return fog->begin >= 0.0 && fog->end * (255.0 / 256.0) > fog->begin
+             ? NULL : "needs 0 <= NEAR < FAR, a 256th of FAR apart";
+}
+
 /* In the order of smear_format. */
 static const char *const format_names[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
                                             "l8", "l4", "l1", "l1pages", NULL };
@@ -419,6 +436,7 @@ static const struct option table[] = {
     { "--light", true, read_light },
     { "--filter", true, read_filter },
     { "--clear", true, read_clear },
+    { "--fog", true, read_fog },
     { "--format", true, read_format },
     { "--dither", true, read_dither },
     { "--arena", true, read_arena },

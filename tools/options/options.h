@@ -5,6 +5,7 @@
 
 #include "tools/options/sink.h"
 #include "tools/options/source.h"
+#include "tools/scenes/present.h"
 
 #include <smear.h>
 #include <stdbool.h>
@@ -45,6 +46,7 @@ struct render_options {
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light_space light;
     unsigned clear;
+    struct present_fog fog;
 
     double orbit;               /* turns of the camera about what it sees, over all frames; 0: none */
     int reach_px, tile;         /* 0: not given */

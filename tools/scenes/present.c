@@ -279,6 +279,22 @@ static bool choose_world(struct presenter *p, bool keep, const struct reach *rea
     return true;
 }
 
+/* Brings fog to the library's units. */
+static bool fill_fog(struct presented *out, const struct present_fog *fog, struct failure *f)
+{
+    const double begin = fog->begin * out->world_scale + out->camera_back;
+    const double end = fog->end * out->world_scale + out->camera_back;
+    if (end > WORLD_LIMIT)
+        return fail(f, "fog that ends %g away is too far for fixed point; here it may be %g", fog->end,
+                    (WORLD_LIMIT - out->camera_back) / out->world_scale);
+    if (end <= out->near_plane)
+        return fail(f, "fog that ends %g away ends before the camera's near plane, %g", fog->end,
+                    (out->near_plane - out->camera_back) / out->world_scale);
+    out->fog = (smear_fog){ .color = fog->color, .near_plane = fixed(begin, 16), .far_plane = fixed(end, 16) };
+    out->frame.fog = &out->fog;
+    return true;
+}
+
 static void fill_camera(smear_camera *out, const struct scene_camera *camera,
                         const double reference[3], const struct presented *world)
 {
@@ -670,7 +686,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
         reference = p->kept_reference;
     }
     reach_all(p, blurred, reference, &reach);
-    if (!choose_world(p, o->keep_ids, &reach, f))
+    if (!choose_world(p, o->keep_ids, &reach, f) || (o->fog.end != 0.0 && !fill_fog(out, &o->fog, f)))
         return false;
 
     for (int i = 0; i < POSES; i++)

@@ -35,6 +35,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* In scene units along the view. */
+struct present_fog {
+    unsigned color;                 /* 0xRRGGBB */
+    double begin, end;              /* end 0: no fog */
+};
+
 struct present_options {
     double fps;                     /* > 0: the other pose is 1 / fps earlier */
     double shutter_degrees;         /* rounded to whole degrees; below half a degree: SMEAR_NONE */
@@ -51,6 +57,7 @@ struct present_options {
     int samples;                    /* 0: the library's default */
     smear_light_space light;
     uint32_t clear;                 /* 0xRRGGBB */
+    struct present_fog fog;
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
@@ -75,7 +82,8 @@ struct present_options {
 
 /* A frame as the library sees it. Belongs to the presenter; valid until its next frame. */
 struct presented {
-    smear_frame frame;              /* its cameras are those below */
+    smear_frame frame;              /* its cameras and its fog are those below */
+    smear_fog fog;
     smear_camera camera[3];         /* now, open, close */
     int draw_count;
     const smear_draw *draw;
