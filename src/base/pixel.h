@@ -44,15 +44,21 @@ static inline uint32_t srgb_encode_searched(uint32_t light)
     return code + (light == 527u || light == 1116u) - (light == 2146u);
 }
 
-/* Mixes src into dst, a of 256 parts: 0 keeps dst exactly, 256 gives src exactly. */
-static inline uint32_t pixel_mix(uint32_t dst, uint32_t src, uint32_t a, bool linear)
+/* Mixes src into dst by a of 256 parts, as codes: two channels per word; a lane is at most 0xff80 before the shift. */
+static inline uint32_t pixel_mix(uint32_t dst, uint32_t src, uint32_t a)
 {
     const uint32_t b = 256u - a;
-    if (!linear) {      /* two channels per word; a lane is at most 0xff80 before the shift */
-        uint32_t rb = ((src & 0xff00ffu) * a + (dst & 0xff00ffu) * b + 0x800080u) >> 8 & 0xff00ffu;
-        uint32_t g = (pixel_green(src) * a + pixel_green(dst) * b + 0x80u) >> 8;
-        return rb | g << 8;
-    }
+    const uint32_t rb = ((src & 0xff00ffu) * a + (dst & 0xff00ffu) * b + 0x800080u) >> 8 & 0xff00ffu;
+    const uint32_t g = (pixel_green(src) * a + pixel_green(dst) * b + 0x80u) >> 8;
+    return rb | g << 8;
+}
+
+/* Blends src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
+static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
+{
+    uint32_t a = alpha + (alpha >> 7), b = 256u - a;
+    if (!linear)
+        return pixel_mix(dst, src, a);
     if (a == 256u)
         return src & 0xffffffu;
     if (a == 0)
@@ -64,12 +70,6 @@ static inline uint32_t pixel_mix(uint32_t dst, uint32_t src, uint32_t a, bool li
                                     + smear_srgb_decode[dst >> shift & 255u] * b) >> 12];
     }
     return pixel_make(0, out[0], out[1], out[2]);
-}
-
-/* Blends src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
-static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
-{
-    return pixel_mix(dst, src, alpha + (alpha >> 7), linear);
 }
 
 /* Returns the nearest levels of 5, 6 and 5 bits, red on top: (249 c + 1014) >> 11 and (253 c + 505) >> 10, both exact

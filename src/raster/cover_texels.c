@@ -216,7 +216,7 @@ SMEAR_INLINE void put_texel(const struct setup *s, const struct few_texels *k, i
                 return;
         }
         uint32_t pixel = k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame));
-        if (SMEAR_WITH_FOG && fog_of(s) == FOG_EVEN)
+        if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN)
             pixel = fog_pixel(s->frame, pixel, fog_even_part(s));
         target_put(t, at, pixel);
     }

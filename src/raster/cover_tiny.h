@@ -47,13 +47,13 @@ static inline void channels_start(struct tiny_channels *c, const struct setup *s
         c->value[i] = value;
         c->to1[i] = (int32_t)((uint32_t)s->v[1][at] >> shift & 0xffffu) - value;
         c->to2[i] = (int32_t)((uint32_t)s->v[2][at] >> shift & 0xffffu) - value;
-        if (SMEAR_WITH_FOG && fog_of(s) == FOG_EVEN) {
-            const int32_t part = (int32_t)fog_even_part(s);
+        if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN) {
+            const int32_t part = fog_even_part(s) >> 1;
             const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
             const int32_t there = frame_is_linear(s->frame) ? smear_srgb_decode[code] : (int32_t)(code << 8);
-            c->value[i] += (there - value) * part >> 8;
-            c->to1[i] -= c->to1[i] * part >> 8;
-            c->to2[i] -= c->to2[i] * part >> 8;
+            c->value[i] += (there - value) * part >> 15;
+            c->to1[i] -= c->to1[i] * part >> 15;
+            c->to2[i] -= c->to2[i] * part >> 15;
         }
     }
 }

@@ -75,52 +75,63 @@ int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units)
 
 /* ------------------------------------------------------------------ a triangle */
 
-uint32_t smear_fog_contrast(const struct smear_raster_frame *frame, uint32_t color)
+/* The largest difference of a channel. */
+static uint32_t contrast(uint32_t a, uint32_t b)
 {
-    const uint32_t fog = frame_fog(frame)->color;
     uint32_t most = 0;
     for (int shift = 0; shift < 24; shift += 8)
-        most = max_u32(most, (uint32_t)abs_i32((int32_t)(color >> shift & 255u) - (int32_t)(fog >> shift & 255u)));
+        most = max_u32(most, (uint32_t)abs_i32((int32_t)(a >> shift & 255u) - (int32_t)(b >> shift & 255u)));
     return most;
 }
 
-/* What fog adds from the nearest to the farthest vertex by which a triangle with one part of it is off, half of it each:
- * codes, q16. */
-enum { FOG_STEP = 4 << 16 };
-
-int32_t smear_fog_between(const struct smear_fog_levels *fog, int32_t low, int32_t high, uint32_t contrast)
+/* By how many codes a channel of the colour, or of black or white where that is null, changes between two parts of fog. */
+static uint32_t codes_between(const struct smear_raster_frame *frame, const uint32_t *color, int32_t part, int32_t other)
 {
+    if (color != NULL)
+        return contrast(fog_pixel(frame, *color, part), fog_pixel(frame, *color, other));
+    return max_u32(contrast(fog_pixel(frame, 0, part), fog_pixel(frame, 0, other)),
+                   contrast(fog_pixel(frame, 0xffffffu, part), fog_pixel(frame, 0xffffffu, other)));
+}
+
+/* Codes by which one part of fog may be off at a triangle's nearest and farthest vertex together. */
+enum { FOG_STEP = 4 };
+
+int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color)
+{
+    const struct smear_fog_levels *fog = frame_fog(frame);
+    if (low >= fog->near_units)
+        return 0;
     const int32_t most = smear_fog_part(fog, low), least = smear_fog_part(fog, high);
-    return (uint32_t)(most - least) * contrast > FOG_STEP ? -1 : (int32_t)fog_part_256((most + least) >> 1);
+    return most != least && codes_between(frame, color, most, least) > FOG_STEP ? -1 : (most + least) >> 1;
 }
 
-static inline bool has_one_color(const struct setup *s)
+/* The triangle's colour, where it has one. */
+static inline const uint32_t *one_color(const struct setup *s)
 {
-    return !segment_textured(s->segment) && !segment_gouraud(s->segment);
+    return !segment_textured(s->segment) && !segment_gouraud(s->segment) ? &s->color : NULL;
 }
 
-static inline uint32_t contrast_of(const struct setup *s)
+static inline int32_t lowest(const struct setup *s)
 {
-    return has_one_color(s) ? smear_fog_contrast(s->frame, s->color) : 255u;
+    return min_i32(s->v[0][VERTEX_DEPTH], min_i32(s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
+}
+
+static inline int32_t highest(const struct setup *s)
+{
+    return max_i32(s->v[0][VERTEX_DEPTH], max_i32(s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
 
 void smear_fog_triangle(struct setup *s)
 {
-    const struct smear_fog_levels *fog = frame_fog(s->frame);
-    const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
-    const int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
+    const uint32_t *color = one_color(s);
+    const int32_t part = smear_fog_between(s->frame, lowest(s), highest(s), color);
     s->fog = FOG_NONE;
-    if (low >= fog->near_units)
-        return;
-    const int32_t part = smear_fog_between(fog, low, high, contrast_of(s));
-    if (part < 0) {
+    if (part < 0)
         s->fog = FOG_VARIES;
-    } else if (has_one_color(s)) {
-        s->color = fog_pixel(s->frame, s->color, (uint32_t)part);
-    } else if (part != 0) {
-        s->fog = FOG_EVEN;
-        s->fog_part = (uint8_t)(part - 1);
-    }
+    else if (part >= 2 && color != NULL)
+        s->color = fog_pixel(s->frame, *color, part);
+    else if (part >= 2)
+        s->fog = (uint16_t)(FOG_EVEN + ((part + 2) >> 2));
 }
 
 /* Blocks within which fog changes by more than so many codes are halved: where fog begins, a block errs by up to a quarter
@@ -130,20 +141,19 @@ enum { FOG_BLOCK = 8 };
 void smear_fog_blocks(struct setup *s)
 {
     const struct smear_fog_levels *fog = frame_fog(s->frame);
-    const int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
-    const int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
-    uint32_t change = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
-    if (change < (uint32_t)(high - low)) {
-        /* The part and its base change by as much of them as 1 / q. */
-        const uint32_t sum = (uint32_t)smear_fog_part(fog, low) + (fog->flat_depth ? 0u : (uint32_t)fog->base);
-        change = smear_times_over(change, sum, (uint32_t)low) * contrast_of(s) >> 16;
-    } else {
-        change = (uint32_t)(smear_fog_part(fog, low) - smear_fog_part(fog, high)) * contrast_of(s) >> 16;
+    const int32_t low = lowest(s), high = highest(s), most = smear_fog_part(fog, low), least = smear_fog_part(fog, high);
+    const uint32_t over_16 = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
+    uint32_t codes = codes_between(s->frame, one_color(s), most, least);
+    if (over_16 < (uint32_t)(high - low)) {     /* the part and its base change by as much of them as 1 / q */
+        const uint32_t sum = (uint32_t)most + (fog->flat_depth ? 0u : (uint32_t)fog->base);
+        const uint32_t change = smear_times_over(over_16, sum, (uint32_t)low);
+        if (change < (uint32_t)(most - least))
+            codes = codes * (change >> 4) / ((uint32_t)(most - least + 15) >> 4);
     }
-    if (change <= FOG_BLOCK / 4 && !s->perspective_color)
+    if (codes <= FOG_BLOCK / 4 && !s->perspective_color)
         s->color_block = BLOCK_LONGEST;
-    else if (change > FOG_BLOCK)
-        s->color_block = (uint8_t)min_i32(s->color_block, change <= 2 * FOG_BLOCK ? 8 : 4);
+    else if (codes > FOG_BLOCK)
+        s->color_block = (uint8_t)min_i32(s->color_block, codes <= 2 * FOG_BLOCK ? 8 : 4);
 }
 
 /* ------------------------------------------------------------------ pixels */
@@ -173,7 +183,7 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
 {
-    const int32_t part = s->fog == FOG_EVEN ? (int32_t)fog_even_part(s) << 8 : part_at(s, x, y);
+    const int32_t part = s->fog >= FOG_EVEN ? fog_even_part(s) : part_at(s, x, y);
     channels_at(c, s, x, y);
     for (int i = 0; i < 3; i++) {
         const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
@@ -184,8 +194,8 @@ void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 void smear_fog_pixels(uint32_t *pixel, const struct setup *s, int32_t x, int32_t n, int32_t start, int32_t end, int32_t y)
 {
     int32_t part, step = 0;
-    if (s->fog == FOG_EVEN) {
-        part = (int32_t)fog_even_part(s) << 8;
+    if (s->fog >= FOG_EVEN) {
+        part = fog_even_part(s);
     } else {
         part = part_at(s, start, y);
         if (end > start) {
@@ -194,7 +204,7 @@ void smear_fog_pixels(uint32_t *pixel, const struct setup *s, int32_t x, int32_t
         }
     }
     for (; n > 0; n--, pixel++, part += step)
-        *pixel = fog_pixel(s->frame, *pixel, fog_part_256(part));
+        *pixel = fog_pixel(s->frame, *pixel, part);
 }
 
 #endif

@@ -15,21 +15,22 @@ void smear_fog_make(struct smear_raster_frame *frame, const smear_fog *fog, cons
 /* The part of fog at depth units q11, 0 .. 65536. */
 int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units);
 
-/* A working pixel in so much of fog, 0 .. 256; its alpha stays. */
-static inline uint32_t fog_pixel(const struct smear_raster_frame *frame, uint32_t pixel, uint32_t part)
+/* A working pixel in so much of fog; its alpha stays. Dark pixels in linear light show less than a 256th of it. */
+static inline uint32_t fog_pixel(const struct smear_raster_frame *frame, uint32_t pixel, int32_t part)
 {
-    return (pixel & 0xff000000u) | pixel_mix(pixel, frame_fog(frame)->color, part, frame_is_linear(frame));
+    const uint32_t fog = frame_fog(frame)->color, a = (uint32_t)part, b = 65536u - a;
+    if (!frame_is_linear(frame))
+        return (pixel & 0xff000000u) | pixel_mix(pixel, fog, (a + 128u) >> 8);
+    uint32_t out = pixel >> 24;
+    for (int shift = 16; shift >= 0; shift -= 8)
+        out = out << 8 | smear_srgb_encode[(smear_srgb_decode[fog >> shift & 255u] * a
+                                            + smear_srgb_decode[pixel >> shift & 255u] * b) >> 20];
+    return out;
 }
 
-/* A part in 65536 as fog_pixel takes it. */
-static inline uint32_t fog_part_256(int32_t part) { return (uint32_t)(part + 128) >> 8; }
-
-/* The largest difference of a channel between a colour and the fog's. */
-uint32_t smear_fog_contrast(const struct smear_raster_frame *frame, uint32_t color);
-
-/* The part of fog, 0 .. 256, that is near enough for all depths from low to high, units q11, where it may change channels by
- * up to `contrast` codes; -1: there is none. */
-int32_t smear_fog_between(const struct smear_fog_levels *fog, int32_t low, int32_t high, uint32_t contrast);
+/* The part of fog that is near enough for all depths from low to high, units q11, of a colour or, where that is null, of
+ * any; -1: none is. */
+int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color);
 
 /* Finds out what fog does to a triangle whose vertices and colour are known; a single colour becomes that in fog. */
 void smear_fog_triangle(struct setup *s);
@@ -37,8 +38,8 @@ void smear_fog_triangle(struct setup *s);
 /* Chooses the length of its blocks, once its plane of depth is known. */
 void smear_fog_blocks(struct setup *s);
 
-/* The part of fog of a triangle with FOG_EVEN, 1 .. 256. */
-static inline uint32_t fog_even_part(const struct setup *s) { return s->fog_part + 1u; }
+/* The part of fog of a triangle with FOG_EVEN, in steps of 4. */
+static inline int32_t fog_even_part(const struct setup *s) { return (s->fog - FOG_EVEN) * 4; }
 
 /* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y);

@@ -161,7 +161,7 @@ static inline uint32_t point_color(const struct smear_raster_frame *frame, const
     if (!SMEAR_WITH_FOG || !frame_has_fog(frame))
         return t->color;
     const int32_t units = (int32_t)(smear_depth_units(t->vertex[POINT_DEPTH]) << 11);
-    return fog_pixel(frame, t->color, fog_part_256(smear_fog_part(frame_fog(frame), units)));
+    return fog_pixel(frame, t->color, smear_fog_part(frame_fog(frame), units));
 }
 
 /* A finished pixel. */

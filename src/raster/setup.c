@@ -493,7 +493,7 @@ static bool is_flat(struct setup *s)
         code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
-    if (SMEAR_WITH_FOG && fog_of(s) == FOG_EVEN)
+    if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN)
         s->color = fog_pixel(s->frame, s->color, fog_even_part(s));
     return true;
 }

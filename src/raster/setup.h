@@ -69,10 +69,10 @@ struct texture_setup {
 enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
 /* What is still to be done about a triangle's fog. */
-enum setup_fog {
+enum {
     FOG_NONE,
-    FOG_EVEN,               /* one part of it throughout */
-    FOG_VARIES
+    FOG_VARIES,
+    FOG_EVEN                /* and above: one part of it throughout, see fog_even_part */
 };
 
 struct setup {
@@ -102,8 +102,7 @@ struct setup {
     bool flat;                      /* one colour, opaque: `color` */
     bool velocity_affine;
     bool clamp_velocity;
-    uint8_t fog;                    /* setup_fog */
-    uint8_t fog_part;               /* FOG_EVEN: fog_even_part */
+    uint16_t fog;                   /* FOG_NONE ... */
 
     /* What few triangles have comes last: setups that are kept from row to row are cut where a frame needs no more
      * (setup_bytes). */
@@ -152,9 +151,9 @@ static inline int32_t channel_of_code(uint32_t code, bool linear)
     return linear ? clamp_i32((int32_t)smear_srgb_decode[code] << 8, 0x400, 0xffe000) : (int32_t)(code << 16) + 0x8000;
 }
 
-static inline enum setup_fog fog_of(const struct setup *s)
+static inline int fog_of(const struct setup *s)
 {
-    return SMEAR_WITH_FOG && frame_has_fog(s->frame) ? (enum setup_fog)s->fog : FOG_NONE;
+    return SMEAR_WITH_FOG && frame_has_fog(s->frame) ? s->fog : FOG_NONE;
 }
 
 /* Whether colours without a texture change from pixel to pixel: those of vertices, or fog. */

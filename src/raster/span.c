@@ -114,15 +114,15 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     int32_t x = k->x, x0 = k->start, x1 = k->end;
     c[3] = 255u << 16;
     d[3] = 0;
+    if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
+        channels_in_fog(s, p, k, c, d);
+        return;
+    }
     if (SPAN_SPECIALIZED && s->even_color) {
         for (int i = 0; i < count; i++) {
             c[i] = (uint32_t)s->channel[i].at;
             d[i] = 0;
         }
-        return;
-    }
-    if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
-        channels_in_fog(s, p, k, c, d);
         return;
     }
     if (!s->perspective_color) {

@@ -327,17 +327,14 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
 /* Finds out whether there is fog between the depths of the poses; one colour, and so much of it, become another one. */
 static bool is_in_fog(struct timemask_shade *s, const struct timemask_pose *const pose[3], bool has_one_color)
 {
-    const struct smear_fog_levels *fog = frame_fog(s->frame);
     int32_t low = INT32_MAX, high = 0;
     for (int k = 0; k < 3; k++) {
         low = min_i32(low, least_of(pose[k]->depth));
         high = max_i32(high, most_of(pose[k]->depth));
     }
-    if (low >= fog->near_units)
-        return false;
-    const int32_t part = smear_fog_between(fog, low, high, has_one_color ? smear_fog_contrast(s->frame, s->color) : 255u);
+    const int32_t part = smear_fog_between(s->frame, low, high, has_one_color ? &s->color : NULL);
     if (part >= 0 && has_one_color) {
-        s->color = fog_pixel(s->frame, s->color, (uint32_t)part);
+        s->color = fog_pixel(s->frame, s->color, part);
         return false;
     }
     return part != 0;
@@ -501,5 +498,5 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
         return color;
     const int32_t units = value_at(&s->depth, timemask_run_x(run), y, timemask_middle(s, run));
     const int32_t part = smear_fog_part(frame_fog(s->frame), clamp_i32(units, s->depth_low, s->depth_high) << 7);
-    return fog_pixel(s->frame, color, fog_part_256(part));
+    return fog_pixel(s->frame, color, part);
 }
