@@ -281,7 +281,7 @@ TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
     x11.c x11_auth.c)
-TEST_SRC += $(VIEW_PARTS) tools/player/picture.c
+TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c
 
 $(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(BUILD)/tests/run.o: $(wildcard tests/unit/test_*.c tests/suite/test_*.c)

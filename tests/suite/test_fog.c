@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT */
+/* test_fog.c - fog against what each pixel's own depth gives; what is cut is fog all over; the same picture from any method
+ * where nothing moves, with any number of workers and in parts; what is refused. Host only. */
+#include "tests/rig.h"
+#include "tests/test.h"
+#include "tools/player/crew.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void suite_fog(void);
+
+enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FOG = 0xa0b4c8, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
+
+static const double fog_near = 2.5, fog_far = 6.5;
+
+static smear_fog fog_between(double begin, double end)
+{
+    return (smear_fog){ .color = FOG, .near_plane = q16(begin), .far_plane = q16(end) };
+}
+
+static smear_desc desc_of(uint32_t methods)
+{
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .tile = 8, .reach = 6,
+                         .methods = (uint16_t)(methods & ~(1u << SMEAR_DEFAULT_METHOD)) };
+}
+
+/* ------------------------------------------------------------------ against every pixel's own depth */
+
+static double light_of(double code)
+{
+    code /= 255.0;
+    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+}
+
+static double code_of(double light)
+{
+    return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
+}
+
+static double distance_of(const smear_camera *camera, uint16_t code)
+{
+    const double near_plane = camera->near_plane, units = smear_depth_units(code);
+    if (code == 0)
+        return INFINITY;
+    if (camera->half_height > 0)
+        return (camera->far_plane - (camera->far_plane - near_plane) * units / SMEAR_DEPTH_NEAR) / 65536.0;
+    return near_plane * SMEAR_DEPTH_NEAR / units / 65536.0;
+}
+
+/* A picture without fog, and its depths. */
+struct seen {
+    uint32_t color[PIXELS];
+    uint16_t depth[PIXELS];
+    smear_camera camera;
+};
+
+/* The scene without its glass, whose depth is not kept, and with a road that reaches from under the camera to far away, with
+ * kerbs without a texture. */
+static int make_road(struct scene *s, smear_mesh *road, int method, bool flat_depth)
+{
+    static const int16_t place[] = { -3, -2, 2,  3, -2, 2,  3, -2, -60,  -3, -2, -60,  -9, -2, 2,  -9, 3, -60 };
+    static const uint16_t side[] = { 0, 1, 2, 0, 2, 3, 4, 0, 3, 4, 3, 5 };
+    static const uint8_t color[] = { 30, 30, 40, 255, 200, 40, 30, 255, 10, 200, 60, 255,
+                                     250, 250, 250, 255, 0, 0, 0, 255, 90, 20, 160, 255 };
+    make_scene(s, 0, method);
+    *road = (smear_mesh){ .position = place, .index = side, .color = color, .vertex_count = 6, .triangle_count = 4 };
+    s->draw[3].mesh = road;
+    s->draw[3].material = NULL;
+    s->draw[3].now = NULL;
+    s->material[4].double_sided = 1;
+    if (flat_depth) {
+        s->camera.focal = 0;
+        s->camera.half_height = q16(2.5);
+        s->camera.far_plane = q16(20);
+    }
+    s->frame.clear = FOG;
+    return SCENE_DRAWS;
+}
+
+static bool see(struct seen *out, bool linear, bool flat_depth)
+{
+    struct rig r;
+    const smear_desc desc = desc_of(SMEAR_SET(SMEAR_RECONSTRUCT));
+    struct scene s;
+    smear_mesh road;
+    const int count = make_road(&s, &road, SMEAR_RECONSTRUCT, flat_depth);
+    s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+    bool ok = rig_begin(&r, &desc, true) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK);
+    if (ok) {
+        memcpy(out->color, r.color, sizeof out->color);
+        memcpy(out->depth, r.depth, sizeof out->depth);
+        out->camera = s.camera;
+    }
+    rig_end(&r);
+    return ok;
+}
+
+/* The code of a channel in fog. */
+static double code_in_fog(uint32_t color, int shift, double part, bool linear)
+{
+    const double a = color >> shift & 255u, b = FOG >> shift & 255;
+    return linear ? code_of(light_of(a) * (1 - part) + light_of(b) * part) : a * (1 - part) + b * part;
+}
+
+/* How far a picture is off, in codes: pixels off by more than four, as at borders of texels may be what shows the neighbour;
+ * root of the mean square of the others. */
+static void compare(const uint32_t *got, const struct seen *seen, bool linear, double *rms, int *beyond)
+{
+    double sum = 0;
+    *beyond = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double part = fmin(fmax((distance_of(&seen->camera, seen->depth[i]) - fog_near) / (fog_far - fog_near), 0), 1);
+        double most = 0, here = 0;
+        for (int shift = 0; shift < 24; shift += 8) {
+            const double off = fabs(code_in_fog(seen->color[i], shift, part, linear) - (got[i] >> shift & 255u));
+            most = fmax(most, off);
+            here += off * off;
+        }
+        *beyond += most > 4.0;
+        sum += most > 4.0 ? 0 : here;
+        if (seen->depth[i] == 0 || part >= 1)       /* nothing shows through what was cut */
+            CHECK(most < 4.0);
+    }
+    *rms = sqrt(sum / (3.0 * PIXELS));
+}
+
+static void check_accuracy(int method, bool linear, bool flat_depth, const struct seen *seen)
+{
+    struct rig r;
+    struct scene s;
+    smear_mesh road;
+    const smear_desc desc = desc_of(ALL_METHODS);
+    const smear_fog fog = fog_between(fog_near, fog_far);
+    const int count = make_road(&s, &road, method, flat_depth);
+    s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+    s.frame.clear = 0xff00ff;           /* counts for nothing */
+    s.frame.fog = &fog;
+    if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK)) {
+        double rms;
+        int beyond;
+        compare((const uint32_t *)(const void *)r.picture, seen, linear, &rms, &beyond);
+        CHECK(rms < 1.0);
+        CHECK(beyond <= PIXELS / 400);
+        CHECK(guards_intact(&r));
+    }
+    rig_end(&r);
+}
+
+static void test_each_pixel_has_the_fog_of_its_depth(void)
+{
+    static struct seen seen;
+    for (int linear = 0; linear < 2; linear++)
+        for (int flat_depth = 0; flat_depth < 2; flat_depth++) {
+            if (!see(&seen, linear != 0, flat_depth != 0))
+                continue;
+            for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
+                check_accuracy(method, linear != 0, flat_depth != 0, &seen);
+        }
+}
+
+/* ------------------------------------------------------------------ what is cut */
+
+static void test_what_lies_beyond_is_left_out(void)
+{
+    struct rig r;
+    const smear_desc desc = desc_of(ALL_METHODS);
+    for (int k = 0; k < 4 && rig_begin(&r, &desc, false); k++) {
+        struct scene s;
+        smear_stats stats;
+        const smear_fog fog = fog_between(0.2, k < 3 ? 3.0 : 100.0);
+        smear_mesh known = cube;
+        make_scene(&s, 0, k == 1 ? SMEAR_AUTO : SMEAR_NONE);
+        smear_mesh_find_bounds(&known);
+        for (int i = 1; i < 3; i++)
+            s.draw[i].mesh = k == 2 ? &known : &cube;
+        s.frame.fog = &fog;
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw + 1, 2), SMEAR_OK);
+        smear_get_stats(r.ctx, &stats);
+        CHECK_EQ(stats.draws_beside, k == 2 ? 2 : 0);
+        CHECK((stats.triangles_drawn != 0) == (k == 3));
+        const uint32_t *picture = (const uint32_t *)(const void *)r.picture;
+        int other = 0;
+        for (int i = 0; i < PIXELS; i++)
+            other += picture[i] != FOG;
+        CHECK((other != 0) == (k == 3));
+        rig_end(&r);
+    }
+}
+
+/* Fog that begins behind everything changes nothing. */
+static void test_what_is_nearer_than_fog_stays_as_it_is(void)
+{
+    const smear_desc desc = desc_of(ALL_METHODS);
+    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++) {
+        struct rig r;
+        uint8_t *without = NULL;
+        const smear_fog fog = fog_between(200, 300);
+        for (int k = 0; k < 2 && rig_begin(&r, &desc, false); k++) {
+            struct scene s;
+            CHECK_EQ(render_scene(&r, 0.1, method), SMEAR_OK);
+            make_scene(&s, 0.2, method);
+            s.frame.fog = k == 1 ? &fog : NULL;
+            s.frame.clear = FOG;
+            uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+            if (k == 1)
+                CHECK(without != NULL && picture != NULL && memcmp(without, picture, PIXELS * 4) == 0);
+            free(without);
+            without = k == 0 ? picture : NULL;
+            if (k == 1)
+                free(picture);
+            rig_end(&r);
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ the same bits */
+
+/* The third frame of the busy scene in fog; the caller frees it. */
+static uint8_t *moving_picture(const smear_desc *desc, int method, bool linear)
+{
+    struct rig r;
+    struct failure f;
+    uint8_t *picture = NULL;
+    const smear_fog fog = fog_between(2, 7);
+    if (!rig_begin(&r, desc, false))
+        return NULL;
+    struct crew *crew = crew_start(desc->workers, &f);
+    for (int i = 0; i < 3 && CHECK(crew != NULL || desc->workers < 2); i++) {
+        struct scene s;
+        make_scene(&s, 0.1 * i, method);
+        s.frame.fog = &fog;
+        s.frame.target = SMEAR_BALANCED;
+        s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+        rig_forget_output(&r);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        for (int d = 0; d < SCENE_DRAWS; d++)
+            CHECK_EQ(smear_submit(r.ctx, &s.draw[d]), SMEAR_OK);
+        CHECK_EQ(crew_render(crew, r.ctx), SMEAR_OK);
+    }
+    crew_stop(crew);
+    CHECK(guards_intact(&r));
+    picture = malloc(PIXELS * 4);
+    if (picture != NULL)
+        memcpy(picture, r.picture, PIXELS * 4);
+    rig_end(&r);
+    return picture;
+}
+
+static void test_workers_and_parts_draw_the_same_fog(void)
+{
+    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
+        for (int linear = 0; linear < 2; linear++) {
+            smear_desc desc = desc_of(ALL_METHODS);
+            uint8_t *want = moving_picture(&desc, method, linear != 0);
+            for (int k = 0; k < 3; k++) {
+                desc = desc_of(ALL_METHODS);
+                desc.idle = crew_idle;
+                desc.workers = (uint8_t)(k == 0 ? 4 : k == 1 ? 2 : 1);
+                if (k == 2 && method != SMEAR_TIMEMASK)         /* drawn in parts */
+                    desc.max_triangles = 14;
+                uint8_t *got = moving_picture(&desc, method, linear != 0);
+                CHECK(want != NULL && got != NULL && memcmp(want, got, PIXELS * 4) == 0);
+                free(got);
+            }
+            free(want);
+        }
+}
+
+/* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
+static void test_what_is_kept_is_drawn_again_in_other_fog(void)
+{
+    struct rig r[2];
+    for (int i = 0; i < 2; i++) {
+        smear_desc desc = desc_of(SMEAR_SET(SMEAR_AUTO));
+        desc.reuse.cache_static = i == 0;
+        CHECK(rig_begin(&r[i], &desc, false));
+    }
+    for (int k = 0; k < 8; k++) {
+        const smear_fog fog[] = { fog_between(2, 7), fog_between(2.5, 7), fog_between(2.5, 6), { 0x405060, q16(2), q16(6) } };
+        uint8_t *picture[2];
+        for (int i = 0; i < 2; i++) {
+            struct scene s;
+            make_scene(&s, 0, SMEAR_AUTO);
+            s.frame.fog = k == 7 ? NULL : &fog[k / 2];
+            picture[i] = rig_copy(&r[i], &s.frame, s.draw, SCENE_DRAWS);
+        }
+        CHECK(picture[0] != NULL && picture[1] != NULL && memcmp(picture[0], picture[1], PIXELS * 4) == 0);
+        free(picture[0]);
+        free(picture[1]);
+    }
+    rig_end(&r[0]);
+    rig_end(&r[1]);
+}
+
+/* ------------------------------------------------------------------ what is refused */
+
+static void test_the_text_of_bad_fog_names_the_field(void)
+{
+    static const struct {
+        int32_t near_plane, far_plane;
+        bool good;
+    } fog[] = {
+        { 0, 65536, true }, { -1, 65536, false }, { 65536, 65536, false }, { 131072, 65536, false }, { 65536, 65536 + 257, false },
+        { 65536, 65536 + 300, true }, { 0, 0, false }, { 0, 1000, false }, { INT32_MAX - 1, INT32_MAX, false },
+        { 0, INT32_MAX, true }, { 0, INT32_MIN, false }
+    };
+    struct rig r;
+    const smear_desc desc = small_desc(32, 32);
+    if (!rig_begin(&r, &desc, false))
+        return;
+    for (size_t i = 0; i < sizeof fog / sizeof *fog; i++) {
+        struct scene s;
+        const smear_fog bad = { .near_plane = fog[i].near_plane, .far_plane = fog[i].far_plane };
+        make_scene(&s, 0, SMEAR_NONE);
+        s.frame.fog = &bad;
+        const int result = smear_begin(r.ctx, &s.frame);
+        CHECK_EQ(result == SMEAR_OK, fog[i].good);
+        CHECK(fog[i].good || strstr(smear_error_text(result), "frame.fog: ") == smear_error_text(result));
+    }
+    rig_end(&r);
+}
+
+void suite_fog(void)
+{
+    RUN(test_each_pixel_has_the_fog_of_its_depth);
+    RUN(test_what_lies_beyond_is_left_out);
+    RUN(test_what_is_nearer_than_fog_stays_as_it_is);
+    RUN(test_workers_and_parts_draw_the_same_fog);
+    RUN(test_what_is_kept_is_drawn_again_in_other_fog);
+    RUN(test_the_text_of_bad_fog_names_the_field);
+}
