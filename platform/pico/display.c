@@ -152,8 +152,9 @@ static void sent(void)
         send(&bus.next);
 }
 
-/* A core waits for a word of the other, which is no event, so it must not sleep; but it leaves the bus to it. */
-static void idle(void *user)
+/* A core waits for a word of the other, which is no event, so it must not sleep; but it leaves the bus to it, and the flash,
+ * as this lies in RAM. */
+static void __not_in_flash_func(idle)(void *user)
 {
     (void)user;
     busy_wait_at_least_cycles(16);

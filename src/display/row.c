@@ -28,6 +28,37 @@ void smear_job_columns(const struct smear_rows *rows, int job, int32_t *x0, int3
     *x1 = min_i32(units * (job + 1) / n * unit, rows->window.width);
 }
 
+/* The target's rows become [y0, y1) of them. */
+static void take_rows(struct smear_raster_target *t, int32_t y0, int32_t y1)
+{
+    struct smear_plane_rows *const plane[2] = { &t->window_rows, &t->color_rows };
+    for (int i = 0; i < 2; i++) {
+        plane[i]->ring_row += y0 - t->y0;
+        plane[i]->ring_row -= plane[i]->ring_row >= plane[i]->ring ? plane[i]->ring : 0;
+    }
+    t->y0 = y0;
+    t->y1 = y1;
+}
+
+bool smear_job_area(const struct smear_rows *rows, int job, struct smear_raster_target *t)
+{
+    enum { ROWS_LEAST = 16 };
+    const int32_t middle = min_i32(t->y0 + rows->bins.row_px / 2, t->y1), n = rows->jobs.workers;
+    const int32_t width = rows->window.width, unit = max_i32(rows->window.tile, 16), units = (width + unit - 1) / unit;
+    int32_t part = job, parts = n;
+    if (SMEAR_WITH_WORKERS && n % 2 == 0 && rows->bins.row_px >= ROWS_LEAST && !rows->keeps_motion) {
+        part = job / 2;
+        parts = n / 2;
+        if (job % 2 == 0)
+            t->y1 = middle;
+        else
+            take_rows(t, middle, t->y1);
+    }
+    t->x0 = max_i32(t->x0, units * part / parts * unit);
+    t->x1 = min_i32(t->x1, units * (part + 1) / parts * unit);
+    return t->x0 < t->x1 && t->y0 < t->y1;
+}
+
 void smear_row_count(const struct smear_rows *rows, int kind, smear_method method)
 {
     smear_stats *s = rows->stats;
@@ -62,10 +93,9 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
 bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster_target *t, int velocity)
 {
     const struct smear_rows *rows = r->rows;
-    smear_job_columns(rows, job, &t->x0, &t->x1);
-    t->x0 = max_i32(t->x0, job_left(r));
-    t->x1 = min_i32(t->x1, job_right(r));
-    if (t->x0 >= t->x1)
+    t->x0 = job_left(r);
+    t->x1 = job_right(r);
+    if (!smear_job_area(rows, job, t))
         return false;
     if (r->steps & ROW_CLEAR)
         smear_row_clear(t, rows->clear, velocity);
@@ -122,8 +152,7 @@ static void blend_job(void *argument, int job, int worker)
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->rows, r->row, &t);
-    smear_job_columns(r->rows, job, &t.x0, &t.x1);
-    if (t.x0 < t.x1 && (r->steps & ROW_DRAW))
+    if ((r->steps & ROW_DRAW) && smear_job_area(r->rows, job, &t))
         smear_raster_list(&r->rows->raster, &t, r->rows->blend);
 }
 

@@ -114,8 +114,13 @@ void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, 
 /* Points `t` at the window's rows of a tile row. */
 void smear_row_target(const struct smear_rows *rows, int row, struct smear_raster_target *t);
 
-/* Finds the columns of a raster job: the frame's width in as many equal cuts as there are workers. */
+/* Finds the columns of a job: the frame's width in as many equal cuts as there are workers. */
 void smear_job_columns(const struct smear_rows *rows, int job, int32_t *x0, int32_t *x1);
+
+/* Cuts the target of a tile row, or of some columns of it, down to what a raster job draws. Of two jobs, one draws the upper
+ * half of the rows and one the lower: spans stay whole, what lies in few columns is shared, too, and the halves of a row are
+ * more alike than its sides. Targets with velocities have columns of tiles of their own. False where nothing is left. */
+bool smear_job_area(const struct smear_rows *rows, int job, struct smear_raster_target *t);
 
 /* ------------------------------------------------------------------ jobs of a row */
 

@@ -79,19 +79,19 @@ static void direct_job(void *argument, int job, int worker)
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(rows, r->row, &t);
-    smear_job_columns(rows, job, &t.x0, &t.x1);
-    if (t.x0 >= t.x1)
+    if (!smear_job_area(rows, job, &t))
         return;
     t.direct = (uint16_t *)(void *)r->band;
     t.cache = smear_raster_cache_of(&rows->cache, job);
     const uint32_t clear = rgb565_nearest(rows->clear);
-    int32_t at = t.x0, n = t.x1 - t.x0;
+    const int32_t from = target_row(&t.window_rows, &t, t.y0) + t.x0, n = t.x1 - t.x0;
+    int32_t at = from;
     for (int32_t y = t.y0; y < t.y1; y++, at += rows->window.width) {
         pixels_fill_narrow(t.direct + at, clear, n);
         pixels_fill_narrow(t.depth + at, 0, n);
     }
     smear_raster_list(&rows->raster, &t, rows->opaque);
-    at = t.x0;
+    at = from;
     if (smear_format_is_swapped((smear_format)rows->desc->format))
         for (int32_t y = t.y0; y < t.y1; y++, at += rows->window.width)
             smear_format_swap(t.direct + at, n);
