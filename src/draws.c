@@ -358,7 +358,7 @@ static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
 enum {
     PART_TRIANGLES_LEAST = 256,     /* submitted: below, one core is faster */
     PART_CACHE = 64,                /* vertices */
-    PART_WORDS_LEAST = 4096,
+    PART_WORDS_LEAST = 2048,
     PARTS_RETRY = 32                /* assemblies on one core after one whose parts found no room */
 };
 
@@ -501,7 +501,8 @@ static bool has_parts(struct smear_context *c)
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
     c->in_parts = false;
-    if (n == 1 || has_layers(c) || c->damage != NULL || c->stats.triangles_in < PART_TRIANGLES_LEAST
+    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || assembler_has_damage(&c->assembler)
+        || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows)))
         return false;
     if (c->parts_wait == 0)
@@ -568,14 +569,19 @@ static bool assemble_all(struct smear_context *c, int first, int end, const stru
     return assemble_rows(c, first, end, instant, NULL);
 }
 
-/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row. */
-static void cache_free_pool(struct smear_rows *rows)
+/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row, or the memory in which a
+ * temporal method works where the frame has another. */
+static void make_cache(struct smear_context *c)
 {
+    struct smear_rows *rows = &c->rows;
     const struct smear_bins *g = &rows->bins;
     uint32_t first = (g->vertex_words + 1u) & ~1u;
     uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
     size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
-    rows->cache = smear_raster_cache_make(g->pool + first, bytes, rows->jobs.workers, g);
+    const size_t work = SMEAR_WITH_SUBFRAMES && c->temporal.work != NULL && !smear_method_is_temporal(c->frame.method)
+                      ? (size_t)c->temporal.work_bytes * (size_t)rows->jobs.workers : 0;
+    rows->cache = smear_raster_cache_make(bytes < work ? c->temporal.work : (void *)(g->pool + first), bytes < work ? work : bytes,
+                                          rows->jobs.workers, g);
 }
 
 /* Notes how full the lists of a part of the frame are. */
@@ -590,11 +596,12 @@ static void note_fills(struct smear_context *c)
 }
 
 /* Begins the lists of rows [top, first), which have been drawn already, and of `first`. */
-static void begin_lists(struct smear_rows *rows, int top, int first)
+static void begin_lists(struct smear_context *c, int top, int first)
 {
+    struct smear_rows *rows = &c->rows;
     rows->opaque = rows->blend = rows->moving = SMEAR_NO_TRIANGLE;
     if (SMEAR_RASTER_CACHE)
-        cache_free_pool(rows);
+        make_cache(c);
     for (int row = top; row < first; row++)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
 }
@@ -620,7 +627,7 @@ static void fill(struct smear_refill *f)
     if (static_is_disturbed(c))
         damage_forget(c->damage);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
-    begin_lists(rows, f->row, f->row);
+    begin_lists(c, f->row, f->row);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, SMEAR_NO_TRIANGLE, f->row);
     rows->blend = row_advance(rows, rows->bins.blend_last, SMEAR_NO_TRIANGLE, f->row);
     if (rows->bins.moving_last != NULL && !has_layers(c))
@@ -656,7 +663,7 @@ int smear_draws_assemble(struct smear_context *c, int top, int first, int end, c
         end = first + max_i32((end - first) / 2, 1);
     }
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
-    begin_lists(&c->rows, top, c->rows.refill == NULL ? first : top);
+    begin_lists(c, top, c->rows.refill == NULL ? first : top);
     stage_end(&c->rows, &c->stats.time.submit, start);
     return end;
 }

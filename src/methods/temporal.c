@@ -69,7 +69,7 @@ static bool fill_tiles(struct smear_tile_run *t, int kinds, bool next)
     if (next ? !smear_row_fill_next(rows)
              : !smear_row_fill_columns(rows, f->row.row, kinds, tile_left(rows, t->column), tile_right(rows, t->last_column)))
         return false;
-    smear_list_again(moving, &rows->bins, &rows->window, rows->moving);
+    smear_list_moving(moving, &rows->bins, &rows->window, rows->moving);
     t->moving_count = moving->count;
     t->blend = rows->blend;
     return true;
@@ -278,11 +278,29 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     return smear_band_flush(&finish.row);
 }
 
+/* What the moving triangles of a row mean for some of its tiles. */
+static void list_job(void *argument, int job, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    const struct smear_rows *rows = f->row.rows;
+    const int32_t columns = rows->window.columns, jobs = rows->jobs.workers;
+    (void)worker;
+    smear_list_columns(&f->self->moving, &rows->bins, &rows->window, rows->moving, row_top(rows, f->row.row),
+                       columns * job / jobs, columns * (job + 1) / jobs);
+}
+
+static void list_tiles(struct smear_temporal *self, struct smear_rows *rows, int row)
+{
+    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+    if (rows->moving != SMEAR_NO_TRIANGLE)
+        smear_jobs_run(&rows->jobs, list_job, &finish, rows->jobs.workers);
+}
+
 /* Finds what moves and is blended in a row that is refilled. */
 static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
-        smear_list_moving(&self->moving, &rows->bins, &rows->window, rows->moving, row_top(rows, row));
+        list_tiles(self, rows, row);
     if (!rows->blends)
         return;
     for (bool any = smear_row_fill(rows, row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
@@ -299,7 +317,8 @@ static void list_row(struct smear_temporal *self, struct smear_rows *rows, int r
     }
     rows->opaque = row_advance(rows, bins->opaque_last, rows->opaque, row);
     rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
-    smear_list_moving(&self->moving, bins, &rows->window, rows->moving, row_top(rows, row));
+    smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
+    list_tiles(self, rows, row);
     if (!rows->blends)
         return;
     rows->blend = row_advance(rows, bins->blend_last, rows->blend, row);

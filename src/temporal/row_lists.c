@@ -8,6 +8,8 @@ struct range {
     int32_t low, high;              /* [low, high) */
 };
 
+static inline bool range_has(struct range r, int32_t at) { return at >= r.low && at < r.high; }
+
 /* The displacements of a moving triangle from open to close, 1/16 px: the least and the largest of its vertices. For a
  * large one whose vertices differ, the rest tells the displacement from place to place: weights of the vertices in the
  * middle of the exposure give weights at its ends. */
@@ -162,17 +164,24 @@ static void displacement_at_side(int32_t out[SIDE_VALUES], const struct displace
     out[4] = max_i32(upper.curvature, lower.curvature);
 }
 
-/* Adds the displacements of a large triangle to columns of tiles: found at some of their sides, in a line between. */
+/* Adds the displacements of a large triangle to those columns of tiles that are wanted: found at some of the sides of all, in
+ * a line between. */
 static void add_along_columns(struct smear_row_moving *r, int32_t first, int32_t last, const struct displacements *w,
-                              int32_t top, int shift)
+                              int32_t top, int shift, struct range wanted)
 {
     enum { APART_PX = 64 };
     const int32_t apart = max_i32(APART_PX >> shift, 2);
     int32_t left[SIDE_VALUES], right[SIDE_VALUES];
-    displacement_at_side(left, w, first, top, shift);
-    for (int32_t column = first; column <= last;) {
-        const int32_t n = min_i32(last + 1 - column, apart), part = 256 / n;
+    bool known = false;
+    for (int32_t column = first, n; column <= last; column += n) {
+        n = min_i32(last + 1 - column, apart);
+        if (column + n <= wanted.low || column >= wanted.high)
+            continue;
+        const int32_t part = 256 / n;
         int32_t from[SIDE_VALUES], to[SIDE_VALUES], step[SIDE_VALUES];
+        if (!known)
+            displacement_at_side(left, w, column, top, shift);
+        known = true;
         displacement_at_side(right, w, column + n, top, shift);
         for (int i = 0; i < SIDE_VALUES; i++) {
             from[i] = left[i];
@@ -181,16 +190,16 @@ static void add_along_columns(struct smear_row_moving *r, int32_t first, int32_t
         for (int32_t k = 1; k <= n; k++) {
             for (int i = 0; i < SIDE_VALUES; i++)
                 to[i] = left[i] + (step[i] * k >> 8);
-            add_displacement(&r->travel[column + k - 1], min_i32(min_i32(from[0], from[1]), min_i32(to[0], to[1])),
-                             max_i32(max_i32(from[0], from[1]), max_i32(to[0], to[1])),
-                             min_i32(min_i32(from[2], from[3]), min_i32(to[2], to[3])),
-                             max_i32(max_i32(from[2], from[3]), max_i32(to[2], to[3])), max_i32(from[4], to[4]));
+            if (range_has(wanted, column + k - 1))
+                add_displacement(&r->travel[column + k - 1], min_i32(min_i32(from[0], from[1]), min_i32(to[0], to[1])),
+                                 max_i32(max_i32(from[0], from[1]), max_i32(to[0], to[1])),
+                                 min_i32(min_i32(from[2], from[3]), min_i32(to[2], to[3])),
+                                 max_i32(max_i32(from[2], from[3]), max_i32(to[2], to[3])), max_i32(from[4], to[4]));
             for (int i = 0; i < SIDE_VALUES; i++)
                 from[i] = to[i];
         }
         for (int i = 0; i < SIDE_VALUES; i++)
             left[i] = right[i];
-        column += n;
     }
 }
 
@@ -217,12 +226,15 @@ static struct range columns_of(const struct displacements *w, const struct smear
     return (struct range){ max_i32(r.low - reach_x - 1, b->x0), min_i32(r.high + reach_x + 2, b->x1) };
 }
 
-/* Adds what columns [x0, x1) of pixels hold to their tiles: flags, and with bounds a moving triangle. */
+/* Adds what columns [x0, x1) of pixels hold to those of their tiles that are wanted: flags, and with bounds a moving
+ * triangle. */
 static void add_to_tiles(const struct smear_window *window, struct smear_row_moving *r, int32_t x0, int32_t x1,
-                         const struct smear_path_bounds *b, const struct displacements *w, uint16_t flags, int32_t top)
+                         const struct smear_path_bounds *b, const struct displacements *w, uint16_t flags, int32_t top,
+                         struct range wanted)
 {
     const int shift = window->tile_shift;
-    int32_t first = max_i32(x0, 0) >> shift, last = (min_i32(x1, window->width) - 1) >> shift;
+    const int32_t first = max_i32(max_i32(x0, 0) >> shift, wanted.low),
+                  last = min_i32((min_i32(x1, window->width) - 1) >> shift, wanted.high - 1);
     for (int32_t column = first; column <= last; column++) {
         struct smear_tile_travel *tile = &r->travel[column];
         tile->flags |= flags;
@@ -238,7 +250,7 @@ static void add_to_tiles(const struct smear_window *window, struct smear_row_mov
         return;
     const struct range seen = columns_of(w, b, top, window->tile);
     if (seen.low < seen.high)
-        add_along_columns(r, seen.low >> shift, (seen.high - 1) >> shift, w, top, shift);
+        add_along_columns(r, seen.low >> shift, (seen.high - 1) >> shift, w, top, shift, wanted);
 }
 
 /* Finds the columns of pixels that a static triangle may cover. */
@@ -256,16 +268,17 @@ static void static_columns(const struct smear_bins *g, const struct smear_triang
 void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
                         uint32_t head, int32_t top)
 {
+    const struct range all = { 0, w->columns };
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_triangle *t = bins_triangle(g, i);
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = bins_bounds(g, i);
             const struct displacements d = displacements_of(g, i);
-            add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top);
+            add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top, all);
         } else {
             static_columns(g, t, &x0, &x1);
-            add_to_tiles(w, r, x0, x1, NULL, NULL, TILE_BLENDED, top);
+            add_to_tiles(w, r, x0, x1, NULL, NULL, TILE_BLENDED, top, all);
         }
     }
 }
@@ -331,10 +344,10 @@ static void put_covering(struct smear_block *b, const struct corners *c, const s
     }
 }
 
-/* Puts a triangle that faces the eye into the blocks whose middle it covers in the middle of the exposure; a small one
+/* Puts a triangle that faces the eye into the wanted blocks whose middle it covers in the middle of the exposure; a small one
  * into that in which it lies. */
 static void add_to_blocks(const struct smear_row_moving *r, const struct smear_bins *g, uint32_t triangle,
-                          const struct displacements *w, const struct smear_window *window, int32_t top)
+                          const struct displacements *w, const struct smear_window *window, int32_t top, struct range wanted)
 {
     const struct corners c = corners_of(g, triangle);
     if (bins_bounds(g, triangle)->interval != 0
@@ -342,15 +355,15 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct smear_b
         return;
     const int32_t x0 = min_i32(c.x[0], min_i32(c.x[1], c.x[2])), x1 = max_i32(c.x[0], max_i32(c.x[1], c.x[2])),
                   y0 = min_i32(c.y[0], min_i32(c.y[1], c.y[2])), y1 = max_i32(c.y[0], max_i32(c.y[1], c.y[2]));
-    const int32_t columns = r->blocks.columns, rows = window->tile >> BLOCK_SHIFT;
+    const int32_t rows = window->tile >> BLOCK_SHIFT;
     if (x1 - x0 < BLOCK_PX && y1 - y0 < BLOCK_PX) {
         const int32_t x = (x0 + x1) >> (1 + BLOCK_SHIFT), y = (((y0 + y1) >> 1) - top) >> BLOCK_SHIFT;
-        if (x >= 0 && x < columns && y >= 0 && y < rows)
+        if (range_has(wanted, x) && y >= 0 && y < rows)
             put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c.depth[0]);
         return;
     }
     for (int32_t y = max_i32((y0 - top) >> BLOCK_SHIFT, 0); y <= min_i32((y1 - top) >> BLOCK_SHIFT, rows - 1); y++)
-        for (int32_t x = max_i32(x0 >> BLOCK_SHIFT, 0); x <= min_i32(x1 >> BLOCK_SHIFT, columns - 1); x++)
+        for (int32_t x = max_i32(x0 >> BLOCK_SHIFT, wanted.low); x <= min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1); x++)
             put_covering(block_at(&r->blocks, x, y), &c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
                          top + (y << BLOCK_SHIFT) + BLOCK_PX / 2);
 }
@@ -368,20 +381,26 @@ void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w)
                          (size_t)(r->blocks.columns * (w->tile >> BLOCK_SHIFT)) * sizeof *r->blocks.block);
 }
 
-void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
-                       uint32_t head, int32_t top)
+void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w,
+                        uint32_t head, int32_t top, int32_t first, int32_t end)
 {
-    smear_list_again(r, g, w, head);
+    enum { BESIDE = BLOCK_PX };     /* a block may lie so far beside the pixels whose centres are covered */
+    const int shift = w->tile_shift;
+    const struct range columns = { first, end },
+                       blocks = { first << shift >> BLOCK_SHIFT, min_i32(end << shift >> BLOCK_SHIFT, r->blocks.columns) };
+    const int32_t left = (first << shift) - BESIDE, right = (end << shift) + BESIDE;
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_path_bounds *b = bins_bounds(g, i);
+        if (b->x1 <= left || b->x0 >= right)
+            continue;
         const struct displacements d = displacements_of(g, i);
-        add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top);
+        add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top, columns);
         if (r->blocks.columns != 0)
-            add_to_blocks(r, g, i, &d, w, top);
+            add_to_blocks(r, g, i, &d, w, top, blocks);
     }
 }
 
-void smear_list_again(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w, uint32_t head)
+void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w, uint32_t head)
 {
     const int shift = w->tile_shift;
     r->count = 0;

@@ -16,12 +16,13 @@ struct smear_row_moving {
 /* Begins a tile row: nothing moves in its tiles so far. */
 void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w);
 
-/* Lists the moving triangles from `head` on, with their blocks, for the tile row whose first pixel row is `top`, and adds
- * what they mean for its tiles; or lists them again, when that is known. */
-void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
-                       uint32_t head, int32_t top);
+/* Adds what the moving triangles from `head` on mean for the tiles of columns [first, end) and for their blocks, in the tile
+ * row whose first pixel row is `top`. Columns are independent of each other. */
+void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
+                        uint32_t head, int32_t top, int32_t first, int32_t end);
 
-void smear_list_again(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
+/* Lists the moving triangles from `head` on. */
+void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
                       uint32_t head);
 
 /* Marks the tiles of blended draws, from `head` on. */
