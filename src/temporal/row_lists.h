@@ -23,7 +23,7 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *bin
 
 /* Lists the moving triangles from `head` on. */
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
-                      uint32_t head);
+                       uint32_t head);
 
 /* Marks the tiles of blended draws, from `head` on. */
 void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
