@@ -215,16 +215,14 @@ void smear_draws_find_damage(struct smear_context *c)
         c->assembler.damaged = &d->tiles;
 }
 
-/* Whether static draw `i` must be drawn: the tiles in which it was seen say so where the display keeps them. *seen is the
- * box of the static draw before, or null. */
-static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen)
+/* Whether a static draw must be drawn: the tiles in which it was seen say so where the display keeps them, if all that are
+ * damaged are known. *seen is the box of the static draw before, or null. */
+static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen, bool known)
 {
     *seen = *seen == NULL ? d->seen : *seen + 1;
-    if (d->is_same && !tile_box_is_damaged(&d->tiles, **seen))
-        return false;
-    d->tiles.only = d->is_same;
+    d->tiles.only = d->is_same && known;
     d->tiles.seen = d->is_same ? NULL : *seen;
-    return true;
+    return !d->tiles.only || tile_box_is_damaged(&d->tiles, **seen);
 }
 
 /* What moves by less than a step of its vertices is drawn among what is static, and in order with it. */
@@ -235,8 +233,8 @@ static bool static_is_disturbed(const struct smear_context *c)
 
 /* ------------------------------------------------------------------ assembling */
 
-/* Which draws are assembled. */
-enum draws { DRAWS_ALL, DRAWS_MOVING, DRAWS_STATIC };
+/* Which draws are assembled; in order: all of them, and static ones only where they must be drawn. */
+enum draws { DRAWS_ALL, DRAWS_IN_ORDER, DRAWS_MOVING, DRAWS_STATIC };
 
 /* The kind of draw that a fill takes. */
 static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
@@ -255,7 +253,7 @@ static bool fill_lacks(const struct smear_context *c, const struct smear_refill 
 
 static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
 {
-    return (kind == DRAWS_ALL || draw_is_static(c, i) == (kind == DRAWS_STATIC))
+    return (kind <= DRAWS_IN_ORDER || draw_is_static(c, i) == (kind == DRAWS_STATIC))
         && !(static_is_cached(c->damage) && draw_is_static(c, i));
 }
 
@@ -277,6 +275,18 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
 }
 
+/* Whether a draw of the kind must be drawn. */
+static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool known, struct smear_tile_box **seen)
+{
+    if (kind == DRAWS_ALL)
+        return true;
+    if (draw_is_static(c, i))
+        return is_damaged(c->damage, seen, known);
+    c->damage->tiles.only = false;
+    c->damage->tiles.seen = NULL;
+    return true;
+}
+
 /* Assembles draws into what `as` names. False when the store is full: of a fill, the rest is noted. */
 static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
                           struct smear_refill *f, enum draws kind)
@@ -284,8 +294,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     struct smear_tile_box *seen = NULL;
     for (uint32_t k = 0; k < c->draw_count; k++) {
         const uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
-        if (!is_of_kind(c, i, kind) || (kind == DRAWS_STATIC && !is_damaged(c->damage, &seen))
-            || (f != NULL && !fill_lacks(c, f, k, i)))
+        if (!is_of_kind(c, i, kind) || !is_wanted(c, i, kind, f == NULL, &seen) || (f != NULL && !fill_lacks(c, f, k, i)))
             continue;
         if (f != NULL && k == f->draw)
             as->resume = (struct smear_resume){ f->triangle, f->parts };
@@ -302,24 +311,28 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
 }
 
 /* Assembles all draws. Where the display keeps tiles, what moves comes first: it says in which of them something must
- * be drawn. */
+ * be drawn. If some of it is drawn among what is static, the nearest of which wins or else the first, all is assembled
+ * again in order. So are fills, which know no more than is in them. */
 static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
                            struct smear_refill *f)
 {
     if (!assembler_has_damage(as))
         return assemble_kind(c, as, instant, f, DRAWS_ALL);
-    c->damage->tiles.only = false;
-    c->damage->tiles.seen = NULL;
-    if (f == NULL || f->pass == 0) {
-        if (!assemble_kind(c, as, instant, f, DRAWS_MOVING))
+    if (f == NULL) {
+        const uint32_t drawn = as->triangles_drawn, dropped = as->triangles_dropped, among = as->path_static_count,
+                       beside = c->stats.draws_beside;
+        if (!assemble_kind(c, as, instant, NULL, DRAWS_MOVING))
             return false;
-        if (f != NULL) {
-            f->pass = 1;
-            f->draw = f->triangle = 0;
-            f->parts = 0;
-        }
+        if (as->path_static_count == among)
+            return assemble_kind(c, as, instant, NULL, DRAWS_STATIC);
+        smear_bins_reset(as->bins, as->bins->row_first, as->bins->row_end);
+        smear_assembler_reset(as);
+        as->triangles_drawn = drawn;
+        as->triangles_dropped = dropped;
+        as->path_static_count = among;
+        c->stats.draws_beside = beside;
     }
-    return assemble_kind(c, as, instant, f, DRAWS_STATIC);
+    return assemble_kind(c, as, instant, f, DRAWS_IN_ORDER);
 }
 
 #if SMEAR_FAST_STACK

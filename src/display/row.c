@@ -118,7 +118,6 @@ bool smear_row_fill_columns(struct smear_rows *rows, int row, int kinds, int32_t
     f->path_x0 = x0;
     f->path_x1 = x1;
     f->kinds = (uint8_t)kinds;
-    f->pass = 0;
     f->draw = f->triangle = 0;
     f->parts = 0;
     f->fill(f);

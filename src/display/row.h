@@ -39,7 +39,6 @@ struct smear_refill {
     int32_t path_x0, path_x1;   /* as in struct smear_assembler */
     /* What the fill had no room for comes next; more than that: */
     bool more;
-    uint8_t pass;
     bool failed;                /* a tile cannot be drawn of several fills */
     uint32_t draw, triangle;
     uint16_t parts;

@@ -178,6 +178,11 @@ static void make_surface(struct fuzz_case *c, smear_mesh *m)
     m->uv = uv;
 }
 
+static bool has(const smear_desc *d, unsigned set)
+{
+    return (d->methods & set) != 0;
+}
+
 static void make_mesh(struct fuzz_case *c, int at)
 {
     struct source *s = &c->source;
@@ -189,9 +194,10 @@ static void make_mesh(struct fuzz_case *c, int at)
     const bool huge = at == 0 && source_chance(s, c->large ? 8 : 800);
     if (huge) /* in parts, it would take minutes */
         c->desc.max_triangles = 20000;
-    if (grid && huge) {
-        across = source_range(s, 100, 254);
-        down = source_range(s, 100, 255);
+    if (grid && huge) { /* the near plane may cut each triangle of a path 16 times */
+        const bool paths = has(&c->desc, SMEAR_SET_TEMPORAL);
+        across = source_range(s, 60, paths ? 80 : 254);
+        down = source_range(s, 60, paths ? 80 : 255);
     }
     if (grid) {
         vertices = (across + 1) * (down + 1);
@@ -357,11 +363,6 @@ static const unsigned sets[] = {
     SMEAR_SET(SMEAR_LAYERED), SMEAR_SET_TEMPORAL, SMEAR_SET_FILTERS, SMEAR_SET_LAYERS,
     SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_ACCUMULATE)
 };
-
-static bool has(const smear_desc *d, unsigned set)
-{
-    return (d->methods & set) != 0;
-}
 
 /* Tiles, strips and bands that go with the methods and the reach. */
 static void make_tiles(struct source *s, smear_desc *d)

@@ -393,6 +393,26 @@ static void test_what_creeps_is_sent_all_the_same(void)
     display_end(&d);
 }
 
+/* Of two that are equally near the first is seen, though what creeps is assembled first. */
+static void test_what_creeps_stays_behind_what_came_before_it(void)
+{
+    for (int buffers = 1; buffers <= 3; buffers++) {
+        struct display d;
+        struct set s;
+        set_up(&s, SMEAR_AUTO);
+        s.material[PANE].alpha = SMEAR_OPAQUE;
+        s.mesh[MOVER] = square;
+        if (display_begin(&d, desc_of(buffers == 2 ? 6 : 400, true), buffers))
+            for (int i = 0; i < 8; i++) {
+                s.pose[MOVER] = s.pose[PANE];
+                s.pose[MOVER].origin[0] += i;
+                shown(&d, &s);
+                s.camera.pose.origin[0] += i == 5;      /* all is drawn again */
+            }
+        display_end(&d);
+    }
+}
+
 static void test_the_display_is_right_after_other_methods_and_failures(void)
 {
     static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
@@ -432,6 +452,7 @@ void suite_still(void)
     RUN(test_a_display_is_sent_what_it_does_not_show);
     RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
     RUN(test_what_creeps_is_sent_all_the_same);
+    RUN(test_what_creeps_stays_behind_what_came_before_it);
     RUN(test_the_display_is_right_after_other_methods_and_failures);
     RUN(test_only_contexts_with_temporal_methods_reuse);
 }
