@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# all.sh - every suite, one after the other; `make test` calls it. The last line adds up: N passed, N failed.
+# all.sh - every suite; `make test` calls it. Those of other machines run beside those of this one. The last line adds up: N
+# passed, N failed.
 set -u
 . "$(dirname "$0")/shell/suites.sh"
 
@@ -28,6 +29,66 @@ pico() {
     return 1
 }
 
+# Other machines: what they share with this one's suites is built before.
+targets() {
+    if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
+        for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
+            suite "target-$target" $make -s TARGET=$target target-test
+            suite "demo-$target" $make -s TARGET=$target demo-test
+        done
+        for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba raspi0; do
+            suite "symbols-$target" $make -s TARGET=$target symbols-test
+        done
+        suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
+        suite tiny $make -s TARGET=microbit tiny-test
+        suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
+        suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
+        suite target-raspi0 $make -s TARGET=raspi0 target-test
+        if needs python3 "python3"; then
+            suite demo-raspi0 $make -s TARGET=raspi0 demo-test
+            suite raspi0-320 $make -s TARGET=raspi0 SCREEN=pi-320 demo-test
+        fi
+        if pico; then
+            suite demo-pico $make -s TARGET=pico demo-test
+            suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
+            suite pico-stranger sh tests/shell/pico_stranger.sh tests/data/arm.gltf
+        fi
+        suite model sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
+        if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
+            suite target-gba $make -s TARGET=gba target-test
+            suite demo-gba $make -s TARGET=gba demo-test
+            suite gba-cartridge sh tests/shell/gba_cartridge.sh
+        fi
+        suite objects-cortex-m0plus sh tests/shell/target_objects.sh build/objects
+        # 47.5 kB of code for the renderer and its filter: all surfaces and formats, SMEAR_RECONSTRUCT and SMEAR_ACCUMULATE. (40 kB
+        # is the aim; small textured triangles, rows drawn from several fills, fields told apart, poses that are copied take the rest.)
+        suite objects-core env CODE_LIMIT=48640 NOT_CALLED="smear_filter_begin smear_filter_row" \
+            SWITCHES="$(sh tests/shell/core_switches.sh)" sh tests/shell/target_objects.sh build/objects-core
+    fi
+    if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
+        suite target-rv32imc $make -s TARGET=rv32imc target-test
+        suite symbols-rv32imc $make -s TARGET=rv32imc symbols-test
+        suite demo-rv32imc $make -s TARGET=rv32imc demo-test
+    fi
+    if needs arm-linux-gnueabi-gcc "gcc-arm-linux-gnueabi libc6-dev-armel-cross" && needs qemu-arm-static "qemu-user-static"; then
+        suite target-linux-armel $make -s TARGET=linux-armel target-test
+        suite demo-linux-armel $make -s TARGET=linux-armel demo-test
+    fi
+    if needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
+        suite target-linux-armhf $make -s TARGET=linux-armhf target-test
+        suite demo-linux-armhf $make -s TARGET=linux-armhf demo-test
+    fi
+    if needs aarch64-linux-gnu-gcc "gcc-aarch64-linux-gnu libc6-dev-arm64-cross" && needs qemu-aarch64-static "qemu-user-static"; then
+        suite target-linux-aarch64 $make -s TARGET=linux-aarch64 target-test
+        suite demo-linux-aarch64 $make -s TARGET=linux-aarch64 demo-test
+    fi
+    if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
+        && needs qemu-s390x-static "qemu-user-static"; then
+        suite target-s390x $make -s TARGET=s390x target-test
+        suite demo-s390x $make -s TARGET=s390x demo-test
+    fi
+}
+
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite includes $make -s layers
@@ -35,7 +96,9 @@ suite house $make -s house
 if needs clang-format-14 "clang-format-14"; then
     suite format $make -s format-check
 fi
-suite build $make -s $jobs all build/host/run
+suite build $make -s $jobs all build/host/run build/host/demo build/host/game build/host/tiny build/tapes/golden.c \
+    build/tapes/small.c build/demo/target_screen
+beside targets
 suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
 suite table-file $make -s test-tables
@@ -106,62 +169,6 @@ if needs qemu-system-x86_64 "qemu-system-x86"; then
         build/host/view_linux_init build/host/mkcpio
     suite demo-linux $make -s TARGET=linux demo-test
 fi
-if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
-    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
-        suite "target-$target" $make -s TARGET=$target target-test
-        suite "demo-$target" $make -s TARGET=$target demo-test
-    done
-    for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba raspi0; do
-        suite "symbols-$target" $make -s TARGET=$target symbols-test
-    done
-    suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
-    suite tiny $make -s TARGET=microbit tiny-test
-    suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
-    suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
-    suite target-raspi0 $make -s TARGET=raspi0 target-test
-    if needs python3 "python3"; then
-        suite demo-raspi0 $make -s TARGET=raspi0 demo-test
-        suite raspi0-320 $make -s TARGET=raspi0 SCREEN=pi-320 demo-test
-    fi
-    if pico; then
-        suite demo-pico $make -s TARGET=pico demo-test
-        suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
-        suite pico-stranger sh tests/shell/pico_stranger.sh tests/data/arm.gltf
-    fi
-    suite model sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
-    if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
-        suite target-gba $make -s TARGET=gba target-test
-        suite demo-gba $make -s TARGET=gba demo-test
-        suite gba-cartridge sh tests/shell/gba_cartridge.sh
-    fi
-    suite objects-cortex-m0plus sh tests/shell/target_objects.sh build/objects
-    # 47.5 kB of code for the renderer and its filter: all surfaces and formats, SMEAR_RECONSTRUCT and SMEAR_ACCUMULATE. (40 kB
-    # is the aim; small textured triangles, rows drawn from several fills, fields told apart, poses that are copied take the rest.)
-    suite objects-core env CODE_LIMIT=48640 NOT_CALLED="smear_filter_begin smear_filter_row" \
-        SWITCHES="$(sh tests/shell/core_switches.sh)" sh tests/shell/target_objects.sh build/objects-core
-fi
-if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
-    suite target-rv32imc $make -s TARGET=rv32imc target-test
-    suite symbols-rv32imc $make -s TARGET=rv32imc symbols-test
-    suite demo-rv32imc $make -s TARGET=rv32imc demo-test
-fi
-if needs arm-linux-gnueabi-gcc "gcc-arm-linux-gnueabi libc6-dev-armel-cross" && needs qemu-arm-static "qemu-user-static"; then
-    suite target-linux-armel $make -s TARGET=linux-armel target-test
-    suite demo-linux-armel $make -s TARGET=linux-armel demo-test
-fi
-if needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
-    suite target-linux-armhf $make -s TARGET=linux-armhf target-test
-    suite demo-linux-armhf $make -s TARGET=linux-armhf demo-test
-fi
-if needs aarch64-linux-gnu-gcc "gcc-aarch64-linux-gnu libc6-dev-arm64-cross" && needs qemu-aarch64-static "qemu-user-static"; then
-    suite target-linux-aarch64 $make -s TARGET=linux-aarch64 target-test
-    suite demo-linux-aarch64 $make -s TARGET=linux-aarch64 demo-test
-fi
-if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" \
-    && needs qemu-s390x-static "qemu-user-static"; then
-    suite target-s390x $make -s TARGET=s390x target-test
-    suite demo-s390x $make -s TARGET=s390x demo-test
-fi
 if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     suite fuzz-corpus $make -s $jobs fuzz-corpus
     suite fuzz-frames $make -s $jobs fuzz MINUTES=1
@@ -170,4 +177,5 @@ if needs clang-14 "clang-14 libclang-rt-14-dev"; then
     fi
 fi
 
+join
 add_up

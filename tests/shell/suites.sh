@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# suites.sh - runs suites one after the other and adds up; sourced by all.sh and check.sh. Each suite's output goes to
+# suites.sh - runs suites and adds up; sourced by all.sh and check.sh. Each suite's output goes to
 # build/test/NAME.log and is shown when it fails.
 #
 # A suite whose tools are missing is named together with the command that installs them. With CI=true that is a
@@ -33,11 +33,38 @@ suite() {
     fi
     passed=$((passed + good))
     failed=$((failed + bad))
-    printf '%-28s %4d passed, %d failed  (%d s)\n' "$name" "$good" "$bad" $(($(date +%s) - before))
-    if [ "$bad" -gt 0 ]; then
-        echo "--- $log/$name.log"
-        tail -n 60 "$log/$name.log"
-        echo "---"
+    # Printed in one piece, as another lane may print, too.
+    line=$(printf '%-28s %4d passed, %d failed  (%d s)' "$name" "$good" "$bad" $(($(date +%s) - before)))
+    [ "$bad" -eq 0 ] || line="$line
+--- $log/$name.log
+$(tail -n 60 "$log/$name.log")
+---"
+    printf '%s\n' "$line"
+}
+
+# beside LANE: starts a function of suites beside those that follow, which write no file that these use. join waits for it
+# and adds up.
+beside() {
+    lane=$1
+    rm -f "$log/$lane.count"
+    (
+        passed=0 failed=0 missing=0
+        "$lane"
+        echo "$passed $failed $missing" >"$log/$lane.count"
+    ) &
+    lane_pid=$!
+}
+
+join() {
+    wait "$lane_pid"
+    if [ -f "$log/$lane.count" ]; then
+        read -r lane_passed lane_failed lane_missing <"$log/$lane.count"
+        passed=$((passed + lane_passed))
+        failed=$((failed + lane_failed))
+        missing=$((missing + lane_missing))
+    else
+        echo "suites of $lane ended early"
+        failed=$((failed + 1))
     fi
 }
 
