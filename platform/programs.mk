@@ -281,6 +281,20 @@ model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
 	HOOKS='$(SYMBOLS_HOOKS)' sh tests/shell/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
+# A target that says how large its stacks are (STACK, and STACK_WORK of what runs smear_work) has room for the library's worst
+# by the compiler's call graph, and for STACK_PROGRAM bytes of the program and its callbacks.
+STACK_PROGRAM ?= 300
+
+.PHONY: stack-test
+## the library's worst stack fits the one that TARGET has for it
+stack-test:
+	$(MAKE) --no-print-directory -s BUILD=$(BUILD)/stack OPT="$(OPT) -fcallgraph-info=su" $(BUILD)/stack/libsmear.a
+	awk -f platform/stack.awk $(BUILD)/stack/src/*.ci $(BUILD)/stack/src/*/*.ci > $(BUILD)/stack.txt
+	awk -v room='smear_render $(STACK) smear_work $(STACK_WORK)' -v own=$(STACK_PROGRAM) \
+	    'BEGIN { n = split(room, word); for (i = 1; i < n; i += 2) most[word[i]] = word[i + 1] } \
+	     $$2 in most { print $$2, $$1, "and", own, "of", most[$$2]; checked++; over += $$1 + own > most[$$2] } \
+	     END { exit over || checked != int(n / 2) }' $(BUILD)/stack.txt
+
 .PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
 ## unit tests and golden frames on TARGET

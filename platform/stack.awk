@@ -5,11 +5,12 @@
 #
 # Prints "BYTES FUNCTION" for every function of the interface. What calls through a pointer can reach is
 # listed here by the file that calls; another such file, recursion, or a frame of unknown size is an
-# error. The program's own callbacks (flush, idle, clock, inspect) count nothing.
+# error. Jobs are those of the file that has them run. The program's own callbacks (flush, idle, clock, inspect) count
+# nothing.
 #
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
-    reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_run is given
+    reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_work is given, by any file
     reach["src/display/row.c"] = "(draws\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"         # draws.c: a row whose triangles find no room at once
     reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
@@ -43,7 +44,7 @@ function field(name,    text) {
     to = field("targetname")
     if (to == "__indirect_call") {
         split(field("label"), place, ":")
-        if (place[1] in is_callback && !(place[1] in reach))
+        if ((place[1] in is_callback && !(place[1] in reach)) || (place[1] == "src/base/jobs.c" && from != "smear_jobs_work" && root == ""))
             next
         if (!(place[1] in reach)) {
             print "stack.awk: calls through a pointer, to where? " from " (" field("label") ")"
@@ -51,6 +52,10 @@ function field(name,    text) {
             next
         }
         to = "@" place[1]
+    } else if (root == "" && to ~ /^smear_(jobs|row)_run$/ && from != "smear_row_run") {
+        split(field("label"), place, ":")
+        to = "%" place[1]
+        runs_jobs[place[1]] = 1
     }
     if (!((from, to) in seen)) {
         seen[from, to] = 1
@@ -76,13 +81,25 @@ function depth(f,    callee, count, i, deepest, d) {
     return known[f] = own[f] + deepest
 }
 END {
+    for (file in runs_jobs) {               # what runs a job, without what it calls beside
+        own["%" file] = depth("smear_row_run") > 0 ? depth("smear_row_run") : depth("smear_jobs_run")
+        for (f in own)
+            if (f ~ ("^" file ":.*_job(\\.|$)"))
+                edge["%" file] = edge["%" file] SUBSEP f
+    }
+    delete known
     for (file in reach)
         for (f in own)
             if (f ~ reach[file])
                 edge["@" file] = edge["@" file] SUBSEP f
     for (f in own)
-        if (root != "" ? f == root : f ~ /^smear_(memory_size|init|begin|submit|render|work|filter_begin|filter_row)$/)
+        if (root != "" ? f == root : f ~ /^smear_(memory_size|init|begin|submit|render|filter_begin|filter_row)$/)
             print depth(f), f | "sort -rn"
+    # Core 0 alone fills a row's store again, between jobs or in place of them.
+    delete known
+    edge["@src/display/row.c"] = edge["@src/methods/temporal.c"] = edge["@src/temporal/subframes.c"] = ""
+    if (root == "" && "smear_work" in own)
+        print depth("smear_work"), "smear_work" | "sort -rn"
     close("sort -rn")
     exit bad
 }

@@ -337,8 +337,7 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
 
 #if SMEAR_FAST_STACK
 /* Assembles with the assembler's state on the stack, where that is faster. */
-static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant,
-                                         struct smear_refill *f)
+static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant)
 {
     enum { VERTICES = 64 };
     struct smear_cached_vertex cache[VERTICES];
@@ -349,7 +348,7 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct s
     as.cache_mask = VERTICES - 1;
     as.serial = 0;
     smear_assembler_reset(&as);
-    const bool done = assemble_draws(c, &as, instant, f);
+    const bool done = assemble_draws(c, &as, instant, NULL);
     c->rows.bins = bins;
     c->assembler.path_count = as.path_count;
     c->assembler.path_static_count = as.path_static_count;
@@ -548,20 +547,30 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
 }
 #endif
 
-/* Assembles all draws for the tile rows [first, end), or those of a fill, on one core. False when the store is full. */
-static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end,
-                                         const struct smear_instant *instant, struct smear_refill *f)
+/* Assembles all draws for the tile rows [first, end) on one core. False when the store is full. */
+static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct smear_instant *instant)
 {
     smear_bins_reset(&c->rows.bins, first, end);
-    c->assembler.refills = f != NULL;
-    c->assembler.path_x0 = f != NULL ? (int16_t)f->path_x0 : 0;
-    c->assembler.path_x1 = f != NULL ? (int16_t)f->path_x1 : INT16_MAX;
+    c->assembler.refills = false;
+    c->assembler.path_x0 = 0;
+    c->assembler.path_x1 = INT16_MAX;
 #if SMEAR_FAST_STACK
     if (!has_layers(c))
-        return assemble_fast(c, instant, f);
+        return assemble_fast(c, instant);
 #endif
     smear_assembler_reset(&c->assembler);
-    return assemble_draws(c, &c->assembler, instant, f);
+    return assemble_draws(c, &c->assembler, instant, NULL);
+}
+
+/* Assembles the draws of a fill. The stack is deep where one is wanted: nothing is kept on it. False when the store is full. */
+static SMEAR_NOINLINE bool assemble_fill(struct smear_context *c, struct smear_refill *f)
+{
+    smear_bins_reset(&c->rows.bins, f->row, f->row + 1);
+    c->assembler.refills = true;
+    c->assembler.path_x0 = (int16_t)f->path_x0;
+    c->assembler.path_x1 = (int16_t)f->path_x1;
+    smear_assembler_reset(&c->assembler);
+    return assemble_draws(c, &c->assembler, (const struct smear_instant *)f->instant, f);
 }
 
 /* Assembles all draws for the tile rows [first, end), on several cores where that is faster. Fills, which a job may ask for,
@@ -579,7 +588,7 @@ static bool assemble_all(struct smear_context *c, int first, int end, const stru
             return true;
     }
 #endif
-    return assemble_rows(c, first, end, instant, NULL);
+    return assemble_rows(c, first, end, instant);
 }
 
 /* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row, or the memory in which a
@@ -629,7 +638,7 @@ static void fill(struct smear_refill *f)
     const smear_stats stats = c->stats;
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     c->in_parts = false;
-    f->more = !assemble_rows(c, f->row, f->row + 1, (const struct smear_instant *)f->instant, f);
+    f->more = !assemble_fill(c, f);
     note_fills(c);
     if ((f->kinds & ~f->counted) == 0) {
         c->assembler.triangles_drawn = drawn;

@@ -36,6 +36,9 @@ RUN_BENCH := platform/gba/run.sh
 TARGET_TESTS := golden
 SYMBOLS_HOOKS := gba_enter_stage
 
+# Of gba.ld.
+STACK := 7168
+
 DISPLAY_SRC := platform/gba/display.c
 DEMO_SCREEN := gba
 DEMO_LOOPS  := gba:1 oled:6 gba-full:6
@@ -70,6 +73,7 @@ $(BUILD)/%.gba: $(BUILD)/%.elf $(BUILD)/cartridge always
 
 demo-firmware: $(BUILD)/demo.gba
 model-firmware: $(BUILD)/model.gba
+game-firmware: $(BUILD)/game.gba
 
 symbols-test: gba-stages-test
 

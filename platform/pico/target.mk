@@ -23,6 +23,10 @@ RUN_BENCH := sh platform/pico/cost.sh
 
 TARGET_TESTS :=
 
+# Core 0 has the SDK's two banks, core 1 an array of board.c.
+STACK      := 8192
+STACK_WORK := $(shell sed -n 's/.*CORE1_STACK = \([0-9]*\).*/\1/p' platform/pico/board.c)
+
 PICO_WIDTH  := $(shell awk -F '[^A-Za-z0-9_]+' '$$1 == "BOARD" && $$2 == "$(BOARD)" { print $$4 }' platform/pico/boards.h)
 DEMO_SCREEN := pico-$(PICO_WIDTH)
 DEMO_LOOPS  := $(DEMO_SCREEN):24
