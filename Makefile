@@ -467,7 +467,7 @@ $(BUILD)/demo-screen $(BUILD)/model-screen $(BUILD)/game-screen: $(BUILD)/platfo
 
 ## a race in a window or terminal: left and right steer, down brakes; build/host/game-screen
 game: $(BUILD)/game-screen
-	SMEAR_FPS=30 $< show window
+	$< show window
 
 ## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost

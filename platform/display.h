@@ -22,6 +22,9 @@ void display_show(void);
 /* The frame stays in view for a moment. False where nobody is looking: the program may end. */
 bool display_wait(void);
 
+/* Milliseconds since the display was opened. */
+uint32_t display_time(void);
+
 enum display_key {
     KEY_UP = 1, KEY_DOWN = 2, KEY_LEFT = 4, KEY_RIGHT = 8,
     KEY_A = 16,                     /* select on boards with one button */

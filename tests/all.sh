@@ -50,6 +50,8 @@ targets() {
         fi
         if pico; then
             suite demo-pico $make -s TARGET=pico demo-test
+            suite game-pico $make -s TARGET=pico game-test
+            suite stack-pico $make -s TARGET=pico stack-test
             suite pico sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
             suite pico-stranger sh tests/shell/pico_stranger.sh tests/data/arm.gltf
         fi
@@ -57,6 +59,8 @@ targets() {
         if [ -e /usr/include/mgba/flags.h ] || needs libmgba "libmgba-dev"; then
             suite target-gba $make -s TARGET=gba target-test
             suite demo-gba $make -s TARGET=gba demo-test
+            suite game-gba $make -s TARGET=gba game-test
+            suite stack-gba $make -s TARGET=gba stack-test
             suite gba-cartridge sh tests/shell/gba_cartridge.sh
         fi
         suite objects-cortex-m0plus sh tests/shell/target_objects.sh build/objects
@@ -77,6 +81,7 @@ targets() {
     if needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
         suite target-linux-armhf $make -s TARGET=linux-armhf target-test
         suite demo-linux-armhf $make -s TARGET=linux-armhf demo-test
+        suite game-linux-armhf $make -s TARGET=linux-armhf game-test
     fi
     if needs aarch64-linux-gnu-gcc "gcc-aarch64-linux-gnu libc6-dev-arm64-cross" && needs qemu-aarch64-static "qemu-user-static"; then
         suite target-linux-aarch64 $make -s TARGET=linux-aarch64 target-test

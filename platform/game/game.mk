@@ -2,20 +2,36 @@
 # game.mk - the game as firmware for TARGET, and as a program of this machine. the Makefile includes it after programs.mk.
 #
 #   make game                                plays it in a window or terminal
+#   make TARGET=gba game-firmware             for a board with a display: pico, gba, raspi0, linux, linux-armhf ...
+#   make TARGET=gba game-run                  shows it, or starts it
 #   make TARGET=cortex-m0plus game-test      drives the recorded race there: frames and times of platform/game/lap.txt
 #   make TARGET=cortex-m0plus game-cost      what its frames cost
 
-GAME_SCREEN ?= pico
+GAME_SCREEN ?= $(DEMO_SCREEN)
 GAME_STEP   ?= 200
 GAME_OBJ    := $(patsubst %.c,$(BUILD)/%.o,$(wildcard platform/game/*.c))
 
 $(BUILD)/platform/game/main.o: CFLAGS += -D'GAME_SCREEN="$(GAME_SCREEN)"'
 
+ifdef PROJECT
+$(BUILD)/game$(EXE): always
+	$(call say,BUILD)
+	$(PROJECT) $(BUILD) game $(BOARD)
+else
 $(BUILD)/game$(EXE): $(GAME_OBJ) $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(LIB) $(SCRIPTS)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $@ $(filter %.o,$^) $(LIB) $(LDLIBS)
+endif
 
-.PHONY: game game-test game-cost
+.PHONY: game game-firmware game-run game-test game-cost
+## the game as firmware for TARGET
+game-firmware: $(BUILD)/game$(EXE)
+	$(if $(SIZE),$(SIZE) $<)
+
+## shows it, as demo-run does
+game-run: $(BUILD)/game$(SHOWN)$(EXE) $(RUN_NEEDS)
+	@$(SHOW)
+
 ## the recorded race on TARGET: the frames and times of platform/game/lap.txt
 game-test: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 	$(RUN) $< check $(GAME_SCREEN) $(GAME_STEP) > $(BUILD)/game.txt

@@ -20,15 +20,25 @@
 #define GAME_SCREEN "pico"
 #endif
 
-/* Triangle lists have room for what is in view at once. */
+/* Names are those of the demo's screens (platform/demo_player.c); "pico" is a panel of 128x128. Triangle lists have room for
+ * what is in view at once. */
+#define SCREEN(name, w, h, pixels, buffers, px, columns, triangles)                                                     \
+    { name, { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,                \
+              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .methods = SMEAR_SET(SMEAR_AUTO), .reuse.one_pose = 1 } }
+
 static const struct screen {
     const char *name;
     smear_desc desc;
 } screens[] = {
-    { "pico", { .width = 128, .height = 128, .format = SMEAR_RGB565_SWAPPED, .bands = 2, .tile = 16, .strip = 64,
-                .max_triangles = 420, .max_draws = VIEW_DRAWS, .reuse.one_pose = 1 } },
-    { "window", { .width = 640, .height = 480, .format = SMEAR_XRGB8888, .bands = 1, .max_triangles = 800,
-                  .max_draws = VIEW_DRAWS, .reuse.one_pose = 1 } }
+    SCREEN("pico", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
+    SCREEN("pico-128", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
+    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 128, 480),
+    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 160, 480),
+    SCREEN("gba", 120, 80, SMEAR_RGB555, 1, 16, 0, 420),
+    SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800),
+    SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800),
+    SCREEN("linux", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800),
+    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800)
 };
 
 static struct {
@@ -146,6 +156,23 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
 
 /* ------------------------------------------------------------------ somebody plays */
 
+/* Returns how many frames of 1/30 s the race goes on by, so that it takes as long on any machine: where one is drawn more slowly
+ * some are not drawn. Waits while it is too early for the next. */
+static uint32_t frames_due(uint32_t gone)
+{
+    enum { MOST = 6 };      /* after a pause the race does not jump */
+    static uint32_t skipped;
+    for (;;) {
+        const uint32_t due = display_time() * 3 / 100 - gone - skipped;
+        if (due > MOST) {
+            skipped += due - MOST;
+            return MOST;
+        }
+        if (due != 0 || !display_wait())
+            return 1;
+    }
+}
+
 static int show(const struct screen *screen)
 {
     enum { PATIENCE = 300 };
@@ -156,20 +183,23 @@ static int show(const struct screen *screen)
     if (result != SMEAR_OK)
         return failed(smear_error_text(result));
     display_attach(game.ctx);
-    uint32_t idle = 0;
+    uint32_t idle = 0, gone = 0;
     bool plays_itself = false;
     for (unsigned before = 0; result == SMEAR_OK;) {
         const unsigned keys = display_keys(), pressed = keys & ~before;
+        const uint32_t due = frames_due(gone);
         before = keys;
-        idle = keys != 0 ? 0 : idle + 1;
-        const bool again = (pressed & KEY_START) != 0 || (plays_itself && keys != 0) || (!plays_itself && idle == PATIENCE)
+        gone += due;
+        idle = keys != 0 ? 0 : idle + due;
+        const bool again = (pressed & KEY_START) != 0 || (plays_itself && keys != 0) || (!plays_itself && idle >= PATIENCE)
                         || (plays_itself && game.race.finished != 0 && game.race.frame > game.race.finished + 90);
         if (again) {
             plays_itself = idle >= PATIENCE;
             game.event = game.left = 0;
             race_begin(&game.race);
         }
-        race_step(&game.race, plays_itself ? recorded_keys() : keys);
+        for (uint32_t i = 0; i < due; i++)
+            race_step(&game.race, plays_itself ? recorded_keys() : keys);
         result = draw_frame();
         if (result == SMEAR_OK)
             display_show();
@@ -183,7 +213,7 @@ int main(int argc, char **argv)
     const struct screen *screen = find_screen(argc > 2 ? argv[2] : GAME_SCREEN);
     const uint32_t step = argc > 3 ? read_decimal(argv[3]) : 10;
     if (screen == NULL || step < 2)
-        return failed("usage: game [show | check | cost [pico | window [STEP]]], STEP at least 2");
+        return failed("usage: game [show | check | cost [SCREEN [STEP]]], SCREEN pico, gba, linux ... (main.c), STEP at least 2");
     if (is_word(command, "show"))
         return show(screen);
     if (is_word(command, "check") || is_word(command, "cost"))

@@ -20,6 +20,7 @@ static struct {
     uint32_t row_bytes;             /* from row to row in video memory */
     uint32_t hidden;                /* page that is written to */
     volatile bool is_waiting;       /* for the blank that shows the last frame */
+    volatile uint32_t blanks;       /* so far: 16.74 ms each */
 } screen;
 
 static GBA_FAST void interrupt(void)
@@ -28,6 +29,7 @@ static GBA_FAST void interrupt(void)
         GBA_DISPLAY_CONTROL = (uint16_t)(GBA_DISPLAY_CONTROL ^ SHOW_PAGE_1);
         screen.is_waiting = false;
     }
+    screen.blanks++;
     GBA_INTERRUPT_FLAGS = VERTICAL_BLANK;
     GBA_BIOS_FLAGS |= VERTICAL_BLANK;
 }
@@ -95,6 +97,8 @@ bool display_wait(void)
     }
     return true;
 }
+
+uint32_t display_time(void) { return screen.blanks * 16 + (screen.blanks >> 1) + (screen.blanks >> 2); }
 
 unsigned display_keys(void)
 {

@@ -48,7 +48,8 @@ static struct {
     struct golden golden;
     struct script script;
     long frame, frames;         /* shown; to be shown, 0: no end */
-    double period_us, next_us;
+    double period_us, next_us, opened_us;
+    bool repeats;               /* what is recorded, played again or checked goes by frames of 1/30 s, not by the clock */
     unsigned pressed;           /* since display_keys was asked last */
 } display;
 
@@ -176,7 +177,9 @@ bool display_open(smear_desc *desc)
         say("no display", &f);
         return false;
     }
-    display.next_us = clock_us();
+    display.next_us = display.opened_us = clock_us();
+    display.repeats = display.frames > 0 || text_of("SMEAR_CHECK") != NULL || text_of("SMEAR_PLAY") != NULL
+                   || text_of("SMEAR_RECORD") != NULL;
     display.has_two_bands = desc->bands == 2;
     if (desc->reuse.buffer_age != 0)
         desc->reuse.buffer_age = 1;
@@ -245,6 +248,12 @@ unsigned display_keys(void)
     unsigned pressed = display.pressed;
     display.pressed = 0;
     return pressed;
+}
+
+/* Before the first frame one is due. */
+uint32_t display_time(void)
+{
+    return (uint32_t)(display.repeats ? ((double)display.frame + 1.5) * 1000.0 / 30.0 : (clock_us() - display.opened_us) / 1000.0 + 34.0);
 }
 
 bool display_wait(void)

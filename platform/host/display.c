@@ -23,6 +23,11 @@ bool display_wait(void)
     return false;
 }
 
+uint32_t display_time(void)
+{
+    return 0;
+}
+
 unsigned display_keys(void)
 {
     return 0;

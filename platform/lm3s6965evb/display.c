@@ -192,6 +192,13 @@ bool display_wait(void)
     return true;
 }
 
+/* No timer runs: each call is a frame of 1/30 s later. */
+uint32_t display_time(void)
+{
+    static uint32_t calls;
+    return ++calls * 34;
+}
+
 unsigned display_keys(void)
 {
     unsigned held = ~GPIO_PINS(GPIO_E, 0x0fu) & 0x0fu;

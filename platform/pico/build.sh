@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # build.sh FOLDER PROGRAM BOARD [MODEL.h]
-# Builds PROGRAM (demo or model) for a row of boards.h with the pico-sdk: FOLDER/PROGRAM.uf2 and .elf. The SDK is that of
+# Builds PROGRAM (demo, game or model) for a row of boards.h with the pico-sdk: FOLDER/PROGRAM.uf2 and .elf. The SDK is that of
 # PICO_SDK_PATH, or an archive beside the repository, which is unpacked into build/pico/sdk. Says what is missing, and what
 # does not fit.
 set -u

@@ -266,6 +266,8 @@ bool display_wait(void)
     return true;
 }
 
+uint32_t display_time(void) { return to_ms_since_boot(get_absolute_time()); }
+
 unsigned display_keys(void)
 {
     const uint32_t levels = gpio_get_all();

@@ -142,6 +142,8 @@ bool display_wait(void)
     return true;
 }
 
+uint32_t display_time(void) { return BOARD_TIME / 1000; }
+
 unsigned display_keys(void)
 {
     const uint32_t levels = BOARD_PIN_LEVELS;

@@ -50,6 +50,7 @@ demo-firmware: $(BUILD)/demo.img
 model-firmware: $(BUILD)/model.img
 demo-run demo-test demo-cost: $(BUILD)/demo.img
 model-run model-test model-cost: $(BUILD)/model.img
+game-firmware game-run game-test game-cost: $(BUILD)/game.img
 target-test: $(BUILD)/target_unit.img $(BUILD)/target_golden.img
 target-bench: $(BUILD)/target_bench.img
 
