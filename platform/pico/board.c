@@ -25,7 +25,8 @@ static const volatile struct {
 
 const char platform_clock_unit[] = "cycles";
 
-extern uint64_t __end__[], __StackLimit[], __StackTop[];
+extern uint32_t __end__[];
+extern uint64_t __StackLimit[], __StackTop[];
 extern uint32_t link_hot_start[], link_hot_end[], link_hot_load[];
 
 static uint32_t core1_stack[CORE1_STACK / 4];
@@ -41,8 +42,10 @@ int board_cores(void)
 
 void *platform_arena(size_t *bytes)
 {
-    *bytes = (size_t)((uintptr_t)__StackLimit - (uintptr_t)__end__);
-    return __end__;
+    /* The SDK's script ends data at a word. */
+    const uintptr_t start = ((uintptr_t)__end__ + 7) & ~(uintptr_t)7;
+    *bytes = (size_t)((uintptr_t)__StackLimit - start);
+    return (void *)start;
 }
 
 void platform_print(const char *text)

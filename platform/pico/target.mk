@@ -22,6 +22,7 @@ RUN       := sh platform/pico/run.sh
 RUN_BENCH := sh platform/pico/cost.sh
 
 TARGET_TESTS :=
+GAME_STEP    := 600
 
 # Core 0 has the SDK's two banks, core 1 an array of board.c.
 STACK      := 8192
