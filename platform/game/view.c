@@ -196,7 +196,7 @@ static void write_text(const struct race *race)
 /* A time and a place above, a word in the middle, the speed below. */
 static const smear_overlay *overlay_of(const struct race *race, int16_t width, int16_t height)
 {
-    static const smear_overlay overlay = { item, ITEMS };
+    static const smear_overlay overlay = { .item = item, .count = ITEMS };
     const bool large = width >= 200;
     const int16_t letter = large ? 16 : 8, edge = large ? 6 : 2;
     const uint16_t bar = (uint16_t)(width / 3);
