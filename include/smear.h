@@ -474,10 +474,27 @@ typedef enum smear_format {
     SMEAR_L1_PAGES              /* OLED pages: a byte is a column of 8 pixels, top one in bit 0 */
 } smear_format;
 
-typedef enum smear_dither { SMEAR_DITHER_ORDERED, SMEAR_DITHER_NONE, SMEAR_DITHER_BLUE } smear_dither;
+typedef enum smear_dither {
+    SMEAR_DITHER_ORDERED,
+    SMEAR_DITHER_NONE,
+    SMEAR_DITHER_BLUE,
+    SMEAR_DITHER_DIFFUSE        /* SMEAR_L4, SMEAR_L1 and SMEAR_L1_PAGES: what rounding leaves over goes to the pixels on the
+                                 * right and below. 1-bit formats: code c becomes (c - 32) 4/3, and edges are kept. Not with
+                                 * reuse.buffer_age, as a change shows in all that comes after it. A byte per pixel of a
+                                 * band, and 3 per pixel of a row */
+} smear_dither;
 
-/* Finished pixels of columns x .. x + width - 1 and rows y .. y + height - 1: whole rows of the frame, x = 0,
- * but for a desc with `reuse.buffer_age`. */
+typedef enum smear_doubled { SMEAR_DOUBLED_NONE, SMEAR_DOUBLED_X, SMEAR_DOUBLED_Y, SMEAR_DOUBLED_XY } smear_doubled;
+
+/* How finished pixels become the display's. */
+typedef struct smear_display {
+    uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
+    uint8_t doubled;            /* smear_doubled: each pixel becomes two beside each other, above each other, or four: the
+                                 * display is twice as wide, as high, or both. A band takes so many times the bytes */
+} smear_display;
+
+/* Finished pixels of columns x .. x + width - 1 and rows y .. y + height - 1 of the display: whole rows of it, x = 0,
+ * but for a desc with `reuse.buffer_age`. With desc.display.doubled they count as often as the display has them. */
 typedef struct smear_band {
     const void *pixels;         /* valid until flush returns or, with two bands, until smear_band_done() */
     int16_t x, y, width, height;
@@ -527,7 +544,7 @@ typedef struct smear_debug {
 } smear_debug;
 
 /* The first seventeen values, to filter.scatter but without reuse.one_pose, are what SMEAR_MEMORY and SMEAR_DESC of
- * smear_memory.h take; reuse.one_pose is the eighteenth. */
+ * smear_memory.h take; reuse.one_pose is the eighteenth, display.dither and .doubled come last. */
 typedef struct smear_desc {
     int16_t width, height;      /* pixels, 1..2048; required */
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for; more
@@ -554,7 +571,7 @@ typedef struct smear_desc {
     uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
     smear_reuse reuse;
     smear_filter_room filter;
-    uint8_t dither;             /* smear_dither; XRGB8888 and L8 are never dithered */
+    smear_display display;
     smear_flush_fn *flush;      /* required */
     void (*idle)(void *user);   /* null: spin. Called while waiting for a band to be sent or for a worker */
     void *user;                 /* handed to the callbacks */

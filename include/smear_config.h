@@ -91,8 +91,8 @@
 #define SMEAR_WITH_DEBUG SMEAR_WITH_ALL
 #endif
 
-/* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, are
- * SMEAR_DITHER_NONE only. */
+/* Output. Formats that are never dithered do not need SMEAR_WITH_DITHER; the others, without it, have
+ * neither SMEAR_DITHER_ORDERED nor SMEAR_DITHER_BLUE. */
 #ifndef SMEAR_WITH_RGB565               /* in both byte orders */
 #define SMEAR_WITH_RGB565 SMEAR_WITH_ALL
 #endif
@@ -105,8 +105,9 @@
 #ifndef SMEAR_WITH_DITHER               /* ordered */
 #define SMEAR_WITH_DITHER SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_BLUE_DITHER
-#define SMEAR_WITH_BLUE_DITHER (SMEAR_WITH_ALL && SMEAR_WITH_DITHER)
+#ifndef SMEAR_WITH_DISPLAY              /* desc.display.doubled; SMEAR_DITHER_DIFFUSE where there are greys,
+                                         * SMEAR_DITHER_BLUE where there is dither */
+#define SMEAR_WITH_DISPLAY SMEAR_WITH_ALL
 #endif
 
 /* The module of smear_model.h. */
@@ -122,9 +123,6 @@
 #endif
 #if (SMEAR_WITH_FILTERS || SMEAR_WITH_LAYERS) && !SMEAR_WITH_RECONSTRUCT
 #error "SMEAR_WITH_FILTERS and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
-#endif
-#if SMEAR_WITH_BLUE_DITHER && !SMEAR_WITH_DITHER
-#error "SMEAR_WITH_BLUE_DITHER needs SMEAR_WITH_DITHER"
 #endif
 
 /* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before

@@ -8,10 +8,11 @@
  * Both take the first values of a smear_desc in their order; what is left out is 0, the default:
  *
  *     width, height, max_triangles, max_draws, methods, tile, reach, strip, band_rows, bands, format, workers,
- *     vertex_cache, reuse.cache_static, reuse.buffer_age, filter.passes, filter.scatter, reuse.one_pose
+ *     vertex_cache, reuse.cache_static, reuse.buffer_age, filter.passes, filter.scatter, reuse.one_pose, display.dither,
+ *     display.doubled
  *
- * Format and band_rows set the size of a band: give them here rather than later, as SMEAR_XRGB8888 is both the default
- * and the largest. desc.debug.inspect takes memory that SMEAR_MEMORY does not know of.
+ * Format, band_rows and display set the size of a band: give them here rather than later, as SMEAR_XRGB8888 is both the
+ * default and the largest. desc.debug.inspect takes memory that SMEAR_MEMORY does not know of.
  *
  * SMEAR_MEMORY is never less than smear_memory_size(), and more by no more than pointers are smaller than 8 bytes. */
 #ifndef SMEAR_MEMORY_H
@@ -20,11 +21,11 @@
 #include "smear.h"
 
 /* Bytes, and words of 8 bytes: constants. */
-#define SMEAR_MEMORY(...) SMEAR_MEMORY_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+#define SMEAR_MEMORY(...) SMEAR_MEMORY_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 #define SMEAR_MEMORY_WORDS(...) ((SMEAR_MEMORY(__VA_ARGS__) + 7u) / 8u)
 
-/* A desc of the same values: without format, dither and callbacks it is all default. */
-#define SMEAR_DESC(...) SMEAR_DESC_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+/* A desc of the same values: without format and callbacks it is all default. */
+#define SMEAR_DESC(...) SMEAR_DESC_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 
 /* Bytes of one of each thing, at most. */
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
@@ -72,21 +73,21 @@
                                       : (size_t)(T), \
                SMEAR_PARTS_(w, T) * (size_t)(T))
 
-#define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, ...) \
+#define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
     SMEAR_MEMORY_1_(w, h, SMEAR_OR_(t, 1024u), SMEAR_OR_(d, 16u), SMEAR_SET_OF_(m), T, \
                     SMEAR_REACH_OF_(SMEAR_SET_OF_(m), h, r), s, b, SMEAR_OR_(n, 1u), f, SMEAR_OR_(k, 1u), \
-                    SMEAR_OR_(v, 64u), c, a, p, o)
-#define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
-    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, b, n, f, k, v, c, a, p, o)
-#define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
-    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, T), n, f, k, v, c, a, p, o)
-#define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o) \
+                    SMEAR_OR_(v, 64u), c, a, p, o, q, z)
+#define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
+    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, b, n, f, k, v, c, a, p, o, q, z)
+#define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
+    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, T), n, f, k, v, c, a, p, o, q, z)
+#define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
     (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \
      + SMEAR_SCRATCH_(m, T, SMEAR_COLUMNS_(m, w, T, s), b, k) \
      + SMEAR_TEMPORAL_(m, w, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
      + SMEAR_DAMAGE_(d, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
-     + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, T, b)) + (size_t)(n) * SMEAR_UP8_(SMEAR_BAND_BYTES_(w, b, f)) \
+     + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, T, b)) + SMEAR_BANDS_(w, b, n, f, q, z) \
      + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
      + 3u * SMEAR_UP8_((SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, T, b)) + 2u) * 4u) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
 
@@ -154,6 +155,11 @@
     (((m) & SMEAR_SET(SMEAR_ACCUMULATE)) != 0 ? SMEAR_UP8_((size_t)(w) * (size_t)(h) * SMEAR_SUM_BYTES_) \
      : ((m) & SMEAR_SET_ACCUMULATE_BANDS) != 0 ? SMEAR_UP8_((size_t)(w) * (rows) * SMEAR_SUM_BYTES_) : 0u)
 #define SMEAR_SUM_BYTES_ (SMEAR_WITH_LINEAR ? 12u : 6u)
+/* Bands as they are sent, or in 8-bit greys before that, and what a row of these leaves to the next. */
+#define SMEAR_BANDS_(w, b, n, f, q, z) \
+    ((size_t)(n) * SMEAR_UP8_(SMEAR_MAX_(SMEAR_BAND_BYTES_((size_t)(w) << ((z) & 1), (size_t)(b) << ((z) >> 1), f), \
+                                         (q) == SMEAR_DITHER_DIFFUSE ? (size_t)(w) * (size_t)(b) : 0u)) \
+     + ((q) == SMEAR_DITHER_DIFFUSE ? SMEAR_UP8_((size_t)(w) * 3u + 4u) : 0u))
 #define SMEAR_BAND_BYTES_(w, b, f) \
     ((f) == SMEAR_XRGB8888 ? (size_t)(w) * (size_t)(b) * 4u \
      : (f) == SMEAR_RGB565 || (f) == SMEAR_RGB565_SWAPPED || (f) == SMEAR_RGB555 ? (size_t)(w) * (size_t)(b) * 2u \
@@ -168,16 +174,16 @@
      + SMEAR_UP8_(((size_t)(d) + 2u + SMEAR_STORE_WORDS_(t, m) / 50000u) * SMEAR_SEGMENT_BYTES))
 
 /* What SMEAR_DESC calls. */
-#define SMEAR_DESC_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, ...) \
-    smear_desc_of(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o)
+#define SMEAR_DESC_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
+    smear_desc_of(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z)
 
 static inline smear_desc smear_desc_of(int16_t width, int16_t height, uint32_t max_triangles, uint16_t max_draws,
                                        uint16_t methods, int16_t tile, int16_t reach, int16_t strip, int16_t band_rows,
                                        uint8_t bands, uint8_t format, uint8_t workers, uint16_t vertex_cache,
                                        uint8_t cache_static, uint8_t buffer_age, uint8_t passes, uint8_t scatter,
-                                       uint8_t one_pose)
+                                       uint8_t one_pose, uint8_t dither, uint8_t doubled)
 {
-    static const smear_desc none = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0 }, 0, 0, 0, 0, { 0, 0, 0 } };
+    static const smear_desc none = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0 }, { 0, 0 }, 0, 0, 0, { 0, 0, 0 } };
     smear_desc desc = none;
     desc.width = width;
     desc.height = height;
@@ -197,6 +203,8 @@ static inline smear_desc smear_desc_of(int16_t width, int16_t height, uint32_t m
     desc.filter.passes = passes;
     desc.filter.scatter = scatter;
     desc.reuse.one_pose = one_pose;
+    desc.display.dither = dither;
+    desc.display.doubled = doubled;
     return desc;
 }
 

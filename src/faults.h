@@ -25,7 +25,8 @@
     X(DESC_ONE_POSE, "desc.reuse.one_pose: above 1") \
     X(DESC_PASSES, "desc.filter.passes: above 3, or no method can") \
     X(DESC_SCATTER, "desc.filter.scatter: above 1, or not with these methods") \
-    X(DESC_DITHER, "desc.dither: unknown here") \
+    X(DESC_DITHER, "desc.display.dither: unknown here, or not with this format or reuse.buffer_age") \
+    X(DESC_DOUBLED, "desc.display.doubled: above 3, or not compiled in") \
     X(DESC_FLUSH, "desc.flush: missing") \
     X(DESC_INSPECT, "desc.debug.inspect: not compiled in") \
     X(FRAME_CAMERA, "frame.camera: missing, no rotation, or a length out of range") \

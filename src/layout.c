@@ -4,7 +4,7 @@
 
 #include "smear_memory.h"
 
-#include "display/pixel_format.h"
+#include "display/band.h"
 #include "layers/layer_gather.h"
 #include "layers/streak.h"
 #include "needs.h"
@@ -221,9 +221,9 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     if (wants(d, SMEAR_SET_SUMS))
         c->sums.sum = arena_take(a, (size_t)d->width * (size_t)(c->sums.whole ? d->height : row_px(d)),
                                  3 * sizeof *c->sums.sum);
-    rows->bands.bytes = smear_format_size(d->width, d->band_rows, (smear_format)d->format);
+    rows->bands.bytes = band_bytes(d);
     for (int i = 0; i < d->bands; i++)
-        rows->bands.buffer[i] = arena_take(a, rows->bands.bytes, 1);
+        rows->bands.buffer[i] = arena_take(a, rows->bands.bytes + (i == 0 ? band_state_bytes(d) : 0), 1);
     lay_out_draws(c, a, d);
     lay_out_store(c, a, d);
 }

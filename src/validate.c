@@ -5,6 +5,7 @@
 #include "smear_memory.h"
 #include "smear_overlay.h"
 
+#include "display/diffuse.h"
 #include "display/pixel_format.h"
 #include "methods/accumulate.h"
 #include "needs.h"
@@ -88,7 +89,8 @@ static const struct field desc_fields[] = {
     DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_BUFFER_AGE_MOST),
     DESC(reuse.one_pose, ONE_POSE, 0, 0, 1),
     DESC(filter.passes, PASSES, 0, 0, SMEAR_PASSES_MOST),
-    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST), DESC(dither, DITHER, 0, 0, SMEAR_DITHER_BLUE)
+    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST), DESC(display.dither, DITHER, 0, 0, SMEAR_DITHER_DIFFUSE),
+    DESC(display.doubled, DOUBLED, 0, 0, SMEAR_DOUBLED_MOST)
 };
 #undef DESC
 
@@ -169,7 +171,9 @@ int smear_resolve_desc(smear_desc *d)
         return FAULT(DESC_VERTEX_CACHE);
     if (!smear_format_has(d->format, SMEAR_DITHER_NONE))
         return FAULT(DESC_FORMAT);
-    return smear_format_has(d->format, d->dither) ? SMEAR_OK : FAULT(DESC_DITHER);
+    if (format_diffuses(d) && d->reuse.buffer_age)
+        return FAULT(DESC_DITHER);
+    return smear_format_has(d->format, d->display.dither) ? SMEAR_OK : FAULT(DESC_DITHER);
 }
 
 /* ------------------------------------------------------------------ frame */

@@ -3,7 +3,6 @@
 #include "display/band.h"
 
 #include "base/crc32.h"
-#include "display/pixel_format.h"
 #include "display/points.h"
 
 uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1)
@@ -17,7 +16,7 @@ uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1)
         if (d->idle != NULL)
             d->idle(d->user);
     uint8_t *band = b->buffer[d->bands == 2 ? b->handed & 1u : 0];
-    if (d->format == SMEAR_L1_PAGES)
+    if (drawn_format(d) == SMEAR_L1_PAGES)
         __builtin_memset(band, 0, b->bytes);
     return band;
 }
@@ -47,20 +46,39 @@ static void add_crc(struct smear_rows *rows, const uint8_t *band, uint32_t size)
     }
 }
 
+/* Makes of what tiles were converted to what the display takes, in place. */
+static void finish(const struct smear_rows *rows, uint8_t *pixels, int32_t width, int32_t y, int32_t height)
+{
+    const smear_desc *d = rows->desc;
+    const smear_format format = (smear_format)d->format;
+    const uint32_t start = stage_start(rows);
+    if (format_diffuses(d))                 /* bands are whole rows then */
+        smear_diffuse_band(pixels, width, y, height, format, rows->bands.buffer[0] + rows->bands.bytes);
+    if (is_doubled(d))
+        smear_double_band(pixels, width, height, format, d->display.doubled);
+    stage_end(rows, &rows->stats->time.convert, start);
+}
+
 int smear_band_flush(const struct row_job *r)
 {
     struct smear_rows *rows = r->rows;
-    smear_format format = (smear_format)rows->desc->format;
+    const smear_desc *d = rows->desc;
+    smear_format format = (smear_format)d->format;
     int32_t y = job_top(r), height = job_bottom(r) - y, x = job_left(r), width = job_right(r) - x;
-    const uint8_t *pixels = r->band + (x != 0 ? smear_format_size(x, height, format) : 0);
+    uint8_t *pixels = r->band + (x != 0 ? smear_format_size(x, height, format) : 0);
+    if (SMEAR_WITH_DISPLAY && (format_diffuses(d) || is_doubled(d)))
+        finish(rows, pixels, width, y, height);
+    width = doubled_x(d, width);
+    height = doubled_y(d, height);
     smear_band b = {
-        .pixels = pixels, .x = (int16_t)x, .y = (int16_t)y, .width = (int16_t)width, .height = (int16_t)height,
+        .pixels = pixels, .x = (int16_t)doubled_x(d, x), .y = (int16_t)doubled_y(d, y),
+        .width = (int16_t)width, .height = (int16_t)height,
         .stride = smear_format_stride(width, format), .size = smear_format_size(width, height, format)
     };
-    if (rows->desc->debug.crc)
+    if (d->debug.crc)
         add_crc(rows, pixels, b.size);
     rows->bands.handed++;
-    int result = rows->desc->flush(rows->desc->user, &b);
+    int result = d->flush(d->user, &b);
     if (result >= 0)
         return SMEAR_OK;
     rows->bands.handed--;          /* refused: nobody will report it as sent */
@@ -73,13 +91,13 @@ static const struct overlay_box no_points = { INT32_MAX, INT32_MAX, INT32_MIN, I
 static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;
-    smear_format format = (smear_format)rows->desc->format;
+    smear_format format = drawn_format(rows->desc);
     const int32_t left = job_left(r), top = job_top(r);
     uint8_t *band = r->band;
     if (left != 0)      /* where column 0 would be: within the buffer */
         band += smear_format_size(left, job_bottom(r) - top, format) - smear_format_stride(left, format);
     smear_format_row(band, smear_format_stride(job_right(r) - left, format), in, x1 - x0, x0, y, top, format,
-                     (smear_dither)rows->desc->dither);
+                     (smear_dither)rows->desc->display.dither);
 }
 
 /* Converts columns [x0, x1) of row y with what lies over them. `depth`: of the scene there. */

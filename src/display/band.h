@@ -3,7 +3,32 @@
 #ifndef SMEAR_BAND_H
 #define SMEAR_BAND_H
 
+#include "display/diffuse.h"
+#include "display/doubled.h"
+#include "display/pixel_format.h"
 #include "display/row.h"
+
+/* Returns what tiles are converted to. */
+static inline smear_format drawn_format(const smear_desc *d)
+{
+    return format_diffuses(d) ? SMEAR_L8 : (smear_format)d->format;
+}
+
+/* Return the bytes of a band's buffer, a multiple of 8 where something lies behind it, and of what does: what is kept from
+ * band to band. */
+static inline uint32_t band_bytes(const smear_desc *d)
+{
+    const uint32_t drawn = smear_format_size(d->width, d->band_rows, drawn_format(d));
+    if (!SMEAR_WITH_DISPLAY)
+        return drawn;
+    const uint32_t sent = smear_format_size(doubled_x(d, d->width), doubled_y(d, d->band_rows), (smear_format)d->format);
+    return ((sent > drawn ? sent : drawn) + 7u) & ~7u;
+}
+
+static inline uint32_t band_state_bytes(const smear_desc *d)
+{
+    return format_diffuses(d) ? smear_diffuse_bytes(d->width) : 0;
+}
 
 /* Returns a buffer for the next pixel rows, [y0, y1); waits until what it held has been sent. */
 uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1);

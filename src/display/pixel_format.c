@@ -5,16 +5,20 @@
 
 #include "kernels/pixel_rows.h"
 
+enum { HAS_BLUE = SMEAR_WITH_DITHER && SMEAR_WITH_DISPLAY };
+
 bool smear_format_has(int format, int dither)
 {
     static const bool has[] = {
         SMEAR_WITH_RGB, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB, SMEAR_WITH_RGB,
         SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY
     };
-    if (format > SMEAR_L1_PAGES || dither > SMEAR_DITHER_BLUE || !has[format])
+    if (format > SMEAR_L1_PAGES || dither > (SMEAR_WITH_DISPLAY ? SMEAR_DITHER_DIFFUSE : SMEAR_DITHER_BLUE) || !has[format])
         return false;
+    if (SMEAR_WITH_DISPLAY && dither == SMEAR_DITHER_DIFFUSE)
+        return format >= SMEAR_L4;
     return format == SMEAR_XRGB8888 || format == SMEAR_L8 || dither == SMEAR_DITHER_NONE
-        || (dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER);
+        || (SMEAR_WITH_DITHER && (dither == SMEAR_DITHER_ORDERED || SMEAR_WITH_DISPLAY));
 }
 
 uint32_t smear_format_stride(int32_t width, smear_format format)
@@ -42,7 +46,7 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format)
 /* Returns the threshold at a pixel, 0 .. 255, in 1/256 of a level. */
 static inline uint32_t threshold_at(int32_t x, int32_t y, smear_dither dither)
 {
-    return !SMEAR_WITH_BLUE_DITHER || dither == SMEAR_DITHER_ORDERED
+    return !HAS_BLUE || dither == SMEAR_DITHER_ORDERED
              ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
              : smear_dither_blue[(y & 31) << 5 | (x & 31)];
 }
@@ -71,7 +75,7 @@ void smear_format_swap(uint16_t *pixels, int32_t n)
 /* Returns the thresholds of row y in 1/256 of a level: column x has threshold[x & mask]. */
 static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32_t *mask)
 {
-    if (SMEAR_WITH_BLUE_DITHER && dither == SMEAR_DITHER_BLUE) {
+    if (HAS_BLUE && dither == SMEAR_DITHER_BLUE) {
         *mask = 31;
         return smear_dither_blue + ((y & 31) << 5);
     }
@@ -101,7 +105,7 @@ static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32
     if (!is_dithered(dither))
         threshold = NULL;
 #ifndef __OPTIMIZE_SIZE__
-    if (!SMEAR_WITH_BLUE_DITHER || dither != SMEAR_DITHER_BLUE) {
+    if (!HAS_BLUE || dither != SMEAR_DITHER_BLUE) {
         smear_row_l4_blocks(row, in, n, x, threshold);
         return;
     }

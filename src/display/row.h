@@ -14,7 +14,8 @@
 /* Finished pixels on their way to the display. */
 struct smear_bands {
     uint8_t *buffer[2];
-    uint32_t bytes;             /* of a buffer */
+    uint32_t bytes;             /* of a buffer; what a row of SMEAR_DITHER_DIFFUSE leaves to the next lies behind
+                                 * those of the first */
     uint32_t handed;            /* bands handed to flush so far */
     unsigned sent;              /* of them reported by smear_band_done */
 };

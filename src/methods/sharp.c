@@ -66,7 +66,7 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
 
 bool smear_sharp_may_be_direct(const smear_desc *d, bool has_window)
 {
-    return SMEAR_DIRECT && !has_window && !d->reuse.cache_static && d->dither == SMEAR_DITHER_NONE
+    return SMEAR_DIRECT && !has_window && !d->reuse.cache_static && d->display.dither == SMEAR_DITHER_NONE
         && (d->format == SMEAR_RGB565 || d->format == SMEAR_RGB565_SWAPPED);
 }
 

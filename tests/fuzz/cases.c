@@ -417,11 +417,13 @@ static void make_desc(struct fuzz_case *c)
                        .max_draws = CASE_DRAWS,
                        .methods = (uint16_t)sets[source_range(s, 0, (int32_t)(sizeof sets / sizeof *sets) - 1)],
                        .format = (uint8_t)source_range(s, 0, SMEAR_L1_PAGES),
-                       .dither = (uint8_t)source_range(s, 0, SMEAR_DITHER_BLUE),
+                       .display.dither = (uint8_t)source_range(s, 0, SMEAR_DITHER_BLUE),
                        .bands = (uint8_t)source_range(s, 0, 2),
                        .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0),
                        .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)),
                        .debug.crc = source_chance(s, 3) };
+    if (d->format >= SMEAR_L4 && source_chance(s, 4))
+        d->display.dither = SMEAR_DITHER_DIFFUSE;
     if (source_chance(s, c->large ? 8 : 2000)) {
         d->width = (int16_t)source_range(s, 1, 2048);
         d->height = (int16_t)source_range(s, 1, 65536 / d->width < 2048 ? 65536 / d->width : 2048);

@@ -39,7 +39,8 @@ void case_spoil_desc(struct fuzz_case *c)
         PART(smear_desc, band_rows), PART(smear_desc, bands), PART(smear_desc, format), PART(smear_desc, workers),
         PART(smear_desc, vertex_cache), PART(smear_desc, reuse.cache_static), PART(smear_desc, reuse.buffer_age),
         PART(smear_desc, reuse.one_pose),
-        PART(smear_desc, filter.passes), PART(smear_desc, filter.scatter), PART(smear_desc, dither)
+        PART(smear_desc, filter.passes), PART(smear_desc, filter.scatter), PART(smear_desc, display.dither),
+        PART(smear_desc, display.doubled)
     };
     struct source *s = &c->source;
     do

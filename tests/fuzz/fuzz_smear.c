@@ -375,7 +375,7 @@ static smear_desc take_desc(struct source *s)
     uint8_t kind = take(s);
     smear_desc d = {
         .width = (int16_t)take_range(s, 1, 70), .height = (int16_t)take_range(s, 1, 50),
-        .reach = (int16_t)take_range(s, 0, 20), .format = take(s) % (SMEAR_L1_PAGES + 1), .dither = take(s) % 3,
+        .reach = (int16_t)take_range(s, 0, 20), .format = take(s) % (SMEAR_L1_PAGES + 1), .display.dither = take(s) % 3,
         .bands = kind & 1 ? 2 : 0, .debug.crc = 1,
         .max_draws = (uint16_t)take_range(s, 1, DRAWS), .max_triangles = (uint32_t)take_range(s, 1, 160),
         .vertex_cache = (uint16_t)(16 << take_range(s, 0, 3))

@@ -391,6 +391,19 @@ claim "to black and white" equals "$(ppm_bytes l1.ppm | sort -nu | tr '\n' ' ')"
 claim "pages of 8 rows" render builtin:demo/race --size 45x30 --format l1pages -o pages.ppm
 claim "hold the same" render builtin:demo/race --size 45x30 --format l1 -o l1.ppm
 claim "picture" same pages.ppm l1.ppm
+claim "diffused" render builtin:demo/race --size 45x30 --format l1 --dither diffuse -o diffused.ppm
+claim "by cores in pages" render builtin:demo/race --size 45x30 --format l1pages --dither diffuse --threads 3 -o pages.ppm
+claim "the same" same pages.ppm diffused.ppm
+claim "not dithered" differ l1.ppm diffused.ppm
+claim "doubled" render builtin:demo/race --size 45x30 --format l1 --double 2x1 -o doubled.ppm
+claim "wider" equals "$(sed -n 2p doubled.ppm)" "90 30"
+claim "the mean of both" equals "$(ppm_bytes doubled.ppm | awk '{ s += $1 } END { print s }')" \
+    "$(ppm_bytes l1.ppm | awk '{ s += 2 * $1 } END { print s }')"
+claim "exact frames, too" render builtin:demo/race --size 45x30 --double 2x2 --method accumulate --exact --samples 2 -o doubled.ppm
+claim "are as large" equals "$(sed -n 2p doubled.ppm)" "90 60"
+usage --dither render builtin:demo/race --dither diffuse
+usage --dither render builtin:demo/race --format l1 --dither diffuse --keep-display
+usage --double render builtin:demo/race --double 3x3
 claim "16 greys" render builtin:demo/race --size 47x32 --format l4 -o l4.ppm
 claim "are 17 apart" is_true "$(ppm_bytes l4.ppm | awk '{ s += $1 % 17 } END { print s + 0 }') == 0"
 claim "256 greys" render builtin:demo/race --size 48x32 --format l8 -o l8.ppm

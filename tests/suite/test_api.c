@@ -79,7 +79,9 @@ static void test_every_bad_field_of_a_desc_is_refused(void)
 #define BAD(field, value) { offsetof(smear_desc, field), sizeof ((smear_desc *)0)->field, value }
         BAD(width, 0), BAD(width, -1), BAD(width, 2049), BAD(height, 0), BAD(height, -5), BAD(height, 2049),
         BAD(reach, -1), BAD(reach, 65), BAD(reach, 17), BAD(tile, 2), BAD(tile, 4), BAD(tile, 12), BAD(tile, 128), BAD(tile, -8),
-        BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(dither, SMEAR_DITHER_BLUE + 1), BAD(bands, 3),
+        BAD(format, SMEAR_L1_PAGES + 1), BAD(format, 255), BAD(bands, 3),
+        BAD(display.dither, SMEAR_DITHER_DIFFUSE), BAD(display.dither, SMEAR_DITHER_DIFFUSE + 1),
+        BAD(display.doubled, SMEAR_DOUBLED_XY + 1),
         BAD(workers, 9), BAD(workers, 255), BAD(methods, SMEAR_SET(SMEAR_METHOD_COUNT)),
         BAD(reuse.cache_static, 1), BAD(reuse.buffer_age, 1), BAD(filter.passes, 4), BAD(filter.scatter, 2),
         BAD(band_rows, 1), BAD(band_rows, 6), BAD(band_rows, 32), BAD(band_rows, -8), BAD(band_rows, 12),
@@ -118,7 +120,7 @@ static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
 {
     smear_desc given = { .width = 100, .height = 80, .methods = SMEAR_SET(SMEAR_AUTO), .reach = 4, .tile = 8,
                          .strip = 64, .band_rows = 8, .format = SMEAR_XRGB8888,
-                         .dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
+                         .display.dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
                          .max_triangles = 1024, .vertex_cache = 64 };
     smear_desc zero = { .width = 100, .height = 80 };
     struct rig a, b;

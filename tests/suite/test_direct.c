@@ -31,7 +31,7 @@ static int draw(uint16_t *out, const struct presented *frame, const smear_desc *
     desc.methods = base->methods;
     desc.band_rows = base->band_rows;
     desc.format = base->format;
-    desc.dither = base->dither;
+    desc.display.dither = base->display.dither;
     desc.max_triangles = base->max_triangles != 0 ? base->max_triangles : desc.max_triangles;
     desc.flush = keep;
     desc.user = out;
@@ -84,31 +84,31 @@ static void test_every_kind_of_span(void)
     static const char *const name[] = { "peer/A", "peer/B64", "peer/B256", "peer/C", "peer/D", "peer/E", "peer/N",
                                         "suite/textured", "suite/fence_fg", "suite/near", "suite/arena" };
     for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
-        smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .band_rows = i & 1 ? 16 : 112 };
+        smear_desc desc = { .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE, .band_rows = i & 1 ? 16 : 112 };
         CHECK_EQ(compare(name[i], 2, true, desc), 2);
     }
 }
 
 static void test_either_byte_order(void)
 {
-    smear_desc desc = { .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_NONE, .band_rows = 24 };
+    smear_desc desc = { .format = SMEAR_RGB565_SWAPPED, .display.dither = SMEAR_DITHER_NONE, .band_rows = 24 };
     CHECK_EQ(compare("peer/B64", 2, true, desc), 2);
     CHECK_EQ(compare("suite/swarm", 2, true, desc), 2);
 }
 
 static void test_a_frame_in_parts(void)
 {
-    smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 500 };
+    smear_desc desc = { .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 500 };
     CHECK_EQ(compare("peer/E", 2, true, desc), 2);
 }
 
 static void test_only_where_nothing_is_rounded_twice(void)
 {
-    const smear_desc desc = { .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE };
+    const smear_desc desc = { .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE };
     smear_desc other = desc;
     CHECK_EQ(compare("peer/B64", 1, false, desc), 0);       /* texels of 8 bits */
     CHECK_EQ(compare("peer/E", 1, false, desc), 1);
-    other.dither = SMEAR_DITHER_ORDERED;
+    other.display.dither = SMEAR_DITHER_ORDERED;
     CHECK_EQ(compare("peer/E", 1, true, other), 0);
     other = desc;
     other.format = SMEAR_RGB555;

@@ -51,7 +51,7 @@ static void test_the_text_of_a_bad_desc_names_the_field(void)
         DESC(methods, 1 << SMEAR_METHOD_COUNT), DESC(tile, 12), DESC(reach, 65), DESC(reach, -1), DESC(strip, 40),
         DESC(band_rows, 1), DESC(bands, 3), DESC(format, SMEAR_L1_PAGES + 1), DESC(workers, 9), DESC(vertex_cache, 65),
         DESC(reuse.cache_static, 2), DESC(reuse.buffer_age, 8), DESC(filter.passes, 4), DESC(filter.scatter, 2),
-        DESC(dither, SMEAR_DITHER_BLUE + 1)
+        DESC(display.dither, SMEAR_DITHER_DIFFUSE + 1), DESC(display.doubled, SMEAR_DOUBLED_XY + 1)
     };
     uint64_t *memory = malloc(1 << 20);
     int last = 0;

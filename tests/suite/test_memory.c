@@ -65,6 +65,8 @@ static smear_desc pick_desc(uint16_t methods)
     if ((all & SMEAR_SET(SMEAR_PINGPONG)) != 0)
         d.filter.passes = (uint8_t)pick(0, 3);
     d.reuse.one_pose = (uint8_t)(d.width & 1);
+    if (d.format >= SMEAR_L4 && d.reuse.buffer_age == 0 && d.height % 2 == 0)
+        d.display.dither = SMEAR_DITHER_DIFFUSE;
     d.filter.scatter = has_window && is_plain && !has_ports && pick(0, 2) == 0;
     pick_geometry(&d, has_window || has_layers, is_temporal,
                   has_window && is_plain && (all & SMEAR_SET(SMEAR_HALF)) == 0 && !d.filter.scatter);
@@ -73,7 +75,7 @@ static smear_desc pick_desc(uint16_t methods)
 
 #define VALUES(d) (d).width, (d).height, (d).max_triangles, (d).max_draws, (d).methods, (d).tile, (d).reach, (d).strip, \
     (d).band_rows, (d).bands, (d).format, (d).workers, (d).vertex_cache, (d).reuse.cache_static, (d).reuse.buffer_age, \
-                  (d).filter.passes, (d).filter.scatter, (d).reuse.one_pose
+                  (d).filter.passes, (d).filter.scatter, (d).reuse.one_pose, (d).display.dither
 
 static void describe(const smear_desc *d, size_t room, size_t need)
 {
@@ -113,7 +115,7 @@ static void test_a_desc_of_the_same_values_has_them(void)
               && d.max_draws == made.max_draws && d.methods == made.methods && d.tile == made.tile && d.reach == made.reach
               && d.strip == made.strip && d.band_rows == made.band_rows && d.bands == made.bands && d.format == made.format
               && d.workers == made.workers && d.vertex_cache == made.vertex_cache);
-        CHECK(made.dither == 0 && made.flush == NULL && made.idle == NULL && made.user == NULL && made.debug.crc == 0
+        CHECK(made.display.dither == d.display.dither && made.flush == NULL && made.idle == NULL && made.user == NULL && made.debug.crc == 0
               && made.debug.inspect == NULL && made.debug.clock == NULL);
         CHECK(smear_memory_size(&d) == smear_memory_size(&made));
     }

@@ -104,7 +104,7 @@ static void draw_over(uint32_t *picture, const smear_overlay *overlay, bool line
 
 static smear_desc desc_of(int format, int dither)
 {
-    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = (uint8_t)format, .dither = (uint8_t)dither, .tile = 8,
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = (uint8_t)format, .display.dither = (uint8_t)dither, .tile = 8,
                          .reach = 6, .methods = (uint16_t)(SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET_FILTERS
                                                            | SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_ACCUMULATE)) };
 }

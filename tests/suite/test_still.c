@@ -335,7 +335,7 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
                 smear_desc desc = desc_of(buffers == 2 ? 16 : 400, keeps == 0);
                 desc.format = format;
                 desc.reuse.cache_static = keeps;
-                desc.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
+                desc.display.dither = format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
                 if (display_begin(&d, desc, buffers))
                     for (int i = 0; i < 14; i++) {
                         move_on(&s, i < 10 ? i : 9);

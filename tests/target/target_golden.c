@@ -21,8 +21,8 @@ static bool has_format(const smear_desc *d)
         SMEAR_WITH_RGB, SMEAR_WITH_RGB565, SMEAR_WITH_RGB565, SMEAR_WITH_RGB, SMEAR_WITH_RGB,
         SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY, SMEAR_WITH_GREY
     };
-    bool dithered = d->format != SMEAR_XRGB8888 && d->format != SMEAR_L8 && d->dither != SMEAR_DITHER_NONE;
-    return has[d->format] && (!dithered || (d->dither == SMEAR_DITHER_BLUE ? SMEAR_WITH_BLUE_DITHER : SMEAR_WITH_DITHER));
+    bool dithered = d->format != SMEAR_XRGB8888 && d->format != SMEAR_L8 && d->display.dither != SMEAR_DITHER_NONE;
+    return has[d->format] && (!dithered || (SMEAR_WITH_DITHER && (d->display.dither == SMEAR_DITHER_ORDERED || SMEAR_WITH_DISPLAY)));
 }
 
 #define SETS_OF_SUMS (SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_ACCUMULATE_BANDS)

@@ -68,7 +68,7 @@ static const struct spec golden[] = {
       { .samples = 8 } },
     { "reconstruct-swapped", "peer/B64", 5, 2, 1,
       { .width = 128, .height = 128, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 12,
-        .format = SMEAR_RGB565_SWAPPED, .dither = SMEAR_DITHER_BLUE },
+        .format = SMEAR_RGB565_SWAPPED, .display.dither = SMEAR_DITHER_BLUE },
       { .samples = 6, .shutter_degrees = 270, .exposure = SMEAR_TRAILING } },
     { "reconstruct-555", "demo/race", 12, 2, 1,
       { .width = 96, .height = 60, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 6, .format = SMEAR_RGB555,
@@ -87,11 +87,11 @@ static const struct spec golden[] = {
       { .width = 133, .height = 65, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 8, .format = SMEAR_L1 }, { .shutter_degrees = 360 } },
     { "reconstruct-pages", "peer/E", 6, 2, 1,
       { .width = 128, .height = 64, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 5,
-        .format = SMEAR_L1_PAGES, .dither = SMEAR_DITHER_BLUE, .max_triangles = 400 },
+        .format = SMEAR_L1_PAGES, .display.dither = SMEAR_DITHER_BLUE, .max_triangles = 400 },
       { .shutter_degrees = 90 } },
     { "far-reach", "peer/B64", 2, 1, 1,
       { .width = 100, .height = 70, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 40, .tile = 64,
-        .format = SMEAR_RGB565, .dither = SMEAR_DITHER_NONE },
+        .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE },
       { .shutter_degrees = 720, .samples = 16 } },
     { "kept", "demo/race", 30, 4, 1,
       { .width = 80, .height = 60, .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .reach = 8, .format = SMEAR_RGB565,
@@ -141,7 +141,7 @@ static const struct spec golden[] = {
       { .method = SMEAR_TIMEMASK, .samples = 32, .shutter_poses = true } },
     { "timemask-morph", "suite/morph", 14, 1, 1,
       { .width = 60, .height = 60, .methods = SMEAR_SET(SMEAR_TIMEMASK), .tile = 64, .format = SMEAR_RGB332,
-        .dither = SMEAR_DITHER_BLUE, .max_triangles = 1000 },
+        .display.dither = SMEAR_DITHER_BLUE, .max_triangles = 1000 },
       { .method = SMEAR_TIMEMASK, .samples = 16, .shutter = slow_shutter } },
     { "timemask-leaves", "test/leaves", 6, 1, 1,
       { .width = 64, .height = 48, .methods = SMEAR_SET(SMEAR_TIMEMASK), .tile = 16, .format = SMEAR_RGB565,
@@ -284,11 +284,11 @@ static const struct spec golden[] = {
         .frame_us = 33333, .shutter_us = 12000 }, .has_large_meshes = true },
     { "direct-565", "peer/B64", 3, 2, 1,
       { .width = 160, .height = 120, .methods = SMEAR_SET(SMEAR_NONE), .format = SMEAR_RGB565,
-        .dither = SMEAR_DITHER_NONE, .band_rows = 16 },
+        .display.dither = SMEAR_DITHER_NONE, .band_rows = 16 },
       { .method = SMEAR_NONE, .texels_565 = true }, .has_large_textures = true },
     { "direct-swapped", "peer/E", 3, 1, 1,
       { .width = 97, .height = 61, .methods = SMEAR_SET(SMEAR_NONE), .format = SMEAR_RGB565_SWAPPED,
-        .dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 600 },
+        .display.dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 600 },
       { .method = SMEAR_NONE } },
     { "object-565", "suite/cross", 14, 2, 1,
       { .width = 80, .height = 60, .methods = SMEAR_SET(SMEAR_OBJECT), .reach = 8, .format = SMEAR_RGB565,
@@ -376,7 +376,7 @@ static void complete_bench(struct spec *spec)
     spec->desc.width = 320;
     spec->desc.height = 240;
     spec->desc.format = SMEAR_RGB565;
-    spec->desc.dither = SMEAR_DITHER_NONE;
+    spec->desc.display.dither = SMEAR_DITHER_NONE;
     spec->desc.vertex_cache = 4096;
     spec->present.light = SMEAR_LIGHT_ENCODED;
     spec->desc.methods = (uint16_t)SMEAR_SET(spec->present.method);

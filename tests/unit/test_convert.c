@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_convert.c - every display format against a direct formula; dither keeps white, black and the
  * mean; packing; the CRC. Needs neither libc nor floating point. */
+#include "display/diffuse.h"
 #include "display/pixel_format.h"
 
 #include "base/crc32.h"
@@ -367,8 +368,84 @@ static void test_the_crc_is_that_of_zlib(void)
     CHECK_EQ(smear_crc32(0, zeros, 32), 0x190a55adu);
 }
 
+enum { WIDE = 67, HIGH = 24 };
+
+static uint8_t grey[WIDE * HIGH], whole[WIDE * HIGH], parts[WIDE * HIGH];
+static uint16_t left_over[(3 * WIDE + 5) / 2];
+
+/* A ramp with noise on it. */
+static void make_grey(void)
+{
+    uint32_t state = 7;
+    for (int32_t i = 0; i < WIDE * HIGH; i++) {
+        state = state * 1664525u + 1013904223u;
+        grey[i] = (uint8_t)((uint32_t)(i % WIDE * 3) + (state >> 27));
+    }
+}
+
+static void diffuse(uint8_t *out, smear_format format, int32_t rows_at_once)
+{
+    __builtin_memcpy(out, grey, sizeof grey);
+    for (int32_t y = 0; y < HIGH; y += rows_at_once)
+        smear_diffuse_band(out + y * WIDE, WIDE, y, rows_at_once, format, left_over);
+}
+
+static uint32_t bit_of(const uint8_t *bits, int32_t x, int32_t y, smear_format format)
+{
+    return format == SMEAR_L1 ? bits[y * ((WIDE + 7) / 8) + x / 8] >> (7 - x % 8) & 1u : bits[y / 8 * WIDE + x] >> y % 8 & 1u;
+}
+
+static void test_diffused_bits_are_the_same_in_both_packings(void)
+{
+    make_grey();
+    diffuse(whole, SMEAR_L1, HIGH);
+    diffuse(parts, SMEAR_L1_PAGES, HIGH);
+    for (int32_t y = 0; y < HIGH; y++)
+        for (int32_t x = 0; x < WIDE; x++)
+            CHECK_EQ(bit_of(whole, x, y, SMEAR_L1), bit_of(parts, x, y, SMEAR_L1_PAGES));
+}
+
+static void test_a_frame_diffused_in_bands_is_that_diffused_at_once(void)
+{
+    make_grey();
+    diffuse(whole, SMEAR_L1_PAGES, HIGH);
+    diffuse(parts, SMEAR_L1_PAGES, 8);
+    for (int32_t y = 0; y < HIGH / 8; y++)
+        for (int32_t x = 0; x < WIDE; x++)
+            CHECK_EQ(whole[y * WIDE + x], parts[8 * y * WIDE + x]);
+}
+
+/* The sum of what a flat area shows, in 1/255 of a pixel. */
+static int32_t shown_of(uint8_t code, smear_format format)
+{
+    int32_t sum = 0;
+    for (int32_t i = 0; i < WIDE * HIGH; i++)
+        grey[i] = code;
+    diffuse(whole, format, HIGH);
+    for (int32_t y = 0; y < HIGH; y++)
+        for (int32_t x = 0; x < WIDE; x++)
+            sum += format == SMEAR_L4 ? 17 * (int32_t)(whole[y * ((WIDE + 1) / 2) + x / 2] >> (x % 2 == 0 ? 4 : 0) & 15)
+                                      : 255 * (int32_t)bit_of(whole, x, y, format);
+    return sum;
+}
+
+static void test_a_diffused_flat_area_has_the_mean_of_its_code(void)
+{
+    enum { PIXELS = WIDE * HIGH };
+    for (int32_t code = 0; code < 256; code += 5) {
+        const int32_t stretched = (code * 341 >> 8) - 43, shown = stretched < 0 ? 0 : stretched > 255 ? 255 : stretched;
+        CHECK_NEAR(shown_of((uint8_t)code, SMEAR_L4), code * PIXELS, PIXELS);
+        CHECK_NEAR(shown_of((uint8_t)code, SMEAR_L1), shown * PIXELS, 6 * PIXELS);
+    }
+    CHECK_EQ(shown_of(0, SMEAR_L1), 0);
+    CHECK_EQ(shown_of(255, SMEAR_L1), 255 * PIXELS);
+}
+
 void suite_convert(void)
 {
+    RUN(test_diffused_bits_are_the_same_in_both_packings);
+    RUN(test_a_frame_diffused_in_bands_is_that_diffused_at_once);
+    RUN(test_a_diffused_flat_area_has_the_mean_of_its_code);
     RUN(test_undithered_levels_are_the_nearest);
     RUN(test_32_bit_pixels_pass_in_the_machines_order_without_their_upper_byte);
     RUN(test_grey_is_the_weighted_mean_of_the_codes);

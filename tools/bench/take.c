@@ -103,7 +103,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     const struct take *t = &rig->take;
     smear_desc desc = presented_desc(rig->frame, t->width, t->height);
     desc.format = (uint8_t)t->format;
-    desc.dither = SMEAR_DITHER_NONE;
+    desc.display.dither = SMEAR_DITHER_NONE;
     desc.reach = (int16_t)t->reach;
     desc.methods |= (uint16_t)(t->windowed ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u);
     present_tiles(&desc);

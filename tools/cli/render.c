@@ -39,12 +39,15 @@ static bool open_devices(struct render *r, struct failure *f)
     const int width = r->setup.width, height = r->setup.height;
     struct device_setup setup = setup_device(&r->setup, o);
     if (o->exact) {
-        if (!exact_open(&r->exact, width, height, o->format, o->dither, f))
+        if (!exact_open(&r->exact, width, height, o->format, o->dither, o->doubled, f))
             return false;
         setup.format = SMEAR_XRGB8888;
         setup.methods = SMEAR_SET(SMEAR_NONE);
     }
-    if (!device_open(&r->device, &setup, f) || !image_alloc(&r->picture, width, height, f))
+    if (!device_open(&r->device, &setup, f))
+        return false;
+    const struct device *shown = o->exact ? &r->exact.display : &r->device;
+    if (!image_alloc(&r->picture, shown->width, shown->height, f))
         return false;
     if ((o->depth != NULL || o->velocity != NULL) &&
         !planes_open(&r->planes, width, height, f))

@@ -60,7 +60,6 @@ kconfig() {
             case $switch in
             *_TIMEMASK | *_DAMAGE) printf '\tdepends on SMEAR_WITH_SUBFRAMES\n' ;;
             *_FILTERS | *_LAYERS) printf '\tdepends on SMEAR_WITH_RECONSTRUCT\n' ;;
-            *_BLUE_DITHER) printf '\tdepends on SMEAR_WITH_DITHER\n' ;;
             esac
         done
         printf '\n%s\n' "$3"

@@ -336,11 +336,21 @@ static const char *read_format(void *to, const char *value)
 
 static const char *read_dither(void *to, const char *value)
 {
-    static const char *const names[] = { "ordered", "none", "blue", NULL };  /* as smear_dither */
+    static const char *const names[] = { "ordered", "none", "blue", "diffuse", NULL };  /* as smear_dither */
     int found = read_name(value, names);
     if (found < 0)
-        return "needs none, ordered or blue";
+        return "needs none, ordered, blue or diffuse";
     ((struct render_options *)to)->dither = (smear_dither)found;
+    return NULL;
+}
+
+static const char *read_double(void *to, const char *value)
+{
+    static const char *const names[] = { "1x1", "2x1", "1x2", "2x2", NULL };    /* as smear_doubled */
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs 1x1, 2x1, 1x2 or 2x2";
+    ((struct render_options *)to)->doubled = (smear_doubled)found;
     return NULL;
 }
 
@@ -439,6 +449,7 @@ static const struct option table[] = {
     { "--fog", true, read_fog },
     { "--format", true, read_format },
     { "--dither", true, read_dither },
+    { "--double", true, read_double },
     { "--arena", true, read_arena },
     { "--threads", true, read_threads },
     { "--repeat", true, read_repeat },
@@ -494,6 +505,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
     if (o->keep_display && !smear_method_is_temporal(o->method))
         return say_bad_usage("--keep-display", "goes with --method auto, subframes and timemask");
+    if (o->dither == SMEAR_DITHER_DIFFUSE && (o->format < SMEAR_L4 || o->keep_display))
+        return say_bad_usage("--dither", "diffuse goes with --format l4, l1 and l1pages, without --keep-display");
     if (o->exact && o->motion_count > 0)
         return say_bad_usage("--motion", "contradicts --exact, which moves all as the file does");
     if (o->mask != NULL && o->method != SMEAR_OBJECT && o->method != SMEAR_LAYERED)

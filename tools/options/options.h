@@ -59,6 +59,7 @@ struct render_options {
 
     smear_format format;
     smear_dither dither;
+    smear_doubled doubled;
     size_t arena;               /* 0: not given */
     int threads;
     int repeat;                 /* 0: not given */

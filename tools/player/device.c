@@ -44,9 +44,11 @@ bool device_open(struct device *device, const struct device_setup *setup, struct
 {
     *device = (struct device){ .setup = *setup };
     device->desc.format = (uint8_t)setup->format;
-    device->stride = picture_row_bytes(setup->width, setup->format);
-    size_t rows = setup->format == SMEAR_L1_PAGES ? ((size_t)setup->height + 7) / 8
-                                                  : (size_t)setup->height;
+    device->width = setup->width << (setup->doubled & SMEAR_DOUBLED_X);
+    device->height = setup->height << (setup->doubled >> 1);
+    device->stride = picture_row_bytes(device->width, setup->format);
+    size_t rows = setup->format == SMEAR_L1_PAGES ? ((size_t)device->height + 7) / 8
+                                                  : (size_t)device->height;
     device->size = device->stride * rows;
     device->pixels = calloc(device->size, 1);
     if (device->pixels == NULL)
@@ -75,7 +77,8 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     desc.reach = (int16_t)s->reach;
     desc.tile = (int16_t)s->tile;
     desc.format = (uint8_t)s->format;
-    desc.dither = (uint8_t)s->dither;
+    desc.display.dither = (uint8_t)s->dither;
+    desc.display.doubled = (uint8_t)s->doubled;
     desc.workers = (uint8_t)s->threads;
     desc.methods = (uint16_t)s->methods;
     if ((s->methods & SMEAR_SET_FILTERS) == 0)

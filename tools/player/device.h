@@ -17,6 +17,7 @@ struct device_setup {
     int width, height, reach, tile;     /* reach and tile: 0 for the library's defaults */
     smear_format format;
     smear_dither dither;
+    smear_doubled doubled;
     unsigned methods;                   /* SMEAR_SET(...) of what frames ask for */
     bool scatter, cache_static, keep_display;
     int threads;                        /* 1..8 */
@@ -46,6 +47,7 @@ struct device {
     bool is_timed;                      /* bands are thrown away */
     uint32_t submit_ticks;              /* of the frame drawn last */
     int result;                         /* what the library made of it */
+    int width, height;                  /* of the display: where it is doubled, not those of the setup */
     uint8_t *pixels;                    /* the frame in the display's format, row after row */
     size_t stride, size;                /* bytes; of a page of 8 rows with SMEAR_L1_PAGES */
 };

@@ -8,10 +8,11 @@
 enum { DEFAULT_INSTANTS = 8 };
 
 bool exact_open(struct exact *exact, int width, int height, smear_format format,
-                smear_dither dither, struct failure *f)
+                smear_dither dither, smear_doubled doubled, struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .threads = 1,
-                                        .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .format = format, .dither = dither };
+                                        .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .format = format, .dither = dither,
+                                        .doubled = doubled };
     const struct presented nothing = { .draw_count = 0 };
     size_t pixels = (size_t)width * (size_t)height;
     *exact = (struct exact){ .sum = calloc(pixels * 3, sizeof *exact->sum),

@@ -14,7 +14,7 @@ struct exact {
 
 /* `exact` is released by exact_close in any case. */
 bool exact_open(struct exact *exact, int width, int height, smear_format format,
-                smear_dither dither, struct failure *f);
+                smear_dither dither, smear_doubled doubled, struct failure *f);
 void exact_close(struct exact *exact);
 
 /* The mean of `instants` (0: 8) frames at the midpoints of the exposure, in exact->display.pixels

@@ -442,7 +442,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *given)
     add_field(&text, "vertex_cache", d.vertex_cache);
     add_field(&text, "filter.passes", d.filter.passes);
     add_field(&text, "filter.scatter", d.filter.scatter);
-    add_field(&text, "dither", d.dither);
+    add_field(&text, "display.dither", d.display.dither);
     add_field(&text, "debug.crc", d.debug.crc);
     add(&text, "}");
     return object(w, "smear_desc", false, &text);

@@ -133,20 +133,28 @@ static void do_light(struct view *v, int way)
     view_say(v, "%s light", o.light == SMEAR_LIGHT_LINEAR ? "linear" : "encoded");
 }
 
+static bool can_diffuse(const struct render_options *o)
+{
+    return o->format >= SMEAR_L4 && !o->keep_display;
+}
+
 static void do_format(struct view *v, int way)
 {
     enum { FORMATS = SMEAR_L1_PAGES + 1 };
     struct render_options o = v->main.options;
     o.format = (smear_format)(((int)o.format + way + FORMATS) % FORMATS);
+    if (o.dither == SMEAR_DITHER_DIFFUSE && !can_diffuse(&o))
+        o.dither = SMEAR_DITHER_ORDERED;
     apply_both(v, &o);
     view_say(v, "format %s", options_format_name(o.format));
 }
 
 static void do_dither(struct view *v, int way)
 {
-    static const char *const names[] = { "ordered", "none", "blue" };
+    static const char *const names[] = { "ordered", "none", "blue", "diffuse" };
     struct render_options o = v->main.options;
-    o.dither = (smear_dither)(((int)o.dither + way + 3) % 3);
+    const int count = can_diffuse(&o) ? 4 : 3;
+    o.dither = (smear_dither)(((int)o.dither + way + count) % count);
     apply_both(v, &o);
     view_say(v, "dither %s", names[o.dither]);
 }

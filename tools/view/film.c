@@ -17,7 +17,7 @@ enum { MAX_SEARCH = 240, TRUTH_INSTANTS = 64 };
 bool film_picture(const struct view *v, struct image *out, struct failure *f)
 {
     const struct lane *lane = &v->main;
-    if (!image_alloc(out, lane->setup.width, lane->setup.height, f))
+    if (!image_alloc(out, lane->device.width, lane->device.height, f))
         return false;
     picture_expand(out, lane->device.pixels, lane->device.stride, lane->options.format);
     return true;

@@ -13,10 +13,15 @@ static void note_band(void *user, const smear_band *band)
     struct lane *lane = user;
     if (lane->device.is_timed)
         return;
-    tiles_note(&lane->tiles, lane->device.ctx, band);
+    const smear_doubled doubled = lane->options.doubled;
+    smear_band drawn = *band;
+    drawn.y = (int16_t)(band->y >> (doubled >> 1));
+    drawn.height = (int16_t)(band->height >> (doubled >> 1));
+    drawn.width = (int16_t)(band->width >> (doubled & SMEAR_DOUBLED_X));
+    tiles_note(&lane->tiles, lane->device.ctx, &drawn);
     if (lane->band_count == LANE_MAX_BANDS)
         return;
-    lane->band[lane->band_count++] = (struct lane_band){ .y = band->y, .height = band->height };
+    lane->band[lane->band_count++] = (struct lane_band){ .y = drawn.y, .height = drawn.height };
 }
 
 static bool open_parts(struct lane *lane, struct failure *f)
@@ -69,6 +74,27 @@ const struct presented *lane_present(const struct lane *lane, struct presenter *
     return presenter_frame(presenter, instant->time, &options, f);
 }
 
+/* The display's codes, of doubled pixels each once. */
+static bool decode(struct lane *lane, struct failure *f)
+{
+    const struct device *d = &lane->device;
+    const int width = lane->setup.width, height = lane->setup.height;
+    uint32_t *codes = lane->picture;
+    if (lane->options.doubled != SMEAR_DOUBLED_NONE)
+        codes = malloc((size_t)d->width * (size_t)d->height * sizeof *codes);
+    if (codes == NULL)
+        return fail(f, "out of memory");
+    const bool ok = panel_decode(&lane->codes, d->pixels, d->stride, d->width, d->height, codes, f);
+    if (codes == lane->picture)
+        return ok;
+    uint32_t *out = lane->picture;
+    for (int y = 0; ok && y < height; y++)
+        for (int x = 0; x < width; x++)
+            *out++ = codes[(size_t)(y * d->height / height) * (size_t)d->width + (size_t)(x * d->width / width)];
+    free(codes);
+    return ok;
+}
+
 bool lane_draw(struct lane *lane, struct presenter *presenter, const struct instant *instant,
                struct failure *f)
 {
@@ -80,8 +106,7 @@ bool lane_draw(struct lane *lane, struct presenter *presenter, const struct inst
     if (!device_draw(&lane->device, presented, f))
         return false;
     smear_get_stats(lane->device.ctx, &lane->stats);
-    bool ok = panel_decode(&lane->codes, lane->device.pixels, lane->device.stride,
-                           lane->setup.width, lane->setup.height, lane->picture, f);
+    bool ok = decode(lane, f);
     lane->wall_us = clock_us() - start;
     return ok;
 }

@@ -93,6 +93,8 @@ struct view {
     /* codes of the panel: as shown, of the whole frame, and of the frame before */
     uint32_t *picture, *whole, *before;
     int width, height;              /* of them */
+    uint32_t *panel;                /* v->picture as a doubled panel shows it */
+    int panel_width, panel_height;
     struct debug debug;
     enum debug_kind debug_kind;
     bool has_overlay, has_error, told_dropped;

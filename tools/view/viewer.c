@@ -207,6 +207,15 @@ static bool fit_pictures(struct view *v, struct failure *f)
 {
     size_t pixels = (size_t)v->main.setup.width * (size_t)v->main.setup.height;
     uint32_t **all[3] = { &v->picture, &v->whole, &v->before };
+    const struct device *d = &v->main.device;
+    if (v->panel_width != d->width || v->panel_height != d->height) {
+        free(v->panel);
+        v->panel = calloc((size_t)d->width * (size_t)d->height, sizeof *v->panel);
+        if (v->panel == NULL)
+            return fail(f, "out of memory");
+        v->panel_width = d->width;
+        v->panel_height = d->height;
+    }
     if (v->width == v->main.setup.width && v->height == v->main.setup.height)
         return true;
     v->width = v->main.setup.width;
@@ -292,11 +301,26 @@ static bool draw_frame(struct view *v)
 
 /* ------------------------------------------------------------------ the screen */
 
+/* The picture as the panel has it. */
+static const uint32_t *on_panel(struct view *v)
+{
+    const int columns = v->panel_width / v->width, rows = v->panel_height / v->height;
+    if (columns == 1 && rows == 1)
+        return v->picture;
+    uint32_t *out = v->panel;
+    for (int y = 0; y < v->panel_height; y++) {
+        const uint32_t *row = v->picture + (size_t)(y / rows) * (size_t)v->width;
+        for (int x = 0; x < v->panel_width; x++)
+            *out++ = row[x / columns];
+    }
+    return v->panel;
+}
+
 /* The picture and what is written over it. */
 static void compose(struct view *v, const struct surface *s, struct text *text)
 {
     int columns = s->width, rows = s->height / 2;
-    panel_show(&v->look, &v->place, v->picture, v->width, v->height, s);
+    panel_show(&v->look, &v->place, on_panel(v), v->panel_width, v->panel_height, s);
     if (!v->screen->has_text)
         overlay_room(s, &columns, &rows);
     if (v->help_page < 0 || v->help_page > overlay_help_pages(columns, rows))
@@ -330,7 +354,7 @@ static bool show(struct view *v)
     if (!v->screen->kind->surface(v->screen, &s, &f))
         return give_up(v, v->screen->kind->name, &f);
     double waited = clock_us();
-    v->place = panel_place_on(&v->look, v->width, v->height, &s);
+    v->place = panel_place_on(&v->look, v->panel_width, v->panel_height, &s);
     compose(v, &s, &text);
     double composed = clock_us();
     if (!v->screen->kind->show(v->screen, &text, &f))
@@ -500,10 +524,10 @@ static void print_estimate(const struct view *v)
 
 static void wish_size(const struct view *v, struct screen_wish *wish)
 {
-    int w = v->main.setup.width, h = v->main.setup.height, zoom = v->look.zoom;
+    int w = v->main.device.width, h = v->main.device.height, zoom = v->look.zoom;
     if (v->look.turns & 1) {
-        w = v->main.setup.height;
-        h = v->main.setup.width;
+        w = v->main.device.height;
+        h = v->main.device.width;
     }
     if (zoom == 0) {
         zoom = WISHED_WIDTH / w < WISHED_HEIGHT / h ? WISHED_WIDTH / w : WISHED_HEIGHT / h;
@@ -597,6 +621,7 @@ static void release(struct view *v)
     lane_close(&v->left);
     presenter_free(v->presenter);
     free(v->picture);
+    free(v->panel);
     free(v->whole);
     free(v->before);
     free(v->times.draw);
