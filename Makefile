@@ -125,7 +125,7 @@ chart-picture: $(BIN)/smear-bench
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
 	cp build/chart/both.svg tools/bench/pictures/chart.svg
 
-$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(TOOL_SRC) $(REF_SRC)) $(LIB)
+$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 

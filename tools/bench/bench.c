@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [targets FILE...]
+ *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [formats] [targets FILE...]
  *     bench chart [options]
  *
- * Without arguments, the first six. `targets` reads what target_bench printed, from files named
+ * Without arguments, the first seven. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "tools/bench/chart.h"
@@ -41,6 +41,7 @@ struct report {
 static const struct report reports[] = {
     { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
     { "filters", filters_report }, { "threads", threads_report }, { "memory", memory_report },
+    { "formats", formats_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

@@ -227,7 +227,8 @@ static const char *const bench_help[] = {
     "smear bench [REPORT...]\n"
     "\n"
     "Instructions per frame (counted by valgrind), picture quality and memory, beside the bars\n"
-    "set for them. Reports: peers, accuracy, methods, filters, threads, memory; all without a name.\n"
+    "set for them; few greys through an eye (formats). Reports: peers, accuracy, methods, filters,\n"
+    "threads, memory, formats; all without a name.\n"
     "`make bench` adds what frames cost on Cortex-M.\n"
     "\n"
     "  --strict              exit status 1 when a bar is missed\n",
