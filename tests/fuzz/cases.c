@@ -591,17 +591,10 @@ static void make_settings(struct fuzz_case *c)
     c->light.direction[1] |= 1;
 }
 
-void case_frame(struct fuzz_case *c, int k)
+/* What is another from frame to frame. */
+static void move_on(struct fuzz_case *c, bool keeps)
 {
     struct source *s = &c->source;
-    const bool keeps = c->desc.reuse.cache_static || c->desc.reuse.buffer_age;
-    if (k == 0 || source_chance(s, keeps ? 6 : 2))
-        make_settings(c);
-    c->frame.refresh = 0;
-    if (c->with_overlay)
-        case_frame_overlay(c);
-    if (k == 0)
-        return;
     if (source_chance(s, keeps ? 6 : 2))
         make_moved_camera(c, &c->camera[0], &c->camera[source_range(s, 0, 2)]);
     for (int i = 0; i < c->draws; i++)
@@ -616,6 +609,34 @@ void case_frame(struct fuzz_case *c, int k)
             memset(c->mesh[at].bounds, 0, sizeof c->mesh[at].bounds);
         c->frame.refresh = 1;
     }
+}
+
+static void make_fog(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    const int32_t near_plane = about(c, 2 << 16, 2 << 16);
+    c->fog = (smear_fog){ .color = source_word(s), .near_plane = near_plane > 0 ? near_plane : 0 };
+    const int64_t far = c->fog.near_plane + (c->fog.near_plane >> 7) + 2 + (int64_t)positive(c, 10 << 16);
+    c->fog.far_plane = far < INT32_MAX ? (int32_t)far : INT32_MAX;
+    const bool thick = c->fog.far_plane - c->fog.near_plane > c->fog.far_plane >> 8;
+    c->frame.fog = thick && source_chance(s, 4) ? &c->fog : NULL;
+}
+
+void case_frame(struct fuzz_case *c, int k)
+{
+    struct source *s = &c->source;
+    const bool keeps = c->desc.reuse.cache_static || c->desc.reuse.buffer_age;
+    if (k == 0 || source_chance(s, keeps ? 6 : 2))
+        make_settings(c);
+    c->frame.refresh = 0;
+    if (c->with_overlay)
+        case_frame_overlay(c);
+    if (k != 0)
+        move_on(c, keeps);
+    if (k == 0 || source_chance(s, keeps ? 6 : 2))
+        make_fog(c);
+    if (c->fog.far_plane <= c->camera[0].near_plane)
+        c->frame.fog = NULL;
 }
 
 /* ------------------------------------------------------------------ the whole */

@@ -33,6 +33,7 @@ enum { CASE_TEXTURES = 3,
        CASE_MESHES = 4,
        CASE_DRAWS = 8,
        CASE_ITEMS = 4,
+       CASE_POINTS = 12,
        CASE_BLOCKS = 64 };
 
 struct fuzz_case {
@@ -59,7 +60,10 @@ struct fuzz_case {
     smear_font font;
     char text[12];
     smear_overlay_item item[CASE_ITEMS];
+    smear_point point[CASE_POINTS];
+    smear_points points;
     smear_overlay overlay;
+    smear_fog fog;
     smear_frame frame;
     void *block[CASE_BLOCKS];
     int blocks;

@@ -39,6 +39,23 @@ static void make_item(struct fuzz_case *c, smear_overlay_item *item)
     }
 }
 
+/* Anywhere near the camera, mostly, and where it was before: a little elsewhere. */
+static void make_point(struct fuzz_case *c, smear_point *point)
+{
+    struct source *s = &c->source;
+    for (int k = 0; k < 3; k++) {
+        point->now[k] = source_range(s, -(3 << 16), 3 << 16) - (k == 2 ? 3 << 16 : 0);
+        if (c->extreme && source_chance(s, 8))
+            point->now[k] = source_any(s);
+        const int32_t step = source_range(s, -(1 << 16), 1 << 16) >> source_range(s, 0, 12);
+        point->before[k] = c->extreme && source_chance(s, 8) ? source_any(s) : (int32_t)((uint32_t)point->now[k] + (uint32_t)step);
+        point->color[k] = (uint8_t)source_word(s);
+    }
+    point->size = source_range(s, 0, source_chance(s, 8) ? INT32_MAX : 1 << 15);
+    point->fade = (uint8_t)(source_chance(s, 2) ? source_word(s) : 0);
+    point->mode = (uint8_t)source_range(s, SMEAR_POINT_ADD, SMEAR_POINT_BLEND);
+}
+
 void case_make_overlay(struct fuzz_case *c)
 {
     struct source *s = &c->source;
@@ -48,6 +65,9 @@ void case_make_overlay(struct fuzz_case *c)
     c->font.advance = (uint8_t)source_range(s, 0, 30);
     for (int i = 0; i < CASE_ITEMS; i++)
         make_item(c, &c->item[i]);
+    for (int i = 0; i < CASE_POINTS; i++)
+        make_point(c, &c->point[i]);
+    c->points.point = c->point;
 }
 
 void case_frame_overlay(struct fuzz_case *c)
@@ -58,6 +78,11 @@ void case_frame_overlay(struct fuzz_case *c)
             c->text[i] = (char)source_range(s, i < 2, 127);
     if (source_chance(s, 2))
         make_item(c, &c->item[source_range(s, 0, CASE_ITEMS - 1)]);
-    c->overlay = (smear_overlay){ c->item, (uint16_t)source_range(s, 0, CASE_ITEMS) };
+    for (int i = 0; i < CASE_POINTS; i++)
+        if (source_chance(s, 3))
+            make_point(c, &c->point[i]);
+    c->points.count = (uint16_t)source_range(s, 0, CASE_POINTS);
+    const bool points = source_chance(s, 2);
+    c->overlay = (smear_overlay){ c->item, (uint16_t)source_range(s, 0, CASE_ITEMS), points ? &c->points : NULL };
     c->frame.overlay = source_chance(s, 3) ? &c->overlay : NULL;
 }

@@ -86,6 +86,13 @@ static const struct part item_parts[] = {
     PART(smear_overlay_item, height), PART(smear_overlay_item, color), PART(smear_overlay_item, scale),
     PART(smear_overlay_item, cell)
 };
+static const struct part fog_parts[] = {
+    PART(smear_fog, color), PART(smear_fog, near_plane), PART(smear_fog, far_plane)
+};
+static const struct part point_parts[] = {
+    PART(smear_point, now), PART(smear_point, before), PART(smear_point, size), PART(smear_point, color),
+    PART(smear_point, fade), PART(smear_point, mode), PART(smear_point, place)
+};
 static const struct part transform_parts[] = { PART(smear_transform, basis), PART(smear_transform, origin) };
 
 static void spoil_index(struct fuzz_case *c, const smear_mesh *m)
@@ -102,7 +109,7 @@ void case_spoil_frame(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     const int i = source_range(s, 0, CASE_DRAWS - 1), mesh = source_range(s, 0, CASE_MESHES - 1);
-    switch (source_range(s, 0, 13)) {
+    switch (source_range(s, 0, 15)) {
     case 0: SPOIL(&c->camera[source_range(s, 0, 2)], camera_parts); break;
     case 1: SPOIL(&c->frame, frame_parts); break;
     case 2: SPOIL(&c->layer[source_range(s, 0, SMEAR_LAYERS_MAX - 1)], layer_parts); break;
@@ -116,6 +123,8 @@ void case_spoil_frame(struct fuzz_case *c)
     case 10: SPOIL(&c->layer_camera[source_range(s, 0, 2)], camera_parts); break;
     case 11: c->frame.camera = source_chance(s, 4) ? NULL : &c->camera[1]; break;
     case 12: SPOIL(&c->item[source_range(s, 0, CASE_ITEMS - 1)], item_parts); break;
+    case 13: SPOIL(&c->fog, fog_parts); break;
+    case 14: SPOIL(&c->point[source_range(s, 0, CASE_POINTS - 1)], point_parts); break;
     default: memset(c->curve, source_chance(s, 2) ? 0 : 255, sizeof c->curve); break;
     }
 }
