@@ -13,7 +13,7 @@ NEEDS := arm-none-eabi-gcc arm-none-eabi-g++ cmake g++ node
 BOARD ?= breakout
 export BOARD
 BUILD := $(BUILD)/$(BOARD)
-CFLAGS += -mcpu=cortex-m0plus -mthumb -ffreestanding -ffunction-sections -fdata-sections -DSMEAR_WITH_LINEAR=0 -DSMEAR_WITH_TIMEMASK=0
+CFLAGS += -mcpu=cortex-m0plus -mthumb -ffreestanding -ffunction-sections -fdata-sections -DSMEAR_WITH_LINEAR=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_FOG=0
 
 # Builds BUILD/demo.elf and demo.uf2, or those of a model.
 PROJECT := sh platform/pico/build.sh
