@@ -7,7 +7,15 @@
  * not their cautious data sheets; their refresh is by an oscillator of their own, never quite the 60 Hz it is meant to be. */
 #include "tools/view/board.h"
 
+#include <smear_config.h>
 #include <string.h>
+
+/* The page goes without the finer dither. */
+#if SMEAR_WITH_DISPLAY
+#define FINE_DITHER "blue"
+#else
+#define FINE_DITHER "ordered"
+#endif
 
 #define AS_FIRMWARE "--method", "auto", "--quality", "draft", "--light", "encoded", "--keep-display"
 
@@ -33,7 +41,7 @@ const struct board board_list[] = {
     { "pizero", "Raspberry Pi Zero on HDMI: 640x480, RGB565, 16 MB for the context",
       { "--size", "640x480", "--format", "rgb565", "--arena", "16777216", AS_FIRMWARE, "--tile", "32", "--reach", "24", NULL } },
     { "memlcd", "400x240 1-bit reflective memory display at 50 Hz, Cortex-M7 at 168 MHz, 1 MB",
-      { "--size", "400x240", "--format", "l1", "--dither", "blue", "--arena", "1048576", "--bus",
+      { "--size", "400x240", "--format", "l1", "--dither", FINE_DITHER, "--arena", "1048576", "--bus",
         "6000000", "--cpu", "cortex-m7:168000000", "--tint", "322f29,b1aea7", NULL } },
     { "fb320", "320x240 framebuffer of a small Linux machine, RGB565, 2 MB for the context",
       { "--size", "320x240", "--format", "rgb565", "--arena", "2097152", NULL } },

@@ -19,7 +19,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tool
 WEB_FAST := $(filter src/kernels/% src/filter/% src/ports/% src/layers/% src/raster/% src/temporal/subframes.c src/temporal/timemask% \
     src/temporal/temporal_rows.c src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
-WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
+WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_DISPLAY=0 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
     -Iinclude -Isrc -I. -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
