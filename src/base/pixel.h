@@ -72,6 +72,20 @@ static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, b
     return pixel_make(0, out[0], out[1], out[2]);
 }
 
+/* Mixes `over` into a pixel by a part of 65536 and keeps the pixel's alpha. Dark pixels in linear light show less than a
+ * 256th of it. */
+static inline uint32_t pixel_mix_part(uint32_t pixel, uint32_t over, int32_t part, bool linear)
+{
+    const uint32_t a = (uint32_t)part, b = 65536u - a;
+    uint32_t out = pixel >> 24;
+    if (!linear)
+        return out << 24 | pixel_mix(pixel, over, (a + 128u) >> 8);
+    for (int shift = 16; shift >= 0; shift -= 8)
+        out = out << 8 | smear_srgb_encode[(smear_srgb_decode[over >> shift & 255u] * a
+                                            + smear_srgb_decode[pixel >> shift & 255u] * b) >> 20];
+    return out;
+}
+
 /* Returns the nearest levels of 5, 6 and 5 bits, red on top: (249 c + 1014) >> 11 and (253 c + 505) >> 10, both exact
  * for every code. Red and blue share a product: 255 x 249 + 1014 stays below 2^16. */
 static inline uint32_t rgb565_nearest(uint32_t p)

@@ -6,6 +6,8 @@
 static inline uint32_t remember(struct texel_light *l, uint32_t t, uint32_t pixel)
 {
     l->texel = t;
+    if (SMEAR_WITH_FOG && l->fog_part != 0)
+        pixel = pixel_mix_part(pixel, l->fog, l->fog_part, l->linear);
     l->pixel = l->narrow ? rgb565_nearest(pixel) : pixel;
     return l->pixel;
 }

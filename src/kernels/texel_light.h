@@ -45,6 +45,8 @@ struct texel_light {
     bool narrow;                        /* pixels are RGB565 */
     bool linear;
     const struct texel_table *table;    /* or null */
+    uint32_t fog;                       /* 0x00RRGGBB, of which pixels have so much of 65536 */
+    int32_t fog_part;
 };
 
 /* White light. The texture's sizes are 2^log2_width and 2^log2_height, both at least 2. */
@@ -63,9 +65,20 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->narrow = narrow;
     l->linear = SMEAR_WITH_LINEAR && linear;
     l->table = NULL;
+    l->fog_part = 0;
     l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
     l->mask_v = ((1u << log2_height) - 1u) << log2_width;
     l->from_u = 32u - (uint32_t)log2_width;
+}
+
+/* Goes on with another part of fog: remembers no pixel. */
+static inline void texel_light_fog(struct texel_light *l, int32_t part)
+{
+    if (l->fog_part == part)
+        return;
+    l->fog_part = part;
+    l->index = l->texel = ~0u;
+    l->near = 0;
 }
 
 /* Returns the pixel of another texel than the last one. Rarely called, where textures are magnified. */

@@ -111,6 +111,17 @@ static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t 
         out[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
 }
 
+/* The steps of colours in a block of n > 0 pixels; in fog they may have none. */
+static inline void find_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct setup *s)
+{
+    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
+        smear_fog_steps(step, from, to, n, frame_is_linear(s->frame));
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        step[i] = part_of(to[i] - from[i], n);
+}
+
 /* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
 static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
                                        int32_t left, int32_t right)
@@ -124,10 +135,12 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
         struct shade k;
         if (n > 0)
             colors_at(to, s, x + n, y);
+        int32_t step[3] = { 0, 0, 0 };
+        if (n > 0)
+            find_steps(step, from, to, n, s);
         for (int i = 0; i < 3; i++) {
-            const int32_t step = n > 0 ? part_by(to[i] - from[i], inverse_of(n)) : 0;
-            k.c[i] = (uint32_t)(from[i] + step * (a - x));
-            k.d[i] = (uint32_t)step;
+            k.c[i] = (uint32_t)(from[i] + step[i] * (a - x));
+            k.d[i] = (uint32_t)step[i];
             from[i] = to[i];
         }
         if (end > a)            /* what is left of a long block is in parts */

@@ -567,6 +567,8 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
     }
 #endif
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
+    if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
+        write = smear_span_level;
     if (small)
         cover_small(s, box, write);
     else

@@ -13,7 +13,7 @@ enum { SMALL_PX = 8, SMALL_TEXTURED_PX = 16 };
 /* Whether a triangle is set up by smear_setup_small. */
 static inline bool cover_is_small(const struct setup *s, bool small)
 {
-    return small && segment_textured(s->segment) && segment_moves(s->segment) == 0 && fog_of(s) != FOG_VARIES;
+    return small && segment_textured(s->segment) && segment_moves(s->segment) == 0 && !fog_varies(s);
 }
 
 /* Pixels [left, right) of rows [top, bottom). */

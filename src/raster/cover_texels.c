@@ -216,7 +216,7 @@ SMEAR_INLINE void put_texel(const struct setup *s, const struct few_texels *k, i
                 return;
         }
         uint32_t pixel = k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame));
-        if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN)
+        if (SMEAR_WITH_FOG && fog_is_even(s))
             pixel = fog_pixel(s->frame, pixel, fog_even_part(s));
         target_put(t, at, pixel);
     }
@@ -263,7 +263,7 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
 {
     const struct smear_sampler *m = &s->draw->sampler;
     struct few_texels k;
-    if (fog_of(s) == FOG_VARIES || !load_coordinates(&k, s))
+    if (fog_varies(s) || !load_coordinates(&k, s))
         return false;
     k.kind = LIGHT_NONE;
     if (s->segment->shade != SHADE_NONE && !load_light(&k, s))

@@ -20,7 +20,7 @@ enum { TINY_PIXELS = 32 };
 static inline bool cover_is_tiny(const struct setup *s, int32_t pixels)
 {
     return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0
-        && draw_is_opaque(s->draw) && fog_of(s) != FOG_VARIES
+        && draw_is_opaque(s->draw) && !fog_varies(s)
         && (!segment_by_vertices(s->segment) || segment_flat_depth(s->segment)
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -47,7 +47,7 @@ static inline void channels_start(struct tiny_channels *c, const struct setup *s
         c->value[i] = value;
         c->to1[i] = (int32_t)((uint32_t)s->v[1][at] >> shift & 0xffffu) - value;
         c->to2[i] = (int32_t)((uint32_t)s->v[2][at] >> shift & 0xffffu) - value;
-        if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN) {
+        if (SMEAR_WITH_FOG && fog_is_even(s)) {
             const int32_t part = fog_even_part(s) >> 1;
             const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
             const int32_t there = frame_is_linear(s->frame) ? smear_srgb_decode[code] : (int32_t)(code << 8);

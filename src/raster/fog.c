@@ -150,6 +150,14 @@ void smear_fog_blocks(struct setup *s)
         if (change < (uint32_t)(most - least))
             codes = codes * (change >> 4) / ((uint32_t)(most - least + 15) >> 4);
     }
+    if (segment_textured(s->segment) || !draw_is_opaque(s->draw)) {
+        /* one part for a block, which errs by up to half */
+        const int block = codes == 0 ? FOG_LEVEL : codes <= FOG_STEP / 4 ? BLOCK_LONGEST : codes <= FOG_STEP ? 16
+                        : codes <= 2 * FOG_STEP ? 8 : 4;
+        s->fog = (uint16_t)(FOG_VARIES + block);
+        s->color_block = (uint8_t)min_i32(s->color_block, block);
+        return;
+    }
     if (codes <= FOG_BLOCK / 4 && !s->perspective_color)
         s->color_block = BLOCK_LONGEST;
     else if (codes > FOG_BLOCK)
@@ -183,7 +191,7 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
 {
-    const int32_t part = s->fog >= FOG_EVEN ? fog_even_part(s) : part_at(s, x, y);
+    const int32_t part = fog_is_even(s) ? fog_even_part(s) : part_at(s, x, y);
     channels_at(c, s, x, y);
     for (int i = 0; i < 3; i++) {
         const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
@@ -191,20 +199,23 @@ void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t 
     }
 }
 
-void smear_fog_pixels(uint32_t *pixel, const struct setup *s, int32_t x, int32_t n, int32_t start, int32_t end, int32_t y)
+void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear)
 {
-    int32_t part, step = 0;
-    if (s->fog >= FOG_EVEN) {
-        part = fog_even_part(s);
-    } else {
-        part = part_at(s, start, y);
-        if (end > start) {
-            step = (part_at(s, end, y) - part) / (end - start);
-            part += step * (x - start);
-        }
+    const int32_t little = linear ? 0 : 3 << 15;        /* a code and a half */
+    int32_t most = 0;
+    for (int i = 0; i < 3; i++)
+        most = max_i32(most, abs_i32(to[i] - from[i]));
+    for (int i = 0; i < 3; i++) {
+        step[i] = most > little ? part_by(to[i] - from[i], inverse_of(n)) : 0;
+        from[i] = most > little ? from[i] : (from[i] + to[i]) >> 1;
     }
-    for (; n > 0; n--, pixel++, part += step)
-        *pixel = fog_pixel(s->frame, *pixel, part);
+}
+
+int32_t smear_fog_run_part(const struct setup *s, int32_t left, int32_t right, int32_t start, int32_t n, int32_t y)
+{
+    if (fog_is_even(s))
+        return fog_even_part(s);
+    return fog_is_by_rows(s) || right - left <= SHORT_SPAN ? part_at(s, (left + right) >> 1, y) : part_at(s, start + (n >> 1), y);
 }
 
 #endif

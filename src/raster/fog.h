@@ -15,17 +15,10 @@ void smear_fog_make(struct smear_raster_frame *frame, const smear_fog *fog, cons
 /* The part of fog at depth units q11, 0 .. 65536. */
 int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units);
 
-/* A working pixel in so much of fog; its alpha stays. Dark pixels in linear light show less than a 256th of it. */
+/* A working pixel in so much of fog. */
 static inline uint32_t fog_pixel(const struct smear_raster_frame *frame, uint32_t pixel, int32_t part)
 {
-    const uint32_t fog = frame_fog(frame)->color, a = (uint32_t)part, b = 65536u - a;
-    if (!frame_is_linear(frame))
-        return (pixel & 0xff000000u) | pixel_mix(pixel, fog, (a + 128u) >> 8);
-    uint32_t out = pixel >> 24;
-    for (int shift = 16; shift >= 0; shift -= 8)
-        out = out << 8 | smear_srgb_encode[(smear_srgb_decode[fog >> shift & 255u] * a
-                                            + smear_srgb_decode[pixel >> shift & 255u] * b) >> 20];
-    return out;
+    return pixel_mix_part(pixel, frame_fog(frame)->color, part, frame_is_linear(frame));
 }
 
 /* The part of fog that is near enough for all depths from low to high, units q11, of a colour or, where that is null, of
@@ -38,13 +31,26 @@ void smear_fog_triangle(struct setup *s);
 /* Chooses the length of its blocks, once its plane of depth is known. */
 void smear_fog_blocks(struct setup *s);
 
-/* The part of fog of a triangle with FOG_EVEN, in steps of 4. */
+/* The part of fog of a triangle with FOG_EVEN. */
 static inline int32_t fog_even_part(const struct setup *s) { return (s->fog - FOG_EVEN) * 4; }
 
 /* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y);
 
-/* Changes n pixels from x on of a block [start, end] of row y to those in fog. */
-void smear_fog_pixels(uint32_t *pixel, const struct setup *s, int32_t x, int32_t n, int32_t start, int32_t end, int32_t y);
+/* The steps of channels from one end of a block of n > 0 pixels to the other. Where codes hardly change they have none, and
+ * `from` becomes the mean: one colour is drawn faster. */
+void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear);
+
+/* Whether a textured triangle with FOG_VARIES has one part of it in each row. */
+static inline bool fog_is_by_rows(const struct setup *s)
+{
+    const int32_t left = max_i32(s->bounds.x0 >> 8, 0), right = min_i32(s->bounds.x1 >> 8, s->frame->width - 1);
+    const int32_t block = s->fog - FOG_VARIES;
+    return right - left < block || block == FOG_LEVEL;
+}
+
+/* The part of fog of pixels that begin at `start` and end n later, of a row from left to right of the frame, of a triangle
+ * that is textured or not opaque: in the middle of the row or, in longer ones, of the block. */
+int32_t smear_fog_run_part(const struct setup *s, int32_t left, int32_t right, int32_t start, int32_t n, int32_t y);
 
 #endif

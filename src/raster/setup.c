@@ -467,8 +467,10 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
             setup_divided(s, &k);
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
-    if (setup_is_shaded(s))
+    if (segment_gouraud(s->segment))
         t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
+    if (fog_varies(s))
+        t->block = (uint8_t)min_i32(t->block, s->fog - FOG_VARIES);
 }
 
 /* ------------------------------------------------------------------ all of it */
@@ -478,7 +480,7 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;
-    if (fog_of(s) == FOG_VARIES)
+    if (fog_varies(s))
         return false;
     if (!ALWAYS_FLAT && (segment_textured(s->segment) || !draw_is_opaque(s->draw)))
         return false;
@@ -493,7 +495,7 @@ static bool is_flat(struct setup *s)
         code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
-    if (SMEAR_WITH_FOG && fog_of(s) >= FOG_EVEN)
+    if (SMEAR_WITH_FOG && fog_is_even(s))
         s->color = fog_pixel(s->frame, s->color, fog_even_part(s));
     return true;
 }
@@ -506,7 +508,7 @@ void smear_setup(struct setup *s, uint64_t area)
     s->has_velocity = false;
     if (!ALWAYS_FLAT && !s->flat)
         setup_color(s);
-    if (SMEAR_WITH_FOG && fog_of(s) == FOG_VARIES)
+    if (SMEAR_WITH_FOG && fog_varies(s))
         smear_fog_blocks(s);
     if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
         setup_texture(s);

@@ -71,9 +71,12 @@ enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 /* What is still to be done about a triangle's fog. */
 enum {
     FOG_NONE,
-    FOG_VARIES,
-    FOG_EVEN                /* and above: one part of it throughout, see fog_even_part */
+    FOG_EVEN,               /* and above: one part of it throughout, see fog_even_part */
+    FOG_VARIES = 0x8000     /* and the pixels that may have one part where colours have no planes, or FOG_LEVEL */
 };
+
+/* A row has one part of fog, however long it is. */
+enum { FOG_LEVEL = 255 };
 
 struct setup {
     const struct smear_raster_frame *frame;
@@ -154,6 +157,15 @@ static inline int32_t channel_of_code(uint32_t code, bool linear)
 static inline int fog_of(const struct setup *s)
 {
     return SMEAR_WITH_FOG && frame_has_fog(s->frame) ? s->fog : FOG_NONE;
+}
+
+static inline bool fog_varies(const struct setup *s) { return fog_of(s) >= FOG_VARIES; }
+static inline bool fog_is_even(const struct setup *s) { return fog_of(s) >= FOG_EVEN && !fog_varies(s); }
+
+/* Whether more than one opaque colour is drawn, but for fog. */
+static inline bool setup_has_looks(const struct setup *s)
+{
+    return segment_textured(s->segment) || segment_gouraud(s->segment) || !draw_is_opaque(s->draw);
 }
 
 /* Whether colours without a texture change from pixel to pixel: those of vertices, or fog. */

@@ -23,6 +23,19 @@ void smear_span_flat(const struct setup *s, const struct span *p)
         flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, false);
 }
 
+#if SMEAR_WITH_FOG
+void smear_span_level(const struct setup *s, const struct span *p)
+{
+    const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
+    const int32_t part = smear_fog_part(frame_fog(s->frame), plane_at(&s->depth, (left + right) >> 1, p->y));
+    const uint32_t color = target_pixel(s->target, fog_pixel(s->frame, s->color, part));
+    if (target_is_direct(s->target))
+        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, true);
+    else
+        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, false);
+}
+#endif
+
 /* ------------------------------------------------------------------ blocks */
 
 /* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the
@@ -96,13 +109,14 @@ static inline bool has_channels_in_fog(const struct setup *s)
 static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
                                            uint32_t d[4])
 {
-    int32_t a[3], b[3];
+    int32_t a[3], b[3], step[3] = { 0, 0, 0 };
     smear_fog_channels(a, s, k->start, p->y);
     smear_fog_channels(b, s, k->end, p->y);
+    if (k->end > k->start)
+        smear_fog_steps(step, a, b, k->end - k->start, frame_is_linear(s->frame));
     for (int i = 0; i < 3; i++) {
-        const int32_t step = k->end > k->start ? part_by(b[i] - a[i], inverse_of(k->end - k->start)) : 0;
-        c[i] = (uint32_t)(a[i] + step * (k->x - k->start));
-        d[i] = (uint32_t)step;
+        c[i] = (uint32_t)(a[i] + step[i] * (k->x - k->start));
+        d[i] = (uint32_t)step[i];
     }
 }
 
@@ -259,6 +273,15 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
     }
 }
 
+/* n colours of a block, in fog. */
+static SMEAR_NOINLINE void fog_block(uint32_t *pixel, const struct setup *s, const struct span *p, const struct walk *w, int32_t n)
+{
+    const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
+    const int32_t part = smear_fog_run_part(s, left, right, w->start, w->x - w->start, p->y);
+    for (; n > 0; n--, pixel++)
+        *pixel = fog_pixel(s->frame, *pixel, part);
+}
+
 /* Blocks without a texture. */
 static int32_t untextured_next(struct walk *w)
 {
@@ -307,7 +330,7 @@ void smear_span_general(const struct setup *s, const struct span *p)
                 block[i] = s->color;
         }
         if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE && !has_channels_in_fog(s))
-            smear_fog_pixels(block, s, k.x, n, k.start, k.end, p->y);
+            fog_block(block, s, p, &w, n);
         write_block(block, color, depth, z, p->dz, n, s, p->mask, k.x - p->a);
         k.x += n;
         color = pixel_after(color, n, target_is_direct(s->target));

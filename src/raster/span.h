@@ -25,6 +25,9 @@ typedef void smear_span_fn(const struct setup *s, const struct span *p);
 /* One colour, opaque; and everything. */
 smear_span_fn smear_span_flat, smear_span_general;
 
+/* One colour, opaque, in one part of fog for each row. */
+smear_span_fn smear_span_level;
+
 /* How many of n pixels come before the first one beyond the
  * break of the depth code, which lies among them. */
 static inline int32_t pixels_to_break(int32_t units, int32_t dx, int32_t n)

@@ -5,6 +5,7 @@
 #include "raster/texture_rows.h"
 
 #include "kernels/texels_draw.h"
+#include "raster/fog.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS
@@ -44,6 +45,18 @@ static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup
         l->green = light_of_color(s, 8);
         l->blue = light_of_color(s, 0);
     }
+    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
+        l->fog = frame_fog(s->frame)->color;
+        if (fog_is_even(s))
+            texel_light_fog(l, fog_even_part(s));
+    }
+}
+
+/* The light of n pixels that begin at x, or of a row, in fog that varies. */
+static SMEAR_NOINLINE void light_in_fog(struct texel_light *l, const struct setup *s, const struct span_side *side, int32_t x,
+                                        int32_t n, int32_t y)
+{
+    texel_light_fog(l, smear_fog_run_part(s, side->left, side->right, x, n, y));
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -271,6 +284,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
         p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
         if (!whole && !smear_row_run_next(&p, s, r, row, p.a))
             continue;
+        if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
+            light_in_fog(light, s, &r->side[row], p.a, 0, y);
         do {
             int32_t q = plane_at(&t->q, p.a, y), u = plane_at(&t->uv[0], p.a, y),
                     v = plane_at(&t->uv[1], p.a, y);
@@ -337,6 +352,8 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         do {
             const int32_t n = block_next(block, rest);
             track_next(&k, t, n);
+            if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
+                light_in_fog(light, s, &r->side[row], right - 1 - rest, n, r->y + row);
             rest -= n;
             const int32_t last = rest == 0, count = n + last, end = right - 1 - rest + last;
             if (rest - last >= least_rest) {
@@ -423,6 +440,8 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
         const int32_t left = side->left, n = side->right - left, x = left - x0,
                       row = (int32_t)(side - r->side);
         struct row_run p;
+        if (SMEAR_WITH_FOG && light != NULL && n > 0 && fog_varies(s))
+            light_in_fog(light, s, side, left, n, r->y + row);
         if (n > 0 && (whole || smear_row_run_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
             run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
@@ -464,7 +483,7 @@ static bool rows_are_many(const struct span_rows *r)
 
 #define LIGHT_TABLE(LIGHT, R) \
     struct texel_table table; \
-    if ((LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 && rows_are_many(R)) { \
+    if (!(SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) && (LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 && rows_are_many(R)) { \
         smear_texel_light_table(&table, &(LIGHT)); \
         (LIGHT).table = &table; \
     }
@@ -536,12 +555,12 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
     if (s->segment->uv == 0)
         return draw_is_opaque(s->draw) && !s->flat && setup_is_shaded(s) ? smear_rows_shade : NULL;
-    if (fog_of(s) != FOG_NONE || s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
-        || t->log2_height == 0)
+    if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
+        || t->log2_height == 0 || (fog_varies(s) && !fog_is_by_rows(s) && (is_curved || s->texture.block == 1)))
         return NULL;
-    if (s->segment->shade != SHADE_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
+    if (s->segment->shade != SHADE_NONE || fog_of(s) != FOG_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (segment_gouraud(s->segment) && !s->even_color)
-            return SMEAR_SHADED_ROWS ? smear_shaded_rows_choose(s) : NULL;
+            return SMEAR_SHADED_ROWS && fog_of(s) == FOG_NONE ? smear_shaded_rows_choose(s) : NULL;
 #if SMEAR_DIRECT
         if (narrow)
             return is_curved ? curves_lit_narrow : rows_lit_narrow;
