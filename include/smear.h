@@ -383,8 +383,8 @@ typedef struct smear_light {
 
 /* Fog that grows evenly with the distance along the view. What lies beyond its far plane is all fog: it is cut off as by a
  * camera's far plane, which costs nothing per pixel and saves triangles. The background is fog, too: frame.clear does not
- * count. Colours are mixed in the frame's light space, each surface's before it is blended over others; layers with cameras
- * of their own, a cockpit, have no fog. */
+ * count. Colours are mixed in the frame's light space, each surface's before it is blended over others. Distances are those
+ * of frame.camera; points of an overlay have no fog. */
 typedef struct smear_fog {
     uint32_t color;             /* 0xRRGGBB, sRGB-encoded */
     int32_t near_plane;         /* Q16.16 world units from the eye, where it begins: 0 or more */

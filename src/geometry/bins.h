@@ -91,9 +91,9 @@ static inline bool segment_gouraud(const struct smear_segment *s)
     return SMEAR_WITH_GOURAUD && s->shade == SHADE_GOURAUD;
 }
 
-/* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size
- * counts. */
-#ifdef __OPTIMIZE_SIZE__
+/* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size counts, but
+ * for fog, in which pixels show whether that was done. */
+#if defined(__OPTIMIZE_SIZE__) && !SMEAR_WITH_FOG
 #define SMEAR_FIND_FLAT 0
 #else
 #define SMEAR_FIND_FLAT SMEAR_WITH_GOURAUD
