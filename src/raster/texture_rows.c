@@ -59,6 +59,19 @@ static SMEAR_NOINLINE void light_in_fog(struct texel_light *l, const struct setu
     texel_light_fog(l, smear_fog_run_part(s, side->left, side->right, x, n, y));
 }
 
+/* The same for a row of polynomials. */
+SMEAR_INLINE void light_row(struct texel_light *l, const struct setup *s, const struct span_side *side, int32_t y)
+{
+    if (SMEAR_WITH_FOG && l != NULL && side->left < side->right && fog_varies(s))
+        light_in_fog(l, s, side, side->left, side->right - side->left, y);
+}
+
+/* Whether there are no rows for a triangle's fog. */
+static bool fog_has_no_rows(const struct setup *s)
+{
+    return fog_varies(s) && !fog_is_by_rows(s) && (s->texture.mode == TEXTURE_CURVED || s->texture.block == 1);
+}
+
 /* ------------------------------------------------------------------ blocks */
 
 /* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
@@ -440,8 +453,7 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
         const int32_t left = side->left, n = side->right - left, x = left - x0,
                       row = (int32_t)(side - r->side);
         struct row_run p;
-        if (SMEAR_WITH_FOG && light != NULL && n > 0 && fog_varies(s))
-            light_in_fog(light, s, side, left, n, r->y + row);
+        light_row(light, s, side, r->y + row);
         if (n > 0 && (whole || smear_row_run_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
             run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
@@ -556,7 +568,7 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (s->segment->uv == 0)
         return draw_is_opaque(s->draw) && !s->flat && setup_is_shaded(s) ? smear_rows_shade : NULL;
     if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
-        || t->log2_height == 0 || (fog_varies(s) && !fog_is_by_rows(s) && (is_curved || s->texture.block == 1)))
+        || t->log2_height == 0 || fog_has_no_rows(s))
         return NULL;
     if (s->segment->shade != SHADE_NONE || fog_of(s) != FOG_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (segment_gouraud(s->segment) && !s->even_color)
