@@ -85,8 +85,6 @@ int smear_band_flush(const struct row_job *r)
     return result;
 }
 
-static const struct overlay_box no_points = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN };
-
 /* Converts columns [x0, x1) of row y of the frame. */
 static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
@@ -100,16 +98,17 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                      (smear_dither)rows->desc->display.dither);
 }
 
-/* Converts columns [x0, x1) of row y with what lies over them. `depth`: of the scene there. */
+/* Converts columns [x0, x1) of row y with what lies over them. `depth`: of the scene there; `points`: where they may be. */
 static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0,
-                                           int32_t x1, int32_t y)
+                                           int32_t x1, int32_t y, const struct overlay_box *points)
 {
     const struct smear_rows *rows = r->rows;
-    const struct overlay_box row = { x0, y, x1, y + 1 };
-    const struct overlay_box points = rows_have_points(rows) ? smear_points_box(rows, &row) : no_points;
+    const bool sparks = y >= points->y0 && y < points->y1;
     struct overlay_box box = smear_overlay_row(rows->overlay, y);
-    box.x0 = min_i32(box.x0, points.x0);
-    box.x1 = max_i32(box.x1, points.x1);
+    if (sparks) {
+        box.x0 = min_i32(box.x0, points->x0);
+        box.x1 = max_i32(box.x1, points->x1);
+    }
     /* Parts begin and end on whole bytes of every format. */
     const int32_t first = clamp_i32(box.x0, x0, x1) & ~7, covered = max_i32(first, x0), end = min_i32((box.x1 + 7) & ~7, x1);
     uint32_t part[OVERLAY_PART];
@@ -122,7 +121,7 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
     for (int32_t x = covered, next; x < end; x = next) {
         const uint32_t *pixels = in + (x - x0);
         next = min_i32((x & ~7) + OVERLAY_PART, end);
-        if (points.x0 < next && points.x1 > x) {
+        if (sparks && points->x0 < next && points->x1 > x) {
             __builtin_memcpy(part, pixels, (size_t)(next - x) * sizeof *part);
             smear_points_draw(rows, part, depth + (x - x0), x, next, y);
             pixels = part;
@@ -135,25 +134,29 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
         convert(r, in + (end - x0), end, x1, y);
 }
 
-/* Whether something lies over columns [x0, x1) of the job's rows. */
-static bool is_covered(const struct row_job *r, int32_t x0, int32_t x1)
+/* What lies over some columns of the job's rows. */
+struct cover {
+    bool any;
+    struct overlay_box points;          /* where points may be; empty where none are */
+};
+
+static inline struct cover cover_of(const struct row_job *r, int32_t x0, int32_t x1)
 {
     const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
+    struct cover cover = { false, { x1, 0, x0, 0 } };
     if (!rows_have_overlay(r->rows))
-        return false;
-    if (rows_have_points(r->rows)) {
-        const struct overlay_box points = smear_points_box(r->rows, &box);
-        if (points.x0 < points.x1)
-            return true;
-    }
-    return smear_overlay_touches(r->rows->overlay, &box);
+        return cover;
+    if (rows_have_points(r->rows))
+        cover.points = smear_points_box(r->rows, &box);
+    cover.any = cover.points.x0 < cover.points.x1 || smear_overlay_touches(r->rows->overlay, &box);
+    return cover;
 }
 
 static void convert_row(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y,
-                        bool covered)
+                        const struct cover *cover)
 {
-    if (SMEAR_WITH_OVERLAY && covered)
-        convert_covered(r, in, depth, x0, x1, y);
+    if (SMEAR_WITH_OVERLAY && cover->any)
+        convert_covered(r, in, depth, x0, x1, y, &cover->points);
     else
         convert(r, in, x0, x1, y);
 }
@@ -161,10 +164,10 @@ static void convert_row(const struct row_job *r, const uint32_t *in, const uint1
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
                              int32_t x1)
 {
-    const bool covered = is_covered(r, x0, x1);
+    const struct cover cover = cover_of(r, x0, x1);
     for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
         convert_row(r, t->color + target_row(&t->color_rows, t, y) + x0, t->depth + target_row(&t->window_rows, t, y) + x0, x0,
-                    x1, y, covered);
+                    x1, y, &cover);
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
@@ -178,9 +181,9 @@ void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t
 {
     const struct smear_window *w = &r->rows->window;
     const int32_t x0 = tile_left(r->rows, column), x1 = tile_right(r->rows, column);
-    const bool covered = is_covered(r, x0, x1);
+    const struct cover cover = cover_of(r, x0, x1);
     for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += w->tile)
-        convert_row(r, tile, w->depth + window_ring_row(w, y) * w->width + x0, x0, x1, y, covered);
+        convert_row(r, tile, w->depth + window_ring_row(w, y) * w->width + x0, x0, x1, y, &cover);
 }
 
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)

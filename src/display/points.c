@@ -128,14 +128,9 @@ static void draw_row(const smear_point_place *p, const struct brush *b, uint32_t
     int32_t u = add_wrap(mul_wrap(dx, p->along_x), mul_wrap(dy, p->along_y)) >> 8;
     int32_t d = sub_wrap(mul_wrap(dy, p->along_x), mul_wrap(dx, p->along_y)) >> 8;
     int32_t x = x0;
-    if (d >= RADIUS ? step < 0 : d <= -RADIUS && step > 0) {       /* the row reaches the streak further on */
-        const int32_t n = (abs_i32(d) - RADIUS) / abs_i32(step) + 1;
-        if (n >= x1 - x0)
-            return;
-        x += n;
-        u += n * p->along_x;
-        d += n * step;
-    }
+    if (d >= RADIUS ? step < 0 : d <= -RADIUS && step > 0)          /* the row reaches the streak further on */
+        for (; x < x1 && (d >= RADIUS || d <= -RADIUS); x++, u += p->along_x)
+            d += step;
     for (; x < x1 && d < RADIUS && d > -RADIUS; x++, u += p->along_x, d += step) {
         const uint32_t weight = depth[x] <= b->depth ? weight_of(p, u, d) : 0;
         if (weight != 0)

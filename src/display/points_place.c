@@ -112,8 +112,8 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
             const int32_t weight = l->at[e]->weight[k];
             if (weight == 0)
                 continue;
-            const struct smear_homogeneous part = { mulh_i32(h.x, weight), mulh_i32(h.y, weight), mulh_i32(h.w, weight),
-                                                    mulh_i32(h.distance, weight) };
+            struct smear_homogeneous part = { mulh_i32(h.x, weight), mulh_i32(h.y, weight), mulh_i32(h.w, weight), 0 };
+            part.distance = is_orthographic(&l->projection[0]) ? mulh_i32(h.distance, weight) : part.w;
             homogeneous_add(&end[e].h, &part);
         }
     }
@@ -165,20 +165,19 @@ static uint16_t depth_code(int32_t units_q11)
     return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4), 65535u));
 }
 
-/* Returns the root of x < 2^31: a table's, and a step of Heron's rule. */
-static uint32_t root_of(uint32_t x)
+/* Returns sqrt(x) for x < 2^31, relative error below 2^-8 and 1/2 step. */
+static uint32_t rough_root(uint32_t x)
 {
-    uint32_t high = x;
     int up = -3;
-    for (; high >= 1u << 20; high >>= 2)
+    for (; x >= 1u << 20; x >>= 2)
         up++;
-    const uint32_t root = max_u32(up < 0 ? sqrt_q3(high) >> -up : sqrt_q3(high) << up, 1);
-    return max_u32((root + x / root) >> 1, 1);
+    return up < 0 ? sqrt_q3(x) >> -up : sqrt_q3(x) << up;
 }
 
-/* A dot: its radius with a pixel's smoothness in it, q8, and the light of its middle, q16. */
+/* A dot: its radius with a pixel's smoothness in it, q8; how much of it is 1/256 pixel, q21; the light of its middle, q16. */
 struct dot {
-    uint32_t radius, light;
+    int32_t radius, per_radius;
+    uint32_t light;
 };
 
 /* A disc of radius R has the light of (1 - (r / a)^2)^2 where a^2 = 3 R^2; 5/4 more make it smooth at any place. */
@@ -190,8 +189,9 @@ static struct dot dot_of(int32_t radius, uint32_t light)
         radius = LEAST;
     }
     const uint32_t square = 3u * (uint32_t)(radius * radius) + SMOOTH;     /* q16, below 2^30 */
-    const uint32_t peak = 65536u - ((uint32_t)SMOOTH << 14) / (square >> 2);
-    return (struct dot){ root_of(square), (peak >> 1) * light >> 15 };
+    const int32_t a = (int32_t)rough_root(square), per_radius = ((1 << 21) + a / 2) / a;
+    const uint32_t peak = 65536u - (uint32_t)(per_radius * per_radius * 5 >> 12);      /* 1 - 5/4 / a^2 */
+    return (struct dot){ a, per_radius, (peak >> 1) * light >> 15 };
 }
 
 /* Finds the pixels that the streak may touch; false where none are in the frame. */
@@ -210,19 +210,21 @@ static bool find_box(smear_point_place *p, const struct end end[2], int32_t a, c
 static bool make_streak(smear_point_place *p, const struct end end[2], const struct dot *dot, const struct smear_viewport *v)
 {
     enum { LONGEST = 700 << 8 };
-    const int32_t x = end[1].s.x - end[0].s.x, y = end[1].s.y - end[0].s.y, a = (int32_t)dot->radius;
-    const int32_t most = max_i32(abs_i32(x), abs_i32(y)), per_radius = ((1 << 21) + a / 2) / a;
+    const int32_t x = end[1].s.x - end[0].s.x, y = end[1].s.y - end[0].s.y, a = dot->radius;
+    const int32_t most = max_i32(abs_i32(x), abs_i32(y));
     if (dot->light == 0 || most > LONGEST || !find_box(p, end, a, v))
         return false;
     const int down = most >= 1 << 15 ? 3 : most < 1 << 11 ? -4 : 0;
     const int32_t dx = down >= 0 ? x >> down : x * 16, dy = down >= 0 ? y >> down : y * 16;
     const uint32_t square = (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
-    const int32_t root = (int32_t)root_of(square), length = down >= 0 ? root << down : (root + 8) >> 4;
+    const uint32_t rough = max_u32(rough_root(square), 1);
+    const int32_t root = max_i32((int32_t)((rough + square / rough) >> 1), 1);          /* Heron's rule */
+    const int32_t length = down >= 0 ? root << down : (root + 8) >> 4, scale = (dot->per_radius << 15) / root;
     p->x = end[0].s.x;
     p->y = end[0].s.y;
-    p->along_x = (int16_t)((dx * (1 << 15) / root * per_radius + (1 << 14)) >> 15);
-    p->along_y = (int16_t)((dy * (1 << 15) / root * per_radius + (1 << 14)) >> 15);
-    p->length = (int32_t)((int64_t)length * per_radius >> 8);
+    p->along_x = (int16_t)((dx * scale + (1 << 14)) >> 15);
+    p->along_y = (int16_t)((dy * scale + (1 << 14)) >> 15);
+    p->length = (int32_t)((int64_t)length * dot->per_radius >> 8);
     p->gain = (uint32_t)a * dot->light / (uint32_t)max_i32(length, 1);
     if (p->length >= SMEAR_POINT_SHORT)
         return true;
@@ -231,7 +233,7 @@ static bool make_streak(smear_point_place *p, const struct end end[2], const str
     p->length = p->length * 9459 >> 15;         /* 1 / sqrt(12) */
     p->gain = dot->light;
     if (square == 0)
-        p->along_x = (int16_t)per_radius;
+        p->along_x = (int16_t)dot->per_radius;
     return true;
 }
 
