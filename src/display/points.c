@@ -66,7 +66,7 @@ struct brush {
 
 /* Returns the integral of a dot's light from its middle to v along a chord, q15 radii. `c2`: of half the chord, squared;
  * `half`: the integral to the chord's end. Beyond it the polynomial still grows, so a bound will do. */
-static inline int32_t chord_light(int32_t v, int32_t c2, int32_t half)
+static SMEAR_NOINLINE int32_t chord_light(int32_t v, int32_t c2, int32_t half)
 {
     if (v >= RADIUS || v <= -RADIUS)
         return v > 0 ? half : -half;
@@ -92,7 +92,8 @@ static inline uint32_t weight_of(const smear_point_place *p, int32_t u, int32_t 
         light = (int32_t)((dot_light(u - p->length, c2) + dot_light(u + p->length, c2)) >> 16);
     } else {
         const int32_t half = ((c2 * c2 >> 15) * smear_sqrt_q3[c2 < ONE ? c2 >> 5 : 1023] >> 8) * 17476 >> 15;
-        light = chord_light(u, c2, half) - chord_light(u - p->length, c2, half);
+        light = u >= RADIUS && u <= p->length - RADIUS ? 2 * half
+                                                       : chord_light(u, c2, half) - chord_light(u - p->length, c2, half);
     }
     return light > 0 ? (uint32_t)light * p->gain >> 16 : 0;
 }
@@ -110,7 +111,7 @@ static inline uint32_t lit_code(uint32_t code, uint32_t light, uint32_t weight, 
     return min_u32(code + (uint32_t)((change + (ONE >> 1)) >> 15), 255u);
 }
 
-static inline uint32_t lit(uint32_t pixel, const struct brush *b, uint32_t weight)
+static SMEAR_NOINLINE uint32_t lit(uint32_t pixel, const struct brush *b, uint32_t weight)
 {
     const uint32_t r = pixel_red(pixel), g = pixel_green(pixel), bl = pixel_blue(pixel);
     if (SMEAR_WITH_LINEAR && b->linear)
