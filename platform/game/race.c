@@ -46,7 +46,7 @@ static void strike(struct race *r, int32_t side)
             oldest = &r->spark[i];
     const smear_vec3 at = course_place(c->along, c->right + side, SMEAR_Q16(0.2));
     const smear_vec3 next = course_place(c->along + c->speed, c->right + side, SMEAR_Q16(0.2));
-    *oldest = (struct race_spark){ .at = at, .age = 1 };
+    *oldest = (struct race_spark){ .at = at, .before = at, .age = 1 };
     const int32_t x = random(r) / 3, y = random(r) & 0x1fff, z = random(r) / 3;
     oldest->step = smear_vec((next.x - at.x) / 4 * 3 + x, SMEAR_Q16(0.2) + y, (next.z - at.z) / 4 * 3 + z);
 }
@@ -58,6 +58,7 @@ static void move_sparks(struct race *r)
         struct race_spark *s = &r->spark[i];
         if (s->age == 0)
             continue;
+        s->before = s->at;
         s->at = smear_vec(s->at.x + s->step.x, s->at.y + s->step.y, s->at.z + s->step.z);
         s->step.y -= GRAVITY;
         s->age = s->age == LIFE ? 0 : s->age + 1;

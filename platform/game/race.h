@@ -17,7 +17,7 @@ struct race_car {
 };
 
 struct race_spark {
-    smear_vec3 at, step;            /* metres, and metres per frame */
+    smear_vec3 at, before, step;    /* metres: now and a frame ago; metres per frame */
     int age;                        /* frames; 0: none */
 };
 

@@ -101,7 +101,7 @@ static smear_camera camera_of(const struct race_car *c)
 /* ------------------------------------------------------------------ draws */
 
 /* Numbers by which the library knows from frame to frame what is what. */
-enum { ID_CHUNK = 1, ID_GATE = ID_CHUNK + COURSE_CHUNKS, ID_CAR, ID_SPARK = ID_CAR + RACE_CARS };
+enum { ID_CHUNK = 1, ID_GATE = ID_CHUNK + COURSE_CHUNKS, ID_CAR };
 
 static int submit_course(smear_context *ctx, const struct race_car *c)
 {
@@ -132,23 +132,20 @@ static int submit_cars(smear_context *ctx, const struct race *race)
     return result;
 }
 
-/* Three corners that face the camera: a point is smeared to a streak by its motion. */
-static int submit_sparks(smear_context *ctx, const struct race *race)
+static smear_point spark[RACE_SPARKS];
+static smear_points sparks = { spark, 0 };
+
+/* Sparks are points of light, which fade. */
+static void show_sparks(const struct race *race)
 {
-    static const int16_t position[] = { -4, -3, 0, 4, -3, 0, 0, 5, 0 };
-    static const uint16_t corner[] = { 0, 1, 2 };
-    static const smear_mesh mesh = { .position = position, .index = corner, .vertex_count = 3, .triangle_count = 1, .shift = STEPS };
-    static const smear_material glow = { .color = { 255, 210, 90, 255 }, .unlit = 1, .double_sided = 1 };
-    int result = SMEAR_OK;
-    for (int i = 0; i < RACE_SPARKS && result == SMEAR_OK; i++) {
+    sparks.count = 0;
+    for (int i = 0; i < RACE_SPARKS; i++) {
         const struct race_spark *s = &race->spark[i];
-        const smear_transform at = smear_move(s->at.x, s->at.y, s->at.z);
-        const smear_draw draw = { .id = (uint32_t)(ID_SPARK + i), .mesh = &mesh, .material = &glow, .now = &at, .cut = s->age == 1,
-                                  .billboard = SMEAR_BILLBOARD_FACING };
         if (s->age != 0)
-            result = smear_submit(ctx, &draw);
+            spark[sparks.count++] = (smear_point){ .now = { s->at.x, s->at.y, s->at.z }, .size = SMEAR_Q16(0.16),
+                                                   .before = { s->before.x, s->before.y, s->before.z },
+                                                   .color = { 255, 210, 90 }, .fade = (uint8_t)(9 * s->age) };
     }
-    return result;
 }
 
 /* ------------------------------------------------------------------ over the picture */
@@ -196,11 +193,12 @@ static void write_text(const struct race *race)
 /* A time and a place above, a word in the middle, the speed below. */
 static const smear_overlay *overlay_of(const struct race *race, int16_t width, int16_t height)
 {
-    static const smear_overlay overlay = { .item = item, .count = ITEMS };
+    static const smear_overlay overlay = { .item = item, .count = ITEMS, .points = &sparks };
     const bool large = width >= 200;
     const int16_t letter = large ? 16 : 8, edge = large ? 6 : 2;
     const uint16_t bar = (uint16_t)(width / 3);
     write_text(race);
+    show_sparks(race);
     int16_t middle = width;
     for (const char *c = text[2]; *c != '\0'; c++)
         middle = (int16_t)(middle - 2 * letter);
@@ -225,7 +223,5 @@ int view_submit(smear_context *ctx, const struct race *race, int16_t width, int1
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);
-    if (result == SMEAR_OK)
-        result = submit_cars(ctx, race);
-    return result == SMEAR_OK ? submit_sparks(ctx, race) : result;
+    return result == SMEAR_OK ? submit_cars(ctx, race) : result;
 }

@@ -5,8 +5,8 @@
 
 #include "platform/game/race.h"
 
-/* Draws at most: chunks, a gate, cars, sparks. */
-enum { VIEW_CHUNKS = 4, VIEW_DRAWS = VIEW_CHUNKS + 1 + RACE_CARS + RACE_SPARKS };
+/* Draws at most: chunks, a gate, cars. */
+enum { VIEW_CHUNKS = 4, VIEW_DRAWS = VIEW_CHUNKS + 1 + RACE_CARS };
 
 void view_make(void);
 
