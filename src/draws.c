@@ -2,8 +2,6 @@
 /* draws.c - see draws.h. */
 #include "draws.h"
 
-#include "display/points.h"
-
 #include "base/compiled.h"
 #include "geometry/assemble_path.h"
 #include "layers/groups.h"
@@ -85,18 +83,18 @@ void smear_draws_prepare(struct smear_context *c)
         look_up_material(c, i);
         c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
     }
-    smear_draws_place_points(c, -65536, 65536);
+    draws_place_points(c, -65536, 65536);
 }
 
+#if SMEAR_WITH_OVERLAY
 void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to)
 {
-    if (!rows_have_points(&c->rows))
-        return;
     const bool still = c->frame.method == SMEAR_NONE;
     const struct smear_instant open = still ? smear_instant_now : smear_instant_at(&c->shot, from);
     const struct smear_instant close = still ? smear_instant_now : smear_instant_at(&c->shot, to);
     smear_points_place(&c->rows, &c->shot, &open, &close);
 }
+#endif
 
 /* ------------------------------------------------------------------ layers */
 

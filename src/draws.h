@@ -4,6 +4,7 @@
 #define SMEAR_DRAWS_H
 
 #include "context.h"
+#include "display/points.h"
 
 /* Finds out whether anything of the frame moves along a curve; then all past poses become those at times of the exposure.
  * Before all others. */
@@ -14,6 +15,12 @@ void smear_draws_prepare(struct smear_context *c);
 
 /* Finds where points are seen in a part of the exposure, from -65536 at shutter open to 65536 at close. */
 void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to);
+
+static inline void draws_place_points(struct smear_context *c, int32_t from, int32_t to)
+{
+    if (rows_have_points(&c->rows))
+        smear_draws_place_points(c, from, to);
+}
 
 /* Finds which draws are blurred as layers, and how they move. */
 void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);

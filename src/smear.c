@@ -8,6 +8,9 @@
 #include "raster/fog.h"
 #include "validate.h"
 
+#include "base/compiled.h"
+#include "smear_overlay.h"
+
 /* ------------------------------------------------------------------ memory */
 
 size_t smear_memory_size(const smear_desc *desc)
@@ -105,7 +108,7 @@ static int resolve(struct smear_context *c, smear_frame *f)
     if (result == SMEAR_OK)
         result = smear_check_layers(f);
     if (result == SMEAR_OK)
-        result = smear_check_overlay(f->overlay, true);
+        result = smear_check_overlay(f->overlay);
     if (result == SMEAR_OK && SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f->shutter.curve))
         result = FAULT(FRAME_CURVE);
     return result;
@@ -263,7 +266,9 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
         return FAULT(FRAME_CAMERA);
     int result = smear_resolve_frame(&f, &c->desc);
     if (result == SMEAR_OK)
-        result = smear_check_overlay(f.overlay, false);
+        result = smear_check_overlay(f.overlay);
+    if (SMEAR_OVERLAY_MOST && result == SMEAR_OK && f.overlay != NULL && f.overlay->points != NULL)
+        result = FAULT(FRAME_POINTS);           /* there is no camera that sees them */
     if (result != SMEAR_OK)
         return result;
     if (!smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA)

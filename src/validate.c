@@ -396,7 +396,7 @@ static int check_points(const smear_points *points)
     return SMEAR_OK;
 }
 
-int smear_check_overlay(const smear_overlay *overlay, bool in_world)
+int smear_check_overlay(const smear_overlay *overlay)
 {
     if (overlay == NULL)
         return SMEAR_OK;
@@ -407,9 +407,7 @@ int smear_check_overlay(const smear_overlay *overlay, bool in_world)
         if (result != SMEAR_OK)
             return result;
     }
-    if (SMEAR_OVERLAY_MOST && overlay->points != NULL)
-        return in_world ? check_points(overlay->points) : FAULT(FRAME_POINTS);
-    return SMEAR_OK;
+    return SMEAR_OVERLAY_MOST && overlay->points != NULL ? check_points(overlay->points) : SMEAR_OK;
 }
 
 /* ------------------------------------------------------------------ draw */

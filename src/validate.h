@@ -14,10 +14,7 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d);
 int smear_check_cameras(const smear_frame *f);
 int smear_check_fog(const smear_frame *f);
 int smear_check_layers(const smear_frame *f);
-
-/* `in_world`: there is a camera that sees points. */
-int smear_check_overlay(const smear_overlay *overlay, bool in_world);
-
+int smear_check_overlay(const smear_overlay *overlay);
 int smear_check_draw(const smear_draw *draw);
 
 #endif

@@ -5,10 +5,8 @@
 #include "base/crc32.h"
 #include "display/points.h"
 
-uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1)
+uint8_t *smear_band_begin(struct smear_rows *rows)
 {
-    if (rows_have_points(rows))
-        smear_points_list(rows, y0, y1);
     const smear_desc *d = rows->desc;
     struct smear_bands *b = &rows->bands;
     /* With two buffers, the one from two bands ago must have been sent. */
@@ -28,7 +26,8 @@ bool smear_band_next(struct row_job *job)
     job->y1 = min_i32(job->y0 + rows->desc->band_rows, row_bottom(rows, job->row));
     if (job->y0 >= job->y1)
         return false;
-    job->band = smear_band_begin(rows, job->y0, job->y1);
+    job->band = smear_band_begin(rows);
+    rows_list_points(rows, job->y0, job->y1);
     return true;
 }
 

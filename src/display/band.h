@@ -30,8 +30,8 @@ static inline uint32_t band_state_bytes(const smear_desc *d)
     return format_diffuses(d) ? smear_diffuse_bytes(d->width) : 0;
 }
 
-/* Returns a buffer for the next pixel rows, [y0, y1); waits until what it held has been sent. */
-uint8_t *smear_band_begin(struct smear_rows *rows, int32_t y0, int32_t y1);
+/* Returns a buffer for the next rows; waits until what it held has been sent. */
+uint8_t *smear_band_begin(struct smear_rows *rows);
 
 /* Starts the job's next band, after job->y1; false when the tile row has none. Bands may have fewer rows than a tile. */
 bool smear_band_next(struct row_job *job);

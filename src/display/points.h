@@ -31,6 +31,12 @@ void smear_points_place(const struct smear_rows *rows, const struct smear_shot *
 /* Lists the points that may touch pixel rows [y0, y1): rows->points. */
 void smear_points_list(struct smear_rows *rows, int32_t y0, int32_t y1);
 
+static inline void rows_list_points(struct smear_rows *rows, int32_t y0, int32_t y1)
+{
+    if (rows_have_points(rows))
+        smear_points_list(rows, y0, y1);
+}
+
 /* Returns the part of `area` that listed points may touch; x0 is not below x1 where there is none. */
 struct overlay_box smear_points_box(const struct smear_rows *rows, const struct overlay_box *area);
 

@@ -442,7 +442,8 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
     merge_row(&r);
     stage_end(rows, &rows->stats->time.blur, start);
     start = stage_start(rows);
-    r.row.band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row));
+    r.row.band = smear_band_begin(rows);
+    rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
     smear_jobs_run(&rows->jobs, convert_job, &r, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.convert, start);
     return smear_band_flush(&r.row);

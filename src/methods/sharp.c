@@ -101,7 +101,7 @@ static int draw_direct_row(struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-    struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row)) };
+    struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows) };
     smear_jobs_run(&rows->jobs, direct_job, &job, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.raster, start);
     return smear_band_flush(&job);

@@ -264,7 +264,8 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     stage_end(rows, &rows->stats->time.raster, start);
 
     start = stage_start(rows);
-    finish.row.band = smear_band_begin(rows, row_top(rows, row), row_bottom(rows, row));
+    finish.row.band = smear_band_begin(rows);
+    rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
     const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run))
         finish_static(&finish, run->first, run->end);

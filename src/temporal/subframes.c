@@ -311,31 +311,31 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
     return samples;
 }
 
-static struct subframes make(const struct smear_tile_run *t, int32_t instants)
+static inline void make(struct subframes *f, const struct smear_tile_run *t, int32_t instants)
 {
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
-    struct subframes f = {
+    *f = (struct subframes){
         .t = t, .instants = (uint32_t)instants
     };
-    f.listed = (uint32_t *)t->work;
-    f.sums = packed_sums_in(f.listed + LISTED, pixels);
-    f.work = *s;
-    f.work.velocity8 = NULL;
-    f.work.velocity16 = NULL;
-    f.work.inspect = NULL;
-    f.work.moving = NULL;
-    f.work.color = t->out;
-    f.work.depth = (uint16_t *)(void *)(f.listed + LISTED + SUM_WORDS * pixels);
-    f.work.color_rows = f.work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
-    return f;
+    f->listed = (uint32_t *)t->work;
+    f->sums = packed_sums_in(f->listed + LISTED, pixels);
+    f->work = *s;
+    f->work.velocity8 = NULL;
+    f->work.velocity16 = NULL;
+    f->work.inspect = NULL;
+    f->work.moving = NULL;
+    f->work.color = t->out;
+    f->work.depth = (uint16_t *)(void *)(f->listed + LISTED + SUM_WORDS * pixels);
+    f->work.color_rows = f->work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 }
 
 uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
 {
-    struct subframes f = make(t, instants);
+    struct subframes f;
     struct subframe_box all;
     struct smear_tile_run own;
+    make(&f, t, instants);
     if (t->fill != NULL) {
         own = *t;
         f.t = f.refilled = &own;
@@ -349,12 +349,14 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     return samples;
 }
 
+#if SMEAR_WITH_OVERLAY
 uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int32_t x1)
 {
     struct smear_tile_run part = *t;
-    struct subframes f = make(t, 1);
-    const struct subframe_box box = { max_i32(x0 & ~15, f.work.x0), f.work.y0, min_i32((x1 + 15) & ~15, f.work.x1), f.work.y1 };
+    struct subframes f;
     struct subframe_box all = no_box;
+    make(&f, t, 1);
+    const struct subframe_box box = { max_i32(x0 & ~15, f.work.x0), f.work.y0, min_i32((x1 + 15) & ~15, f.work.x1), f.work.y1 };
     f.work.color = f.listed + LISTED;       /* of no use to anybody */
     smear_subframe_restore_depth(&f, &box);
     f.work = within(&f, &box);
@@ -365,3 +367,4 @@ uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int3
     draw_moving(&f, smear_shutter_instant(t->shutter, 0, 1), &all);
     return f.work.depth;
 }
+#endif

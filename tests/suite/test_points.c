@@ -409,6 +409,19 @@ static void test_the_text_of_a_bad_point_names_the_field(void)
     rig_end(&r);
 }
 
+static void test_rows_of_another_renderer_have_no_points(void)
+{
+    struct rig r;
+    const smear_desc desc = { .width = 32, .height = 32, .methods = SMEAR_SET(SMEAR_RECONSTRUCT) };
+    const smear_camera eye = camera();
+    const smear_points points = { NULL, 0 };
+    const smear_overlay overlay = { NULL, 0, &points };
+    const smear_frame frame = { .camera = &eye, .method = SMEAR_RECONSTRUCT, .overlay = &overlay };
+    if (rig_begin(&r, &desc, false))
+        CHECK(strstr(smear_error_text(smear_filter_begin(r.ctx, &frame)), "overlay.points") != NULL);
+    rig_end(&r);
+}
+
 /* Places, sizes and motion of any bits: no fault, and nothing beyond the frame. */
 static void test_points_anywhere_are_drawn_or_left_out(void)
 {
@@ -452,5 +465,6 @@ void suite_points(void)
     RUN(test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposure);
     RUN(test_a_panel_is_sent_the_tiles_over_which_points_pass);
     RUN(test_the_text_of_a_bad_point_names_the_field);
+    RUN(test_rows_of_another_renderer_have_no_points);
     RUN(test_points_anywhere_are_drawn_or_left_out);
 }
