@@ -98,7 +98,7 @@ static void shown_end(struct shown *s, const smear_desc *desc)
 static void draw(struct shown *s, int frame, int method)
 {
     static const smear_overlay_item box = { .x = 5, .y = 9, .width = 17, .height = 3, .color = { 255, 255, 0, 255 } };
-    static const smear_overlay overlay = { &box, 1 };
+    static const smear_overlay overlay = { &box, 1, NULL };
     struct scene scene;
     make_scene(&scene, 0.1 * (frame < 2 ? frame : 1), method);
     scene.frame.overlay = &overlay;

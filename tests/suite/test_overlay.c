@@ -150,7 +150,7 @@ static void check_over(int method, int format, int dither, const smear_overlay *
 static void test_items_lie_over_the_picture_of_every_method(void)
 {
     smear_overlay_item item[ITEMS];
-    const smear_overlay overlay = { item, ITEMS };
+    const smear_overlay overlay = { item, ITEMS, NULL };
     make_items(item);
     for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
         for (int linear = 0; linear < 2; linear++)
@@ -160,7 +160,7 @@ static void test_items_lie_over_the_picture_of_every_method(void)
 static void test_items_are_converted_as_the_picture_is(void)
 {
     smear_overlay_item item[ITEMS];
-    const smear_overlay overlay = { item, ITEMS };
+    const smear_overlay overlay = { item, ITEMS, NULL };
     make_items(item);
     for (int format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
         for (int dither = SMEAR_DITHER_ORDERED; dither <= SMEAR_DITHER_BLUE; dither++) {
@@ -173,7 +173,7 @@ static void test_items_are_converted_as_the_picture_is(void)
 static void test_frames_of_the_displays_own_pixels_have_items(void)
 {
     smear_overlay_item item[ITEMS];
-    const smear_overlay overlay = { item, ITEMS };
+    const smear_overlay overlay = { item, ITEMS, NULL };
     make_items(item);
     for (int rows = 8; rows <= HEIGHT; rows += 16)
         for (int i = 0; i < 2; i++) {
@@ -227,7 +227,7 @@ static void test_a_panel_is_sent_the_tiles_over_which_something_else_lies(void)
 {
     static struct panel kept, whole;
     smear_overlay_item item[ITEMS];
-    smear_overlay overlay = { item, ITEMS };
+    smear_overlay overlay = { item, ITEMS, NULL };
     char text[8] = "TIME 12";
     make_items(item);
     item[0].text = text;
@@ -268,7 +268,7 @@ static void test_a_panel_is_sent_the_tiles_over_which_something_else_lies(void)
 static bool is_refused(smear_context *ctx, const smear_overlay_item *item, const char *field)
 {
     struct scene s;
-    const smear_overlay overlay = { item, 1 };
+    const smear_overlay overlay = { item, 1, NULL };
     make_scene(&s, 0, SMEAR_NONE);
     s.frame.overlay = &overlay;
     const int result = smear_begin(ctx, &s.frame);
