@@ -171,7 +171,8 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     a->draw = (uint16_t)i;
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
     a->moves = 0;
-    a->path = a->fixed = a->has_rest = false;
+    a->path = a->has_rest = false;
+    a->fixed = frame_has_fog(&c->rows.raster);      /* of which a tiny triangle has one part, however the frame is cut */
     const bool moves = poses_differ(&poses);
     place(a, c, &poses, moves, instant);
     /* Layers reach beyond the frame. */
@@ -182,7 +183,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     assembly_find_flat(a);
     if (!moves)
         return true;
-    a->fixed = c->raster_draw[i].fixed;
+    a->fixed = a->fixed || c->raster_draw[i].fixed;
     if (assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)
         add_motion(a, c, &poses, instant);
     return true;

@@ -117,7 +117,7 @@ struct smear_assembly {
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* `key` is set, and records get a path (path.h); moves is 0 */
     bool flat;                          /* triangles have one colour each, though vertices have normals or colours */
-    bool fixed;                         /* smear_raster_draw.fixed: its pixels must know whose they are */
+    bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
     /* Velocity is measured between these poses or, where there is one, between it and the drawn instant. */

@@ -155,16 +155,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     smear_cover(s, &box, small);
 }
 
-/* The colour of a point, in fog where there is some. */
-static inline uint32_t point_color(const struct smear_raster_frame *frame, const struct smear_triangle *t)
-{
-    if (!SMEAR_WITH_FOG || !frame_has_fog(frame))
-        return t->color;
-    const int32_t units = (int32_t)(smear_depth_units(t->vertex[POINT_DEPTH]) << 11);
-    return fog_pixel(frame, t->color, smear_fog_part(frame_fog(frame), units));
-}
-
-/* A finished pixel. */
+/* A finished pixel; in fog there are none. */
 static inline void draw_point(const struct smear_raster_frame *frame,
                               const struct smear_raster_target *target, const struct smear_triangle *t,
                               bool moved)
@@ -179,7 +170,7 @@ static inline void draw_point(const struct smear_raster_frame *frame,
     if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
     target->depth[at] = t->vertex[POINT_DEPTH];
-    target_put(target, at, point_color(frame, t));
+    target_put(target, at, t->color);
     if (moved && target_has_velocity(target))
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }

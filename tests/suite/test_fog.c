@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_fog.c - fog against what each pixel's own depth gives; what is cut is fog all over; the same picture from any method
  * where nothing moves, with any number of workers and in parts; what is refused. Host only. */
+#include "tests/random.h"
 #include "tests/rig.h"
 #include "tests/test.h"
 #include "tools/player/crew.h"
@@ -269,6 +270,42 @@ static void test_workers_and_parts_draw_the_same_fog(void)
 }
 
 /* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
+/* Triangles of a pixel or two, which bands cut: each has one part of fog. */
+static void test_bands_cut_no_fog(void)
+{
+    enum { TRIANGLES = 1500 };
+    static int16_t place[TRIANGLES * 9];
+    static uint16_t index[TRIANGLES * 3];
+    uint8_t *picture = NULL;
+    random_state = 71;
+    for (int i = 0; i < TRIANGLES * 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const int size = k == 2 ? 20 : 26, at = k == 2 ? between(-1500, -800) : between(-700, 700);
+            place[3 * i + k] = (int16_t)(i % 3 == 0 ? at : place[3 * (i - i % 3) + k] + between(-size, size));
+            index[i] = (uint16_t)i;
+        }
+    const smear_mesh mesh = { .position = place, .index = index, .vertex_count = TRIANGLES * 3,
+                              .triangle_count = TRIANGLES, .shift = STEP };
+    const smear_material material = { .color = { 255, 255, 255, 255 }, .double_sided = 1, .unlit = 1 };
+    const smear_draw draw = { .mesh = &mesh, .material = &material };
+    const smear_camera camera = camera_at(0, 0, 0, 0);
+    const smear_fog fog = fog_between(fog_near, fog_far);
+    const smear_frame frame = { .camera = &camera, .samples = 1, .fog = &fog };
+    for (int rows = 3; rows <= 40; rows += 37) {
+        struct rig r;
+        smear_desc desc = desc_of(SMEAR_SET_ACCUMULATE_BANDS);
+        desc.band_rows = (int16_t)rows;
+        if (rig_begin(&r, &desc, false)) {
+            if (picture == NULL)
+                picture = rig_copy(&r, &frame, &draw, 1);
+            else if (CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK))
+                same_picture(&r, picture);
+        }
+        rig_end(&r);
+    }
+    free(picture);
+}
+
 static void test_what_is_kept_is_drawn_again_in_other_fog(void)
 {
     struct rig r[2];
@@ -328,6 +365,7 @@ void suite_fog(void)
     RUN(test_what_lies_beyond_is_left_out);
     RUN(test_what_is_nearer_than_fog_stays_as_it_is);
     RUN(test_workers_and_parts_draw_the_same_fog);
+    RUN(test_bands_cut_no_fog);
     RUN(test_what_is_kept_is_drawn_again_in_other_fog);
     RUN(test_the_text_of_bad_fog_names_the_field);
 }
