@@ -120,7 +120,7 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
     platform_clock_start();
     int result = start(&desc);
     while (result == SMEAR_OK && game.race.finished == 0 && game.race.frame < 10000) {
-        race_step(&game.race, recorded_keys());
+        race_step(&game.race, recorded_keys(), true);
         const uint32_t since = game.race.frame % step;
         if (since != 0 && since != step - 1)
             continue;
@@ -199,7 +199,7 @@ static int show(const struct screen *screen)
             race_begin(&game.race);
         }
         for (uint32_t i = 0; i < due; i++)
-            race_step(&game.race, plays_itself ? recorded_keys() : keys);
+            race_step(&game.race, plays_itself ? recorded_keys() : keys, i == 0);
         result = draw_frame();
         if (result == SMEAR_OK)
             display_show();

@@ -51,14 +51,15 @@ static void strike(struct race *r, int32_t side)
     oldest->step = smear_vec((next.x - at.x) / 4 * 3 + x, SMEAR_Q16(0.2) + y, (next.z - at.z) / 4 * 3 + z);
 }
 
-static void move_sparks(struct race *r)
+static void move_sparks(struct race *r, bool seen)
 {
     enum { GRAVITY = 1400, LIFE = 14 };
     for (int i = 0; i < RACE_SPARKS; i++) {
         struct race_spark *s = &r->spark[i];
         if (s->age == 0)
             continue;
-        s->before = s->at;
+        if (seen)
+            s->before = s->at;
         s->at = smear_vec(s->at.x + s->step.x, s->at.y + s->step.y, s->at.z + s->step.z);
         s->step.y -= GRAVITY;
         s->age = s->age == LIFE ? 0 : s->age + 1;
@@ -133,10 +134,10 @@ static void count_laps(struct race *r)
         r->finished = r->frame;
 }
 
-void race_step(struct race *r, unsigned keys)
+void race_step(struct race *r, unsigned keys, bool seen)
 {
     r->frame++;
-    move_sparks(r);
+    move_sparks(r, seen);
     if (r->frame <= RACE_START)
         return;
     /* Who has finished rolls out. */

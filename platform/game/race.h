@@ -17,7 +17,7 @@ struct race_car {
 };
 
 struct race_spark {
-    smear_vec3 at, before, step;    /* metres: now and a frame ago; metres per frame */
+    smear_vec3 at, before, step;    /* metres: now and when it was drawn last; metres per frame */
     int age;                        /* frames; 0: none */
 };
 
@@ -32,8 +32,8 @@ struct race {
 
 void race_begin(struct race *r);
 
-/* Goes on by a frame. `keys`: display_key. */
-void race_step(struct race *r, unsigned keys);
+/* Goes on by a frame. `keys`: display_key; `seen`: the frame so far has been drawn. */
+void race_step(struct race *r, unsigned keys, bool seen);
 
 /* The greatest speed, segments per frame in q16. */
 int32_t race_top_speed(void);
