@@ -424,6 +424,7 @@ static void make_desc(struct fuzz_case *c)
                        .debug.crc = source_chance(s, 3) };
     if (d->format >= SMEAR_L4 && source_chance(s, 4))
         d->display.dither = SMEAR_DITHER_DIFFUSE;
+    d->display.doubled = (uint8_t)option(s, 6, SMEAR_DOUBLED_X, SMEAR_DOUBLED_XY);
     if (source_chance(s, c->large ? 8 : 2000)) {
         d->width = (int16_t)source_range(s, 1, 2048);
         d->height = (int16_t)source_range(s, 1, 65536 / d->width < 2048 ? 65536 / d->width : 2048);
@@ -431,6 +432,8 @@ static void make_desc(struct fuzz_case *c)
     if (has(d, SMEAR_SET_TEMPORAL)) {
         d->reuse.cache_static = source_chance(s, 3);
         d->reuse.buffer_age = (uint8_t)option(s, 3, 1, 7);
+        if (d->display.dither == SMEAR_DITHER_DIFFUSE)
+            d->reuse.buffer_age = 0;
     }
     d->reuse.one_pose = source_chance(s, 4);
     if (has(d, SMEAR_SET_FILTERS)) {

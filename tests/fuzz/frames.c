@@ -74,10 +74,21 @@ struct rig {
     int frame, next_row, next_column, band, fail_at;
 };
 
+/* The display's size. */
+static int columns_of(const smear_desc *d)
+{
+    return d->width << ((d->display.doubled & SMEAR_DOUBLED_X) != 0);
+}
+
+static int lines_of(const smear_desc *d)
+{
+    return d->height << ((d->display.doubled & SMEAR_DOUBLED_Y) != 0);
+}
+
 static size_t pitch_of(const smear_desc *d)
 {
     static const uint8_t bits[] = { 32, 16, 16, 16, 8, 8, 4, 1, 8 };
-    return ((size_t)d->width * bits[d->format] + 7) / 8;
+    return ((size_t)columns_of(d) * bits[d->format] + 7) / 8;
 }
 
 static size_t rows_of(const smear_desc *d, int rows)
@@ -88,18 +99,19 @@ static size_t rows_of(const smear_desc *d, int rows)
 static int take_band(void *user, const smear_band *band)
 {
     struct rig *r = user;
-    require(band->width > 0 && band->height > 0 && band->x >= 0 && band->x + band->width <= r->desc.width
-                && band->y >= 0 && band->y + band->height <= r->desc.height,
+    const int columns = columns_of(&r->desc);
+    require(band->width > 0 && band->height > 0 && band->x >= 0 && band->x + band->width <= columns
+                && band->y >= 0 && band->y + band->height <= lines_of(&r->desc),
             "a band lies beside the frame");
     if (r->desc.reuse.buffer_age)
         require(band->y > r->next_row || (band->y == r->next_row && band->x >= r->next_column), "bands are out of order");
     else
-        require(band->y == r->next_row && band->x == 0 && band->width == r->desc.width, "bands are out of order");
+        require(band->y == r->next_row && band->x == 0 && band->width == columns, "bands are out of order");
     r->next_row = r->desc.reuse.buffer_age ? band->y : band->y + band->height;
     r->next_column = band->x + band->width;
     if (__msan_check_mem_is_initialized != NULL)
         __msan_check_mem_is_initialized(band->pixels, band->size);
-    const size_t left = r->pitch * (size_t)band->x / (size_t)r->desc.width, rows = rows_of(&r->desc, band->height);
+    const size_t left = r->pitch * (size_t)band->x / (size_t)columns, rows = rows_of(&r->desc, band->height);
     require(band->size == band->stride * rows && left + band->stride <= r->pitch, "a band has another size");
     for (size_t y = 0; y < rows; y++)
         memcpy(r->into + (rows_of(&r->desc, band->y) + y) * r->pitch + left, (const uint8_t *)band->pixels + y * band->stride,
@@ -149,7 +161,7 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY, "a byte too little is taken");
     require(smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK, "smear_init fails");
     r->pitch = pitch_of(desc);
-    r->rows = rows_of(desc, desc->height);
+    r->rows = rows_of(desc, lines_of(desc));
     for (int i = 0; i < (desc->reuse.buffer_age > 1 ? desc->reuse.buffer_age : 1); i++)
         r->shown[i] = calloc(r->rows, r->pitch);
     return true;
@@ -300,7 +312,7 @@ static void filter_frame(struct rig *r, struct fuzz_case *c)
         }
         require(smear_filter_row(r->ctx, color, depth, velocity) == SMEAR_OK, "smear_filter_row fails");
     }
-    require(r->desc.reuse.buffer_age || r->next_row == r->desc.height, "rows are missing");
+    require(r->desc.reuse.buffer_age || r->next_row == lines_of(&r->desc), "rows are missing");
 }
 
 static uint32_t add_bytes(uint32_t sum, const uint8_t *bytes, size_t count)
@@ -370,7 +382,7 @@ static uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode)
         check_result(&c, &a, result);
         if (result == SMEAR_OK) {
             check_stats(&a, &c, counts);
-            require(a.desc.reuse.buffer_age || a.next_row == a.desc.height, "rows are missing");
+            require(a.desc.reuse.buffer_age || a.next_row == lines_of(&a.desc), "rows are missing");
             sum = add_bytes(sum, a.into, a.pitch * a.rows);
         }
         if (two) {
