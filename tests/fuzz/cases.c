@@ -619,7 +619,7 @@ static void make_fog(struct fuzz_case *c)
     struct source *s = &c->source;
     const int32_t near_plane = about(c, 2 << 16, 2 << 16);
     c->fog = (smear_fog){ .color = source_word(s), .near_plane = near_plane > 0 ? near_plane : 0 };
-    const int64_t far = c->fog.near_plane + (c->fog.near_plane >> 7) + 2 + (int64_t)positive(c, 10 << 16);
+    const int64_t far = (int64_t)c->fog.near_plane + (c->fog.near_plane >> 7) + 2 + positive(c, 10 << 16);
     c->fog.far_plane = far < INT32_MAX ? (int32_t)far : INT32_MAX;
     const bool thick = c->fog.far_plane - c->fog.near_plane > c->fog.far_plane >> 8;
     c->frame.fog = thick && source_chance(s, 4) ? &c->fog : NULL;

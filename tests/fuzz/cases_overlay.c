@@ -47,7 +47,8 @@ static void make_point(struct fuzz_case *c, smear_point *point)
         point->now[k] = source_range(s, -(3 << 16), 3 << 16) - (k == 2 ? 3 << 16 : 0);
         if (c->extreme && source_chance(s, 8))
             point->now[k] = source_any(s);
-        const int32_t step = source_range(s, -(1 << 16), 1 << 16) >> source_range(s, 0, 12);
+        int32_t step = source_range(s, -(1 << 16), 1 << 16);
+        step >>= source_range(s, 0, 12);        /* not in one expression: compilers differ in which comes first */
         point->before[k] = c->extreme && source_chance(s, 8) ? source_any(s) : (int32_t)((uint32_t)point->now[k] + (uint32_t)step);
         point->color[k] = (uint8_t)source_word(s);
     }
