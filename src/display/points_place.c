@@ -122,6 +122,12 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
 
 /* ------------------------------------------------------------------ the screen */
 
+/* By a part (q30, at most one) of the way: between the two, however far apart they are. */
+static int32_t go_towards(int32_t from, int32_t to, int32_t part)
+{
+    return (int32_t)(from + (((int64_t)to - from) * part >> 30));
+}
+
 /* Brings the end that lies before the near plane to it. Returns the part of the exposure that is left, q16. */
 static uint32_t clip_near(struct end end[2], int32_t near)
 {
@@ -133,9 +139,9 @@ static uint32_t clip_near(struct end end[2], int32_t near)
     struct smear_homogeneous *h = &end[hidden[0] ? 0 : 1].h;
     const struct smear_homogeneous *to = &end[hidden[0] ? 1 : 0].h;
     const int32_t part = ratio_q30((int64_t)near - h->distance, (int64_t)to->distance - h->distance);
-    h->x += (int32_t)(((int64_t)to->x - h->x) * part >> 30);
-    h->y += (int32_t)(((int64_t)to->y - h->y) * part >> 30);
-    h->w += (int32_t)(((int64_t)to->w - h->w) * part >> 30);
+    h->x = go_towards(h->x, to->x, part);
+    h->y = go_towards(h->y, to->y, part);
+    h->w = go_towards(h->w, to->w, part);
     h->distance = near;
     return 65536u - (uint32_t)(part >> 14);
 }
