@@ -89,6 +89,7 @@ void smear_draws_prepare(struct smear_context *c)
 #if SMEAR_WITH_OVERLAY
 void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to)
 {
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     const bool still = c->frame.method == SMEAR_NONE;
     const struct smear_instant open = still ? smear_instant_now : smear_instant_at(&c->shot, from);
     const struct smear_instant close = still ? smear_instant_now : smear_instant_at(&c->shot, to);
