@@ -30,10 +30,11 @@ done
 rate='function rate(count) { r = hz / count; return r < 10 ? sprintf("%.1f", r) : sprintf("%.0f", r) }'
 echo '| | panel | sharp | blurred, things move | blurred, the camera moves, too |'
 echo '|---|---|---|---|---|'
-[ ! -f $out/pico ] || awk '$3 ~ /^(sharp|objects|camera)$/ { fps[$1 $3] = $(NF - 3) }
+[ ! -f $out/pico ] || awk 'function short(r) { return r < 10 ? sprintf("%.1f", r) : sprintf("%.0f", r) }
+    $3 ~ /^(sharp|objects|camera)$/ { fps[$1 $3] = $(NF - 3) }
     END { for (cores = 1; cores <= 2; cores++)
-        printf "| Raspberry Pi Pico, RP2040 at 133 MHz, %s | 240x240 | %.0f | %.0f | %.0f |\n",
-            cores == 1 ? "one core" : "both cores", fps[cores "sharp"], fps[cores "objects"], fps[cores "camera"] }' $out/pico
+        printf "| Raspberry Pi Pico, RP2040 at 133 MHz, %s | 240x240 | %s | %s | %s |\n", cores == 1 ? "one core" : "both cores",
+            short(fps[cores "sharp"]), short(fps[cores "objects"]), short(fps[cores "camera"]) }' $out/pico
 [ ! -f $out/gba ] || awk -v hz=16777216 "$rate"'
     { count[$1] = $2 }
     END { printf "| Game Boy Advance, ARM7 at 16.8 MHz | 120x80 | %s | %s | %s |\n", rate(count["sharp"]), rate(count["objects"]),
