@@ -138,10 +138,13 @@ if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
     suite build-x11-user $make -s build/host/view_x11_user
     suite view-x11 sh tests/shell/view_x11.sh build/smear build/host/view_x11_user
 fi
-if needs wasm-ld-14 "clang-14 lld-14" && needs xz "xz-utils" && needs chromedriver "chromium chromium-driver" && needs node "nodejs"; then
+if needs wasm-ld-14 "clang-14 lld-14" && needs llvm-ar-14 "llvm-14" && needs xz "xz-utils" && needs chromedriver "chromium chromium-driver" && needs node "nodejs"; then
     suite build-web $make -s web build/web/libc_test
     suite web-libc build/web/libc_test
     suite web node tests/shell/web.js build/web/index.html build/smear
+    suite web-game node tests/shell/web_game.js build/web/game.html
+    suite game-wasm $make -s TARGET=wasm game-test
+    suite target-wasm $make -s TARGET=wasm target-test
 fi
 suite golden-host $make -s TARGET=host target-test
 suite switches $make -s switches-test

@@ -6,6 +6,7 @@
  *     game cost [SCREEN [STEP]]    what frames of it cost, in the units of platform.h's clock
  *
  * Keys: left and right steer, down brakes, start begins again. Who presses none for a while sees the recorded race. */
+#include "platform/game/game.h"
 #include "platform/game/lap.h"
 #include "platform/game/view.h"
 
@@ -38,7 +39,8 @@ static const struct screen {
     SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800),
     SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800),
     SCREEN("linux", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800),
-    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800)
+    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800),
+    SCREEN("page", 320, 240, SMEAR_XRGB8888, 1, 0, 0, 800)
 };
 
 static struct {
@@ -69,6 +71,7 @@ static int start(const smear_desc *desc)
     size_t room;
     void *arena = platform_arena(&room);
     game.desc = *desc;
+    game.event = game.left = 0;
     course_make();
     view_make();
     race_begin(&game.race);
@@ -156,55 +159,64 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
 
 /* ------------------------------------------------------------------ somebody plays */
 
+static struct {
+    uint32_t gone, skipped;         /* frames so far: that the race went on by, and that it did not wait for */
+    uint32_t idle;                  /* frames without a key */
+    unsigned before;                /* keys of the turn before */
+    bool plays_itself;
+} turn;
+
 /* Returns how many frames of 1/30 s the race goes on by, so that it takes as long on any machine: where one is drawn more slowly
- * some are not drawn. Waits while it is too early for the next. */
-static uint32_t frames_due(uint32_t gone)
+ * some are not drawn. 0: it is too early for the next. */
+static uint32_t frames_due(void)
 {
     enum { MOST = 6 };      /* after a pause the race does not jump */
-    static uint32_t skipped;
-    for (;;) {
-        const uint32_t due = display_time() * 3 / 100 - gone - skipped;
-        if (due > MOST) {
-            skipped += due - MOST;
-            return MOST;
-        }
-        if (due != 0 || !display_wait())
-            return 1;
-    }
+    const uint32_t due = display_time() * 3 / 100 - turn.gone - turn.skipped;
+    if (due <= MOST)
+        return due;
+    turn.skipped += due - MOST;
+    return MOST;
 }
 
-static int show(const struct screen *screen)
+int game_open(const char *name)
 {
-    enum { PATIENCE = 300 };
-    smear_desc desc = screen->desc;
-    if (!display_open(&desc))
+    const struct screen *screen = find_screen(name != NULL ? name : GAME_SCREEN);
+    smear_desc desc = { 0 };
+    if (screen != NULL)
+        desc = screen->desc;
+    if (screen == NULL || !display_open(&desc))
         return failed("there is no display for this screen");
-    int result = start(&desc);
+    const int result = start(&desc);
     if (result != SMEAR_OK)
         return failed(smear_error_text(result));
     display_attach(game.ctx);
-    uint32_t idle = 0, gone = 0;
-    bool plays_itself = false;
-    for (unsigned before = 0; result == SMEAR_OK;) {
-        const unsigned keys = display_keys(), pressed = keys & ~before;
-        const uint32_t due = frames_due(gone);
-        before = keys;
-        gone += due;
-        idle = keys != 0 ? 0 : idle + due;
-        const bool again = (pressed & KEY_START) != 0 || (plays_itself && keys != 0) || (!plays_itself && idle >= PATIENCE)
-                        || (plays_itself && game.race.finished != 0 && game.race.frame > game.race.finished + 90);
-        if (again) {
-            plays_itself = idle >= PATIENCE;
-            game.event = game.left = 0;
-            race_begin(&game.race);
-        }
-        for (uint32_t i = 0; i < due; i++)
-            race_step(&game.race, plays_itself ? recorded_keys() : keys, i == 0);
-        result = draw_frame();
-        if (result == SMEAR_OK)
-            display_show();
+    return 0;
+}
+
+int game_turn(void)
+{
+    enum { PATIENCE = 300 };
+    uint32_t due = frames_due();
+    if (due == 0 && display_wait())
+        return SMEAR_OK;
+    const unsigned keys = display_keys(), pressed = keys & ~turn.before;
+    due = due != 0 ? due : 1;
+    turn.before = keys;
+    turn.gone += due;
+    turn.idle = keys != 0 ? 0 : turn.idle + due;
+    const bool again = (pressed & KEY_START) != 0 || (turn.plays_itself && keys != 0) || (!turn.plays_itself && turn.idle >= PATIENCE)
+                    || (turn.plays_itself && game.race.finished != 0 && game.race.frame > game.race.finished + 90);
+    if (again) {
+        turn.plays_itself = turn.idle >= PATIENCE;
+        game.event = game.left = 0;
+        race_begin(&game.race);
     }
-    return failed(smear_error_text(result));
+    for (uint32_t i = 0; i < due; i++)
+        race_step(&game.race, turn.plays_itself ? recorded_keys() : keys, i == 0);
+    const int result = draw_frame();
+    if (result == SMEAR_OK)
+        display_show();
+    return result;
 }
 
 int main(int argc, char **argv)
@@ -214,8 +226,14 @@ int main(int argc, char **argv)
     const uint32_t step = argc > 3 ? read_decimal(argv[3]) : 10;
     if (screen == NULL || step < 2)
         return failed("usage: game [show | check | cost [SCREEN [STEP]]], SCREEN pico, gba, linux ... (main.c), STEP at least 2");
-    if (is_word(command, "show"))
-        return show(screen);
+    if (is_word(command, "show")) {
+        int result = game_open(screen->name);
+        if (result != 0)
+            return result;
+        while (result == SMEAR_OK)
+            result = game_turn();
+        return failed(smear_error_text(result));
+    }
     if (is_word(command, "check") || is_word(command, "cost"))
         return replay(screen, step, is_word(command, "cost"));
     return failed("show, check or cost");

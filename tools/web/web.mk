@@ -23,9 +23,23 @@ WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -
     -Iinclude -Isrc -I. -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
 web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
 
-.PHONY: web web-chart web-bench
-## the web page: build/web/index.html (needs clang-14, lld-14 and xz)
-web: $(WEB)/index.html
+.PHONY: web game-web web-chart web-bench
+## web pages: build/web/index.html and game.html, for any static host or as they lie (needs clang-14, lld-14, llvm-14 and xz)
+web: $(WEB)/index.html $(WEB)/game.html
+
+## the game as a page: build/web/game.html
+game-web: $(WEB)/game.html
+
+$(WEB)/game.html: $(WEB)/pack $(addprefix platform/wasm/game.,html js) tools/web/unpack.js $(WEB)/unlzma.wasm $(WEB)/game.lzma
+	$(call say,GEN)
+	$(WEB)/pack page platform/wasm/game.html $@
+
+# Another processor's program: make knows in a run of its own what it is made of.
+$(WEB)/game.joined: $(WEB)/pack $(WEB)/game.wasm
+$(WEB)/game.wasm: always
+	$(MAKE) --no-print-directory TARGET=wasm PAGE=1 game-firmware
+	@mkdir -p $(@D)
+	cmp -s build/wasm/page/game.wasm $@ || cp build/wasm/page/game.wasm $@
 
 $(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.css unpack.js begin.js) \
     $(addprefix $(WEB)/,unlzma.wasm modules.lzma texts.lzma)
