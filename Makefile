@@ -117,13 +117,14 @@ bench: $(BIN)/smear-bench
 
 ## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
 chart: $(BIN)/smear-bench
-	$(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
+	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
 
-## the picture of the README again, from the last whole chart
+## the pictures of the READMEs again, from the last whole chart
 chart-picture: $(BIN)/smear-bench
 	@mkdir -p tools/bench/pictures
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
-	cp build/chart/both.svg tools/bench/pictures/chart.svg
+	cp build/chart/chart.svg tools/bench/pictures/chart.svg
+	cp build/chart/study-chart.svg tools/bench/pictures/study.svg
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(call say,LD)
@@ -270,7 +271,7 @@ EXR_SRC  := tests/suite/exr.c
 endif
 
 # The chart without what measures.
-CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_plot.c \
+CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_peer.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
 TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
     $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)

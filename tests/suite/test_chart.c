@@ -53,7 +53,7 @@ static void fill_good(void)
         set(k, "object", 1.5, 1.7 * error, 3.0 * error);
         set(k, "layered 8", 6.0, 3.0 * error, 3.0 * error);
         set(k, "auto draft", still || jump ? 1.01 : 1.2, 4.0 * error, 3.0 * error);
-        set(k, "auto balanced", still ? 1.01 : jump ? 1.05 : 1.8, 1.1 * error, 1.8 * error);
+        set(k, "auto balanced", still ? 1.01 : jump ? 1.05 : 1.8, 1.1 * error, 1.1 * error);
         set(k, "auto fine", still ? 1.01 : jump ? 1.1 : 2.5, 0.45 * error, 0.4 * error);
     }
 }
@@ -101,20 +101,50 @@ static void test_means_are_geometric_and_over_whole_groups_only(void)
     CHECK(!chart_mean_of(&chart, CHART_MAIN, SET_OBJECT, fine).known);
 }
 
+/* Costs of the peer are its own instructions against those of our sharp frame; sets without its frames have none. */
+static void test_a_peer_is_measured_by_the_sharp_frame(void)
+{
+    double cost, rmse;
+    memset(&chart, 0, sizeof chart);
+    for (int k = 0; k < ALL_KINDS; k++)
+        set(k, "none", 2.0, 8.0, 1.0);
+    const struct chart_peer *translate = chart_peer_of(kind_find("translate")), *cross = chart_peer_of(kind_find("cross"));
+    if (!CHECK(translate != NULL && cross != NULL))
+        return;
+    CHECK(chart_peer_mean(&chart, CHART_MAIN, SET_OBJECT, PEER_8, &cost, &rmse));
+    CHECK_CLOSE(cost, sqrt(translate->instructions[PEER_8] * cross->instructions[PEER_8]) / 2.0, 1e-9);
+    CHECK_CLOSE(rmse, sqrt(translate->rmse[PEER_8] * cross->rmse[PEER_8]), 1e-9);
+    CHECK(!chart_peer_mean(&chart, CHART_MAIN, SET_STILL, PEER_8, &cost, &rmse));
+    for (int i = 0; i < PEER_FRAMES; i++) {
+        CHECK(kind_find(chart_peer[i].kind) >= 0);
+        for (int k = 1; k < PEER_SETTINGS; k++) {
+            CHECK(chart_peer[i].instructions[k] > chart_peer[i].instructions[k - 1]);
+            CHECK(chart_peer[i].rmse[k] < chart_peer[i].rmse[k - 1]);
+        }
+    }
+    value("cross", "none")->known = false;
+    CHECK(!chart_peer_mean(&chart, CHART_MAIN, SET_OBJECT, PEER_8, &cost, &rmse));
+}
+
 static void test_takes_have_numbers_of_their_own(void)
 {
     struct take take;
     for (int c = 0; c < CHART_CONDITIONS; c++)
-        for (int k = 0; k < KINDS; k++)
+        for (int k = 0; k < ALL_KINDS; k++)
             for (int s = 0; s < chart_setting_count; s++) {
                 if (!CHECK(chart_take(chart_index(c, k, s), &take)))
                     return;
                 CHECK(strcmp(take.scene, kinds[k].scene) == 0);
+                CHECK_EQ(take.frame, kinds[k].frame);
                 CHECK_EQ(take.method, chart_settings[s].method);
                 CHECK_EQ(take.samples, chart_settings[s].samples);
                 CHECK_EQ(take.target, chart_settings[s].target);
                 CHECK_EQ(take.linear, chart_conditions[c].linear);
                 CHECK_EQ(take.shutter_poses, !chart_conditions[c].previous);
+                CHECK_EQ(take.dithered, c == CHART_DEFAULT);
+                CHECK(chart_error_take(chart_index(c, k, s), &take));
+                CHECK_EQ(take.format, SMEAR_XRGB8888);
+                CHECK(!take.dithered);
             }
     CHECK(!chart_take(-1, &take));
     CHECK(!chart_take(chart_index(CHART_CONDITIONS, 0, 0), &take));
@@ -187,6 +217,8 @@ static void break_teleport(void)
 {
     set(kind_find("teleport"), "auto fine", 1.2, 0.45, 0.4);
 }
+static void break_any_target(void) { for_group(GROUP_OBJECT, "auto balanced", 2.2, 1.15); }
+static void break_any_fine_target(void) { for_group(GROUP_CAMERA, "auto balanced", 9.0, 1.15); }
 static void break_flicker(void)
 {
     for (int k = 0; k < KINDS; k++)
@@ -209,6 +241,8 @@ static const struct {
     { break_object_cost, "object scenes, auto fine: cost" },
     { break_camera_error, "camera scenes, auto fine: error" },
     { break_camera_cost, "camera scenes, auto balanced: cost" },
+    { break_any_target, "object scenes, auto where it has 1.2 codes: cost" },
+    { break_any_fine_target, "camera scenes, auto where it has 1.2 codes: cost" },
     { break_arena, "a typical game frame (arena)" },
     { break_filter, "cheaper than reconstruct at its error, camera" },
     { break_filter_reach, "cheaper than reconstruct at its error, object" },
@@ -271,7 +305,7 @@ static void test_a_file_brings_back_what_was_written(void)
     value("pan", "auto fine")->crc = 0xffffffffu;
     CHECK(chart_write_csv(&chart, NULL, mine, FOLDER "/chart.csv", &f));
     CHECK(chart_read_csv(&back, &mine, FOLDER "/chart.csv", &f));
-    for (int k = 0; k < KINDS; k++)
+    for (int k = 0; k < ALL_KINDS; k++)
         for (int s = 0; s < chart_setting_count; s++)
             CHECK(same_value(&chart.value[CHART_MAIN][k][s], &back.value[CHART_MAIN][k][s]));
     CHECK(chart_read_csv(&back, &another, FOLDER "/chart.csv", &f));
@@ -348,23 +382,32 @@ static bool is_well_formed(const char *text)
 
 static void test_pictures_are_well_formed_and_show_every_method_once(void)
 {
-    static const char *const names[] = { "object.svg", "camera.svg", "all.svg", "both.svg",
-                                         "scenes.svg" };
+    static const char *const names[] = { "chart", "object", "camera", "field", "peer", "scenes" };
     struct failure f = { "" };
     if (!make_folder())
         return;
     fill_good();
+    for (int k = KINDS; k < ALL_KINDS; k++)         /* of the demo; models are not there */
+        for (int i = 0; i < chart_setting_count && kinds[k].group == GROUP_DEMO; i++)
+            chart.value[CHART_MAIN][k][i] = chart.value[CHART_MAIN][0][i];
+    memcpy(chart.value[CHART_DEFAULT], chart.value[CHART_MAIN], sizeof chart.value[CHART_MAIN]);
     CHECK(chart_write_pictures(&chart, FOLDER, &f));
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 12; i++) {
         char path[64];
         uint8_t *bytes;
         size_t size;
-        snprintf(path, sizeof path, FOLDER "/%s", names[i]);
+        snprintf(path, sizeof path, FOLDER "/%s%s.svg", i < 6 ? "" : "study-", names[i % 6]);
         if (!CHECK(file_read(path, 1 << 20, &bytes, &size, &f)))
             return;
-        CHECK(is_well_formed((const char *)bytes));
-        CHECK(strstr((const char *)bytes, ">accumulate") != NULL);
-        CHECK(strstr((const char *)bytes, ">auto") != NULL);
+        const char *text = (const char *)bytes;
+        CHECK(is_well_formed(text));
+        CHECK(strstr(text, ">accumulate") != NULL);
+        CHECK(strstr(text, ">auto") != NULL);
+        CHECK(strstr(text, i < 6 ? ">As it comes" : ">As in studies") != NULL);
+        if (i % 6 == 0) {
+            CHECK(strstr(text, ">TGX<") != NULL);
+            CHECK(strstr(text, ">4 frames of the demo<") != NULL);
+        }
         free(bytes);
     }
 }
@@ -414,6 +457,7 @@ void suite_chart(void)
 {
     RUN(test_a_point_is_on_the_frontier_unless_one_is_as_cheap_and_as_right);
     RUN(test_means_are_geometric_and_over_whole_groups_only);
+    RUN(test_a_peer_is_measured_by_the_sharp_frame);
     RUN(test_takes_have_numbers_of_their_own);
     RUN(test_a_chart_that_meets_all_bars_meets_them);
     RUN(test_every_bar_can_be_missed);

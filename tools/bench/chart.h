@@ -10,10 +10,17 @@
  *     chart_plot.c       pictures, made of chart_panel.c (svg.c draws, labels.c finds room)
  *     chart_command.c    options and progress
  *
- * Cost is instructions per frame relative to the sharp frame (`none`) of the same scene under the
+ *     chart_peer.c       what another rasterizer needs for some of the scenes
+ *
+ * Cost is instructions per frame, relative to the sharp frame (`none`) of the same scene under the
  * same condition: one thread, nothing kept between frames. Error is measured against 1024 exact
- * instants (truth.h) at the frame that stands for the scene; flicker is the RMS of
- * E(t + 1/8 frame) - E(t), where E = picture - truth. Shutter 180 degrees, centred. */
+ * instants (truth.h) in the same light; flicker is the RMS of E(t + 1/8 frame) - E(t), where
+ * E = picture - truth. Shutter 180 degrees, centred, 320x240.
+ *
+ * Under the first condition a frame is what a program gets that says nothing: linear light, the poses
+ * of this frame and of two before it, RGB565 with ordered dither, tiles and caches of the library's own
+ * choice. Its errors are those of 8 bits per channel, as the display's steps add the same to every
+ * method. Under the second one, that of the study, poses are exact and light is encoded. */
 #ifndef SMEAR_BENCH_CHART_H
 #define SMEAR_BENCH_CHART_H
 
@@ -28,13 +35,19 @@
 
 /* ------------------------------------------------------------------ what is measured */
 
+/* Those for everywhere, those that pictures show as well, all. */
+enum chart_share { SHARE_FEW, SHARE_SHOWN, SHARE_ALL };
+
 struct chart_condition {
     const char *light, *poses;  /* as options of the command line */
     bool linear, previous;
+    bool display;               /* cost is that of a display's dithered format, in a context by default */
+    enum chart_share share;     /* of the settings that are measured */
     const char *what;
 };
 
-enum { CHART_CONDITIONS = 3, CHART_MAIN = 0 };
+/* As users get it; as in studies, where the bars are; and what light alone changes. */
+enum { CHART_CONDITIONS = 3, CHART_DEFAULT = 0, CHART_MAIN = 1 };
 extern const struct chart_condition chart_conditions[CHART_CONDITIONS];
 
 /* Settings of one method that differ in one number are joined by a line. */
@@ -54,10 +67,10 @@ extern const int chart_curve_count;
 struct chart_setting {
     int curve;                  /* index, see chart_settings.c */
     const char *name;           /* starts with the method's name */
-    const char *label;          /* beside its mark; null: the mark is small */
+    const char *label;          /* beside its mark; null: small, and shown of bold curves alone */
     smear_method method;
     int samples, reconstruct, target;
-    bool everywhere;            /* under all conditions; else under the main one only */
+    bool everywhere;            /* under all conditions */
     smear_filter_kind filter;        /* as in smear_frame */
     smear_weights weights;
     bool spread;
@@ -69,6 +82,9 @@ extern const struct chart_setting chart_settings[];
 extern const int chart_setting_count;
 extern const int chart_none;    /* the setting that cost is relative to */
 
+/* Whether pictures have a mark for it; tables have all. */
+bool chart_is_shown(int setting);
+
 /* -1 when there is none. */
 int chart_find_setting(const char *name);
 int chart_find_condition(const char *light, const char *poses);
@@ -76,6 +92,9 @@ int chart_find_condition(const char *light, const char *poses);
 /* The number of a take in the group "chart", and the other way round. */
 int chart_index(int condition, int kind, int setting);
 bool chart_take(int index, struct take *out);
+
+/* The same, in the format whose errors are measured. */
+bool chart_error_take(int index, struct take *out);
 
 /* ------------------------------------------------------------------ what came out */
 
@@ -91,13 +110,13 @@ struct chart_value {
 };
 
 struct chart {
-    struct chart_value value[CHART_CONDITIONS][KINDS][CHART_MAX_SETTINGS];
+    struct chart_value value[CHART_CONDITIONS][ALL_KINDS][CHART_MAX_SETTINGS];
 };
 
 /* ------------------------------------------------------------------ measuring */
 
 struct chart_choice {
-    bool condition[CHART_CONDITIONS], kind[KINDS], setting[CHART_MAX_SETTINGS];
+    bool condition[CHART_CONDITIONS], kind[ALL_KINDS], setting[CHART_MAX_SETTINGS];
 };
 
 /* Measured under its conditions, and chosen. */
@@ -128,13 +147,16 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
 
 /* ------------------------------------------------------------------ means and frontiers */
 
-/* Scenes over which means are taken. Geometric, but for SSIM; errors below 0.01 count as 0.01. */
-enum chart_set { SET_OBJECT, SET_CAMERA, SET_MOVING, SET_STILL, CHART_SETS };
+/* Scenes over which means are taken: of the suite those with moving objects, those with a moving
+ * camera, and both; of the demo; of the demo and of models; those that a peer has drawn, too. Geometric,
+ * but for SSIM; errors below 0.01 count as 0.01. */
+enum chart_set { SET_OBJECT, SET_CAMERA, SET_MOVING, SET_DEMO, SET_FIELD, SET_PEER, SET_STILL, CHART_SETS };
 
 struct chart_mean {
     bool known;                 /* on every scene of the set */
     int scenes;
     double cost, rmse, rmse_mean, flip, ssim, flicker;
+    double instructions;        /* millions */
     double time, cpu;           /* relative to `none`; 0: not measured */
     double worst;               /* rmse */
     int worst_kind;
@@ -149,12 +171,37 @@ double chart_cost(const struct chart *chart, int condition, int kind, int settin
 double chart_time(const struct chart *chart, int condition, int kind, int setting);
 double chart_cpu(const struct chart *chart, int condition, int kind, int setting);
 
+/* ------------------------------------------------------------------ a peer */
+
+/* TGX (github.com/vindar/tgx), rendering in floating point, with the means of N of its frames. */
+enum { PEER_SHARP, PEER_4, PEER_8, PEER_16, PEER_SETTINGS };
+
+struct chart_peer {
+    const char *kind;           /* of the table of kinds */
+    double instructions[PEER_SETTINGS];             /* millions */
+    double rmse[PEER_SETTINGS]; /* codes */
+};
+
+enum { PEER_FRAMES = 6 };
+extern const struct chart_peer chart_peer[PEER_FRAMES];
+extern const char *const chart_peer_name[PEER_SETTINGS];
+
+/* Null where it has not drawn the scene. */
+const struct chart_peer *chart_peer_of(int kind);
+
+/* Means over the frames of a set that the peer has drawn: what it needs in parts of our sharp frame,
+ * and its error. False where there are none, or ours are not known. */
+bool chart_peer_mean(const struct chart *chart, int condition, enum chart_set set, int setting, double *cost,
+                     double *rmse);
+
 /* A point of a plane of cost and error; `setting` is its setting. */
 struct chart_point {
     int setting;
     double cost, error;
     bool on_frontier;           /* none is as cheap and as good, and better in one of both */
 };
+
+void chart_mark_frontier(struct chart_point *point, int count);
 
 /* All that is known of one scene, or of the means of a set; returns how many. */
 int chart_points_of_kind(const struct chart *chart, int condition, int kind,
@@ -177,8 +224,9 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
                       struct chart_verdict *verdict);
 bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 
-/* object.svg, camera.svg, all.svg: means; both.svg: the first two side by side; scenes.svg: each
- * scene for itself. Those for which nothing is known are left out. */
+/* chart.svg: four planes of means as users get it, which object.svg, camera.svg, field.svg and peer.svg show
+ * larger; scenes.svg: each scene for itself. The same with "study-" before it for the study's conditions.
+ * Those for which nothing is known are left out. */
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
 
 /* The command `chart`, arguments behind its name. */

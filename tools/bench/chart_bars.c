@@ -82,6 +82,42 @@ static void bar_mean(struct bars *b, const char *what, enum chart_set set, int p
     bar(b, text, mean.known ? mean.cost : NAN, AT_MOST, cost, "x", "");
 }
 
+/* What auto costs that has this error, by whatever target: on a line in logarithms between its two settings whose
+ * errors lie next to it. */
+static double auto_mean_at(const struct bars *b, enum chart_set set, double rmse)
+{
+    struct chart_mean above = { .known = false }, below = { .known = false };
+    for (int i = 0; i < chart_setting_count; i++) {
+        if (!is_auto(i))
+            continue;
+        struct chart_mean mean = chart_mean_of(b->chart, CHART_MAIN, set, i);
+        if (mean.known && mean.rmse > rmse && (!above.known || mean.rmse < above.rmse))
+            above = mean;
+        if (mean.known && mean.rmse <= rmse && (!below.known || mean.rmse > below.rmse))
+            below = mean;
+    }
+    if (!above.known || !below.known)
+        return NAN;
+    return above.cost * pow(below.cost / above.cost, log(rmse / above.rmse) / log(below.rmse / above.rmse));
+}
+
+static void bars_of_any_target(struct bars *b)
+{
+    static const struct {
+        enum chart_set set;
+        const char *what;
+        double rmse, cost;
+    } each[] = {
+        { SET_OBJECT, "object scenes", 1.2, 2.0 }, { SET_OBJECT, "object scenes", 0.6, 3.2 },
+        { SET_CAMERA, "camera scenes", 2.0, 3.5 }, { SET_CAMERA, "camera scenes", 1.2, 8.0 },
+    };
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        char text[80];
+        snprintf(text, sizeof text, "%s, auto where it has %.1f codes: cost", each[i].what, each[i].rmse);
+        bar(b, text, auto_mean_at(b, each[i].set, each[i].rmse), AT_MOST, each[i].cost, "x", "");
+    }
+}
+
 /* By the preset that comes closest to both. */
 static void bar_scene(struct bars *b, const char *what, const char *name, double rmse, double cost)
 {
@@ -416,12 +452,13 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
     bar_mean(&b, "object scenes", SET_OBJECT, FINE, 0.6, 2.6);
     bar_mean(&b, "camera scenes", SET_CAMERA, BALANCED, 2.5, 5.0);
     bar_mean(&b, "camera scenes", SET_CAMERA, FINE, 1.2, 6.5);
+    bars_of_any_target(&b);
     bar_scene(&b, "a typical game frame", "arena", 1.2, 4.0);
     bars_of_filters(&b);
     bars_of_every_scene(&b);
     bar_scene(&b, "a jump", "teleport", 0.5, 1.15);
     bar_scene(&b, "near plane", "near", 1.2, 8.0);
-    bar_flicker(&b, BALANCED, 2.0);
+    bar_flicker(&b, BALANCED, 1.2);
     bar_flicker(&b, FINE, 0.5);
     bars_of_layers(&b);
     bar_frontier(&b);

@@ -52,7 +52,7 @@ static bool choose_scenes(struct options *o, const char *list)
     memset(o->choice.kind, 0, sizeof o->choice.kind);
     for (size_t n; (n = next_word(&list, &word)) > 0;) {
         int found = -1;
-        for (int k = 0; k < KINDS; k++)
+        for (int k = 0; k < ALL_KINDS; k++)
             if (strlen(kinds[k].name) == n && strncmp(kinds[k].name, word, n) == 0)
                 found = k;
         if (found < 0)
@@ -88,7 +88,7 @@ static int read_options(struct options *o, int count, char **text)
         if (strcmp(name, "--quick") == 0) {
             o->quick = o->is_part = true;
             memset(o->choice.condition, 0, sizeof o->choice.condition);
-            o->choice.condition[CHART_MAIN] = true;
+            o->choice.condition[CHART_DEFAULT] = true;
             continue;
         }
         if (strcmp(name, "--strict") == 0) {
@@ -186,10 +186,26 @@ static bool measure(struct chart *chart, const struct options *o, const char *pr
 static void keep_chosen(struct chart *chart, const struct chart_choice *choice)
 {
     for (int c = 0; c < CHART_CONDITIONS; c++)
-        for (int k = 0; k < KINDS; k++)
+        for (int k = 0; k < ALL_KINDS; k++)
             for (int s = 0; s < chart_setting_count; s++)
                 if (!chart_is_wanted(choice, c, k, s))
                     chart->value[c][k][s].known = false;
+}
+
+/* Models that are not here are left out, and named. */
+static void leave_out_models(struct chart_choice *choice)
+{
+    const char *mark = "";
+    for (int k = 0; k < ALL_KINDS; k++) {
+        if (!choice->kind[k] || take_is_there(kinds[k].scene))
+            continue;
+        fprintf(stderr, "%s%s", mark[0] == '\0' ? "chart: left out, as SMEAR_ASSETS names no folder with them: " : mark,
+                kinds[k].scene);
+        choice->kind[k] = false;
+        mark = ", ";
+    }
+    if (mark[0] != '\0')
+        fprintf(stderr, "\n");
 }
 
 static bool report(const struct chart *chart, const struct options *o, uint32_t number,
@@ -202,9 +218,10 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
     snprintf(path, sizeof path, "%s/tables.md", o->out);
     if (!chart_write_tables(chart, path, f) || !chart_write_pictures(chart, o->out, f))
         return false;
-    for (int k = 0; k < KINDS && o->few_scenes; k++)
+    for (int k = 0; k < ALL_KINDS && o->few_scenes; k++)
         if (o->choice.kind[k])
-            chart_print_scene(stdout, chart, CHART_MAIN, k);
+            for (int c = 0; c < CHART_CONDITIONS; c++)
+                chart_print_scene(stdout, chart, c, k);
     for (int c = 0; c < CHART_CONDITIONS && !o->few_scenes; c++)
         if (o->choice.condition[c]) {
             chart_print_means(stdout, chart, c);
@@ -227,6 +244,8 @@ int chart_command(const char *program, int count, char **text)
     int status = read_options(&o, count, text);
     if (status != 0)
         return status;
+    if (o.from == NULL)
+        leave_out_models(&o.choice);
     bool ok = o.from == NULL || chart_read_csv(&chart, NULL, o.from, &f);
     ok = ok && make_folder("build", &f) && make_folder("build/chart", &f)
       && make_folder(o.out, &f) && number_of(program, &number, &f);

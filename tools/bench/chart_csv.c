@@ -33,13 +33,13 @@ bool chart_write_csv(const struct chart *chart, const struct chart_choice *choic
                      uint32_t program, const char *path, struct failure *f)
 {
     size_t room = sizeof header
-                + (size_t)MAX_LINE * CHART_CONDITIONS * KINDS * (size_t)chart_setting_count;
+                + (size_t)MAX_LINE * CHART_CONDITIONS * ALL_KINDS * (size_t)chart_setting_count;
     char *text = malloc(room);
     if (text == NULL)
         return fail(f, "out of memory");
     size_t at = (size_t)snprintf(text, room, "%s", header);
     for (int c = 0; c < CHART_CONDITIONS; c++)
-        for (int k = 0; k < KINDS; k++)
+        for (int k = 0; k < ALL_KINDS; k++)
             for (int s = 0; s < chart_setting_count; s++)
                 if (chart->value[c][k][s].known
                     && (choice == NULL || chart_is_wanted(choice, c, k, s)))

@@ -8,11 +8,15 @@ static const double least_error = 0.01;     /* so that geometric means stay fini
 
 bool chart_set_has(enum chart_set set, int kind)
 {
+    enum kind_group group = kinds[kind].group;
     switch (set) {
-    case SET_OBJECT: return kinds[kind].group == GROUP_OBJECT;
-    case SET_CAMERA: return kinds[kind].group == GROUP_CAMERA;
-    case SET_MOVING: return kinds[kind].group != GROUP_STILL;
-    default:         return kinds[kind].group == GROUP_STILL;
+    case SET_OBJECT: return group == GROUP_OBJECT;
+    case SET_CAMERA: return group == GROUP_CAMERA;
+    case SET_MOVING: return group == GROUP_OBJECT || group == GROUP_CAMERA;
+    case SET_DEMO:   return group == GROUP_DEMO;
+    case SET_FIELD:  return group == GROUP_DEMO || group == GROUP_MODEL;
+    case SET_PEER:   return chart_peer_of(kind) != NULL;
+    default:         return group == GROUP_STILL;
     }
 }
 
@@ -45,17 +49,18 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
                                 int setting)
 {
     struct chart_mean mean = { .known = true };
-    double cost[KINDS], rmse[KINDS], rmse_mean[KINDS], flip[KINDS], flicker[KINDS];
-    double time[KINDS], cpu[KINDS];
+    double cost[ALL_KINDS], rmse[ALL_KINDS], rmse_mean[ALL_KINDS], flip[ALL_KINDS], flicker[ALL_KINDS];
+    double instructions[ALL_KINDS], time[ALL_KINDS], cpu[ALL_KINDS];
     bool timed = true;
     int n = 0;
-    for (int k = 0; k < KINDS; k++) {
+    for (int k = 0; k < ALL_KINDS; k++) {
         const struct chart_value *v = &chart->value[condition][k][setting];
         if (!chart_set_has(set, k))
             continue;
         cost[n] = chart_cost(chart, condition, k, setting);
         if (cost[n] == 0.0)
             return (struct chart_mean){ .known = false };
+        instructions[n] = v->instructions / 1e6;
         rmse[n] = least(v->rmse);
         rmse_mean[n] = least(v->rmse_mean);
         flip[n] = least(100.0 * v->flip) / 100.0;
@@ -72,6 +77,7 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
     }
     mean.scenes = n;
     mean.cost = geometric_mean(cost, n);
+    mean.instructions = geometric_mean(instructions, n);
     mean.rmse = geometric_mean(rmse, n);
     mean.rmse_mean = geometric_mean(rmse_mean, n);
     mean.flip = geometric_mean(flip, n);
@@ -90,7 +96,7 @@ static bool beats(const struct chart_point *a, const struct chart_point *b)
         && (a->cost < b->cost || a->error < b->error);
 }
 
-static void mark_frontier(struct chart_point *point, int count)
+void chart_mark_frontier(struct chart_point *point, int count)
 {
     for (int i = 0; i < count; i++) {
         point[i].on_frontier = true;
@@ -110,7 +116,7 @@ int chart_points_of_kind(const struct chart *chart, int condition, int kind,
             out[n++] = (struct chart_point){ s, cost, chart->value[condition][kind][s].rmse,
                                              false };
     }
-    mark_frontier(out, n);
+    chart_mark_frontier(out, n);
     return n;
 }
 
@@ -123,6 +129,6 @@ int chart_points_of_set(const struct chart *chart, int condition, enum chart_set
         if (mean.known)
             out[n++] = (struct chart_point){ s, mean.cost, mean.rmse, false };
     }
-    mark_frontier(out, n);
+    chart_mark_frontier(out, n);
     return n;
 }

@@ -26,10 +26,10 @@ struct run {
     struct chart *chart;
     const struct chart_choice *choice;
     const struct chart_measuring *how;
-    struct job job[2 * CHART_CONDITIONS * KINDS];
+    struct job job[2 * CHART_CONDITIONS * ALL_KINDS];
     int jobs, next, done;
     pthread_mutex_t lock;               /* of the above, of chart and of progress */
-    pthread_mutex_t truth[KINDS];       /* a truth is drawn by one thread only */
+    pthread_mutex_t truth[ALL_KINDS];       /* a truth is drawn by one thread only */
     bool ok;
     struct failure failure;             /* the first */
 };
@@ -61,12 +61,14 @@ struct truths {
 static bool open_truths(struct run *run, const struct job *job, struct truths *out,
                         struct failure *f)
 {
-    const char *scene = kinds[job->kind].scene;
-    bool linear = chart_conditions[job->condition].linear;
+    struct take now, later;
+    chart_error_take(chart_index(job->condition, job->kind, chart_none), &now);
+    later = now;
+    later.later = flicker_step;
     pthread_mutex_lock(&run->truth[job->kind]);
     memset(out, 0, sizeof *out);
-    bool ok = truth_exact(scene, linear, 0.0, run->how->folder, &out->now, f)
-           && truth_exact(scene, linear, flicker_step, run->how->folder, &out->later, f)
+    bool ok = truth_of_take(&now, run->how->folder, &out->now, f)
+           && truth_of_take(&later, run->how->folder, &out->later, f)
            && truth_round(&out->now, &out->picture, f);
     pthread_mutex_unlock(&run->truth[job->kind]);
     return ok;
@@ -110,7 +112,7 @@ static bool measure_error(const struct truths *truths, int index, struct chart_v
     struct take take;
     struct image now = { 0 }, later = { 0 };
     struct image_distance distance = { 0 };
-    chart_take(index, &take);
+    chart_error_take(index, &take);
     bool ok = draw(&take, &now, &out->arena, f);
     take.later = flicker_step;
     ok = ok && draw(&take, &later, &out->arena, f)
@@ -244,7 +246,7 @@ static void list_jobs(struct run *run)
 {
     for (int timing = 0; timing <= (run->how->time ? 1 : 0); timing++)
         for (int c = 0; c < (timing ? 1 : CHART_CONDITIONS); c++)
-            for (int k = 0; k < KINDS; k++) {
+            for (int k = 0; k < ALL_KINDS; k++) {
                 struct job job = { c, k, timing != 0 };
                 struct missing missing;
                 find_missing(run, &job, &missing);
@@ -266,7 +268,7 @@ bool chart_measure(struct chart *chart, const struct chart_choice *choice,
     run.ok = true;
     list_jobs(&run);
     pthread_mutex_init(&run.lock, NULL);
-    for (int i = 0; i < KINDS; i++)
+    for (int i = 0; i < ALL_KINDS; i++)
         pthread_mutex_init(&run.truth[i], NULL);
     while (threads < wanted - 1 && pthread_create(&thread[threads], NULL, work, &run) == 0)
         threads++;
@@ -279,7 +281,7 @@ bool chart_measure(struct chart *chart, const struct chart_choice *choice,
         finish(&run, job, ok, &ignored);
     }
     pthread_mutex_destroy(&run.lock);
-    for (int i = 0; i < KINDS; i++)
+    for (int i = 0; i < ALL_KINDS; i++)
         pthread_mutex_destroy(&run.truth[i]);
     return run.ok || fail(f, "%s", run.failure.text);
 }

@@ -21,11 +21,11 @@ static const double ticks[] = { 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10,
                                 100, 200 };
 enum { TICKS = sizeof ticks / sizeof *ticks };
 
-/* Powers of ten, twos and fives always; the others where there is room. */
-static bool is_labelled(const struct axis *axis, int tick, double room)
+/* Powers of ten always, twos and fives where that is not `crowded`; the others where there is room. */
+static bool is_labelled(const struct axis *axis, int tick, double room, bool crowded)
 {
     double digit = ticks[tick] / pow(10.0, floor(log10(ticks[tick] * 1.001)));
-    bool main = fabs(digit - 1.0) < 0.1 || fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1;
+    bool main = fabs(digit - 1.0) < 0.1 || (!crowded && (fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1));
     if (main)
         return true;
     double before = fabs(at(axis, ticks[tick]) - at(axis, ticks[tick - 1]));
@@ -52,6 +52,9 @@ void chart_panel_fit(struct panel *panel, int panels)
             include(&x[0], &x[1], panel[i].point[k].cost);
             include(&y[0], &y[1], panel[i].point[k].error);
         }
+    for (int i = 0; i < panels; i++)
+        for (int k = 0; k < panel[i].peers; k++)
+            include(&x[0], &x[1], panel[i].peer[k].cost);
     for (int i = 0; i < panels; i++) {
         const struct box *box = &panel[i].box;
         panel[i].x = (struct axis){ x[0] / 1.12, x[1] * 1.15, box->x, box->x + box->width };
@@ -70,17 +73,66 @@ static void draw_grid(struct svg *svg, const struct panel *p)
             double x = at(&p->x, ticks[i]);
             svg_line(svg, x, b->y, x, b->y + b->height, style);
             snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
-            if (is_labelled(&p->x, i, 2.6 * p->tick_size))
+            if (is_labelled(&p->x, i, 2.6 * p->tick_size, p->name_size == 0.0))
                 svg_text(svg, x, b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
         }
         if (is_on(&p->y, ticks[i])) {
             double y = at(&p->y, ticks[i]);
             svg_line(svg, b->x, y, b->x + b->width, y, style);
             snprintf(text, sizeof text, "%g", ticks[i]);
-            if (is_labelled(&p->y, i, 1.4 * p->tick_size))
+            if (is_labelled(&p->y, i, 1.4 * p->tick_size, false))
                 svg_text(svg, b->x - 6.0, y + 0.35 * p->tick_size, ANCHOR_END, font, text);
         }
     }
+}
+
+/* Above the plane: the cost in instructions. */
+static void draw_scale_above(struct svg *svg, const struct panel *p)
+{
+    static const double millions[] = { 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000 };
+    const struct svg_font font = { .size = p->tick_size - 1.0, .color = PANEL_PALE };
+    const struct svg_style style = { edge, 1.0, NULL, 0.0 };
+    char text[32];
+    for (size_t i = 0; i < sizeof millions / sizeof *millions && p->none > 0.0; i++) {
+        if (!is_on(&p->x, millions[i] / p->none))
+            continue;
+        double x = at(&p->x, millions[i] / p->none);
+        svg_line(svg, x, p->box.y - 4.0, x, p->box.y, style);
+        snprintf(text, sizeof text, "%g M", millions[i]);
+        svg_text(svg, x, p->box.y - 7.0, ANCHOR_MIDDLE, font, text);
+    }
+}
+
+/* ------------------------------------------------------------------ a peer */
+
+static const char peer_color[] = "#334155";
+
+/* What the peer costs, as lines from top to bottom. */
+static void draw_peer_lines(struct svg *svg, const struct panel *p)
+{
+    for (int i = 0; i < p->peers; i++) {
+        double x = at(&p->x, p->peer[i].cost);
+        svg_line(svg, x, p->box.y, x, p->box.y + p->box.height, (struct svg_style){ peer_color, 1.0, "1.5,3", 0.75 });
+    }
+}
+
+static double peer_y(const struct panel *p, int i)
+{
+    return p->peer_errors ? at(&p->y, p->peer[i].error) : p->box.y + p->box.height - 8.0;
+}
+
+static void draw_peer_marks(struct svg *svg, const struct panel *p)
+{
+    double x[PEER_SETTINGS], y[PEER_SETTINGS];
+    for (int i = 0; i < p->peers; i++) {
+        x[i] = at(&p->x, p->peer[i].cost);
+        y[i] = peer_y(p, i);
+    }
+    if (!p->peer_errors)
+        return;
+    svg_polyline(svg, x, y, p->peers, (struct svg_style){ peer_color, 0.34 * p->mark, "6,3", 0.0 });
+    for (int i = 0; i < p->peers; i++)
+        svg_mark(svg, MARK_DIAMOND, x[i], y[i], p->mark, peer_color, true);
 }
 
 /* ------------------------------------------------------------------ frontier */
@@ -178,7 +230,7 @@ static void draw_curves(struct svg *svg, const struct panel *p)
 
 /* ------------------------------------------------------------------ labels */
 
-enum { MOST_OBSTACLES = 8192, MOST_LABELS = 2 * CHART_MAX_SETTINGS };
+enum { MOST_OBSTACLES = 8192, MOST_LABELS = 2 * CHART_MAX_SETTINGS + PEER_SETTINGS };
 
 struct lettering {
     struct obstacle obstacle[MOST_OBSTACLES];
@@ -276,6 +328,20 @@ static void add_point_labels(struct lettering *l, const struct panel *p)
     }
 }
 
+/* Names of the peer's lines stand in their lower ends. */
+static void add_peer_labels(struct lettering *l, const struct panel *p)
+{
+    static const char *const text[PEER_SETTINGS] = { "TGX", "\u00d74", "\u00d78", "\u00d716" };
+    for (int i = 0; i < p->peers; i++) {
+        struct label *label = add_label(l, (struct svg_font){ .size = p->name_size - 1.0, .color = peer_color, .bold = true,
+                                                              .halo = true }, p->peer_errors ? 1.4 * p->mark : 3.0,
+                                        text[p->peer[i].setting]);
+        add_anchor(label, at(&p->x, p->peer[i].cost), peer_y(p, i));
+        if (p->peer_errors)
+            add_obstacle(l, at(&p->x, p->peer[i].cost), peer_y(p, i), 1.2 * p->mark, 4.0);
+    }
+}
+
 static bool draw_labels(struct svg *svg, const struct panel *p, struct failure *f)
 {
     struct lettering *l = calloc(1, sizeof *l);
@@ -283,6 +349,7 @@ static bool draw_labels(struct svg *svg, const struct panel *p, struct failure *
     if (l == NULL)
         return fail(f, "out of memory");
     add_obstacles(l, p);
+    add_peer_labels(l, p);
     add_point_labels(l, p);
     add_names(l, p);
     struct box inside = { b->x + 3.0, b->y + 3.0, b->width - 6.0, b->height - 6.0 };
@@ -307,8 +374,11 @@ bool chart_panel_draw(struct svg *svg, const struct panel *p, struct failure *f)
     const struct box *b = &p->box;
     draw_frontier(svg, p, true);
     draw_grid(svg, p);
+    draw_peer_lines(svg, p);
+    draw_scale_above(svg, p);
     svg_rectangle(svg, b->x, b->y, b->width, b->height, "none", edge);
     draw_frontier(svg, p, false);
+    draw_peer_marks(svg, p);
     draw_curves(svg, p);
     return p->name_size == 0.0 || draw_labels(svg, p, f);
 }

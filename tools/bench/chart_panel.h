@@ -20,6 +20,10 @@ struct panel {
     struct box box;             /* of the plane itself */
     struct chart_point point[CHART_MAX_SETTINGS];
     int points;
+    double none;                /* millions of instructions of cost 1, for the scale above; 0: there is none */
+    struct chart_point peer[PEER_SETTINGS];         /* `setting` is one of the peer's */
+    int peers;
+    bool peer_errors;           /* marks, too; else lines at what it costs alone */
     struct axis x, y;
     double mark;                /* size of marks */
     double tick_size;           /* of fonts */

@@ -2,83 +2,138 @@
 /* chart_plot.c - the pictures of a chart: panels, titles, axes. */
 #include "tools/bench/chart_panel.h"
 
-static const char cost_axis[] = "cost: instructions per frame, relative to the sharp frame";
+static const char cost_axis[] = "cost of a frame in parts of the sharp one; above: millions of instructions";
 static const char error_axis[] = "error: RMSE in codes of 1/255";
 
 static const struct svg_font title_font = { .size = 19, .color = PANEL_INK, .bold = true };
+static const struct svg_font what_font = { .size = 13.5, .color = PANEL_PALE };
 static const struct svg_font axis_font = { .size = 14, .color = PANEL_INK };
-static const struct svg_font note_font = { .size = 12.5, .color = PANEL_PALE };
+static const struct svg_font note_font = { .size = 12, .color = PANEL_PALE };
 
 /* What all who look at a picture have to know. */
 static void draw_notes(struct svg *svg, double x, double y)
 {
-    svg_text(svg, x, y, ANCHOR_START, note_font,
-             "Dashed: the frontier, on which marks are filled; in the shaded area something else "
-             "is both cheaper and more accurate.");
-    svg_text(svg, x, y + 16, ANCHOR_START, note_font,
-             "Error against 1024 exact instants; shutter 180\u00b0; one thread; both scales are "
-             "logarithmic.");
+    static const char *const lines[] = {
+        "Left is cheaper, down is more accurate. Dashed: the frontier, on which marks are filled; in the shaded area",
+        "something else is both. Geometric means; error against 1024 exact instants in the same light; shutter 180\u00b0;",
+        "320x240, one thread. TGX, dotted: a peer in floating point; its sharp frame and the mean of 4, 8 and 16, on those of",
+        "the scenes that it has drawn, always in encoded light, 8 bits per channel, exact poses, lit beforehand.",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        svg_text(svg, x, y + 15.5 * (double)i, ANCHOR_START, note_font, lines[i]);
 }
 
-static bool draw_set(const struct chart *chart, enum chart_set set, const char *path,
-                     const char *title, const char *what, struct failure *f)
+/* ------------------------------------------------------------------ means */
+
+/* The conditions that have pictures, and what stands before their names. */
+static const struct plot {
+    int condition;
+    const char *prefix, *what;
+} plots[] = {
+    { CHART_DEFAULT, "", "As it comes: linear light, poses of frames ago, RGB565 with dither" },
+    { CHART_MAIN, "study-", "As in studies: encoded light, poses at shutter open and close, 8 bits per channel" },
+};
+enum { PLOTS = sizeof plots / sizeof *plots };
+
+static const struct part {
+    enum chart_set set;
+    const char *file, *title;
+} parts[] = {
+    { SET_OBJECT, "object", "12 scenes with moving objects" },
+    { SET_CAMERA, "camera", "7 scenes with a moving camera" },
+    { SET_FIELD, "field", "4 frames of the demo, 3 models" },
+    { SET_PEER, "peer", "6 frames that a peer draws, too" },
+};
+enum { PARTS = sizeof parts / sizeof *parts };
+
+/* Where there are no models, the demo alone. */
+static struct part shown_part(const struct chart *chart, const struct plot *plot, int i)
 {
-    enum { WIDTH = 800, HEIGHT = 600, LEFT = 66, TOP = 66, RIGHT = 18, BOTTOM = 86 };
+    struct part part = parts[i];
+    if (part.set == SET_FIELD && !chart_mean_of(chart, plot->condition, SET_FIELD, chart_none).known)
+        part = (struct part){ SET_DEMO, part.file, "4 frames of the demo" };
+    return part;
+}
+
+/* Leaves out what has no mark, and sees to it that the frontier is that of the others. */
+static int keep_shown(struct chart_point *point, int count)
+{
+    int n = 0;
+    for (int i = 0; i < count; i++)
+        if (chart_is_shown(point[i].setting))
+            point[n++] = point[i];
+    chart_mark_frontier(point, n);
+    return n;
+}
+
+static void fill_panel(struct panel *p, const struct chart *chart, const struct plot *plot, enum chart_set set)
+{
+    p->points = keep_shown(p->point, chart_points_of_set(chart, plot->condition, set, p->point));
+    p->none = chart_mean_of(chart, plot->condition, set, chart_none).instructions;
+    p->peer_errors = set == SET_PEER;
+    for (int s = 0; s < PEER_SETTINGS && set != SET_FIELD && set != SET_DEMO; s++) {     /* one frame is no mean */
+        struct chart_point *peer = &p->peer[p->peers];
+        peer->setting = s;
+        p->peers += chart_peer_mean(chart, plot->condition, set, s, &peer->cost, &peer->error);
+    }
+}
+
+static bool draw_part(const struct chart *chart, const struct plot *plot, int i, const char *path, struct failure *f)
+{
+    enum { WIDTH = 800, HEIGHT = 660, LEFT = 66, TOP = 84, RIGHT = 18, BOTTOM = 120 };
+    const struct part part = shown_part(chart, plot, i);
     struct panel p = { .box = { LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM },
                        .mark = 5.0, .tick_size = 13.0, .name_size = 13.5 };
     struct svg svg;
-    p.points = chart_points_of_set(chart, CHART_MAIN, set, p.point);
+    fill_panel(&p, chart, plot, part.set);
     if (p.points == 0)
         return true;
     chart_panel_fit(&p, 1);
-    if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
+    if (!svg_begin(&svg, WIDTH, HEIGHT, part.title, f))
         return false;
-    svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
-    svg_text(&svg, LEFT, 50, ANCHOR_START, (struct svg_font){ .size = 13.5, .color = PANEL_PALE },
-             what);
+    svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, part.title);
+    svg_text(&svg, LEFT, 48, ANCHOR_START, what_font, plot->what);
     bool ok = chart_panel_draw(&svg, &p, f);
-    svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis_font,
-             cost_axis);
+    svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 38, ANCHOR_MIDDLE, axis_font, cost_axis);
     svg_text_up(&svg, 20, TOP + p.box.height / 2.0, axis_font, error_axis);
-    draw_notes(&svg, LEFT, HEIGHT - 24);
+    draw_notes(&svg, LEFT, HEIGHT - 56);
     return svg_end(&svg, path, f) && ok;
 }
 
-static bool draw_both(const struct chart *chart, const char *path, struct failure *f)
+/* All parts on planes of one scale. */
+static bool draw_all_parts(const struct chart *chart, const struct plot *plot, const char *path, struct failure *f)
 {
-    enum { WIDTH = 800, HEIGHT = 560, LEFT = 58, TOP = 70, GAP = 46, RIGHT = 10, BOTTOM = 86,
-           PLOT = (WIDTH - LEFT - GAP - RIGHT) / 2 };
+    enum { COLUMNS = 2, WIDTH = 800, LEFT = 58, TOP = 108, GAP = 40, RIGHT = 8, PLOT_W = (WIDTH - LEFT - GAP - RIGHT) / 2,
+           PLOT_H = 350, STEP = PLOT_H + 76, HEIGHT = TOP + STEP + PLOT_H + 116 };
     static const char title[] = "Motion blur on a CPU: accuracy and its price";
-    static const struct {
-        enum chart_set set;
-        const char *what;
-    } half[2] = { { SET_OBJECT, "12 scenes with moving objects" },
-                  { SET_CAMERA, "7 scenes with a moving camera" } };
-    struct panel panel[2];
+    static struct panel panel[PARTS];
+    struct part part[PARTS];
     struct svg svg;
-    bool ok = true;
-    for (int i = 0; i < 2; i++) {
-        panel[i] = (struct panel){
-            .box = { LEFT + i * (PLOT + GAP), TOP, PLOT, HEIGHT - TOP - BOTTOM }, .mark = 4.2,
-            .tick_size = 12.5, .name_size = 13.0, .short_names = true };
-        panel[i].points = chart_points_of_set(chart, CHART_MAIN, half[i].set, panel[i].point);
-        if (panel[i].points == 0)
-            return true;
+    int n = 0;
+    for (int i = 0; i < PARTS; i++) {
+        struct panel *p = &panel[n];
+        part[n] = shown_part(chart, plot, i);
+        *p = (struct panel){ .box = { LEFT + n % COLUMNS * (PLOT_W + GAP), TOP + n / COLUMNS * STEP, PLOT_W, PLOT_H },
+                             .mark = 4.2, .tick_size = 12.5, .name_size = 13.0, .short_names = true };
+        fill_panel(p, chart, plot, part[n].set);
+        n += p->points > 0;
     }
-    chart_panel_fit(panel, 2);
+    if (n == 0)
+        return true;
+    chart_panel_fit(panel, n);
     if (!svg_begin(&svg, WIDTH, HEIGHT, title, f))
         return false;
     svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, title);
-    for (int i = 0; i < 2; i++) {
+    svg_text(&svg, LEFT, 48, ANCHOR_START, what_font, plot->what);
+    bool ok = true;
+    for (int i = 0; i < n; i++) {
         ok = ok && chart_panel_draw(&svg, &panel[i], f);
-        svg_text(&svg, panel[i].box.x, TOP - 10, ANCHOR_START,
-                 (struct svg_font){ .size = 14.5, .color = PANEL_INK, .bold = true },
-                 half[i].what);
+        svg_text(&svg, panel[i].box.x, panel[i].box.y - 26, ANCHOR_START,
+                 (struct svg_font){ .size = 14.5, .color = PANEL_INK, .bold = true }, part[i].title);
     }
-    svg_text(&svg, LEFT + PLOT + GAP / 2.0, HEIGHT - BOTTOM + 40, ANCHOR_MIDDLE, axis_font,
-             cost_axis);
-    svg_text_up(&svg, 18, TOP + panel[0].box.height / 2.0, axis_font, error_axis);
-    draw_notes(&svg, LEFT, HEIGHT - 24);
+    svg_text(&svg, LEFT + PLOT_W + GAP / 2.0, HEIGHT - 116 + 38, ANCHOR_MIDDLE, axis_font, cost_axis);
+    svg_text_up(&svg, 18, TOP + (STEP + PLOT_H) / 2.0, axis_font, error_axis);
+    draw_notes(&svg, LEFT, HEIGHT - 56);
     return svg_end(&svg, path, f) && ok;
 }
 
@@ -89,7 +144,7 @@ static void draw_legend(struct svg *svg, double left, double right, double y)
     const struct svg_font font = { .size = 12.5, .color = PANEL_INK };
     double x = left;
     for (int c = 0; c < chart_curve_count; c++) {
-        double width = svg_text_width(font, chart_curves[c].name) + 34.0;
+        double width = 1.1 * svg_text_width(font, chart_curves[c].name) + 34.0;
         if (x + width > right) {
             x = left;
             y += 18.0;
@@ -101,22 +156,22 @@ static void draw_legend(struct svg *svg, double left, double right, double y)
 }
 
 /* All scenes on planes of one scale. */
-static bool draw_scenes(const struct chart *chart, const char *path, struct failure *f)
+static bool draw_scenes(const struct chart *chart, const struct plot *plot, const char *path, struct failure *f)
 {
-    enum { COLUMNS = 4, WIDTH = 800, LEFT = 52, TOP = 104, CELL_W = 186, CELL_H = 176,
+    enum { COLUMNS = 4, WIDTH = 800, LEFT = 52, TOP = 172, CELL_W = 186, CELL_H = 176,
            PLOT_W = 158, PLOT_H = 134, FOOT = 28 };
-    static struct panel panel[KINDS];
-    static int kind[KINDS];
+    static struct panel panel[ALL_KINDS];
+    static int kind[ALL_KINDS];
     static const char title[] = "Scene by scene: accuracy of motion blur and its price";
     struct svg svg;
     int n = 0;
-    for (int k = 0; k < KINDS; k++) {
+    for (int k = 0; k < ALL_KINDS; k++) {
         struct panel *p = &panel[n];
         if (kinds[k].group == GROUP_STILL)
             continue;
         *p = (struct panel){ .box = { LEFT + n % COLUMNS * CELL_W, TOP + n / COLUMNS * CELL_H,
                                       PLOT_W, PLOT_H }, .mark = 2.6, .tick_size = 11.0 };
-        p->points = chart_points_of_kind(chart, CHART_MAIN, k, p->point);
+        p->points = keep_shown(p->point, chart_points_of_kind(chart, plot->condition, k, p->point));
         kind[n] = k;
         n += p->points > 0;
     }
@@ -127,15 +182,21 @@ static bool draw_scenes(const struct chart *chart, const char *path, struct fail
     if (!svg_begin(&svg, WIDTH, height, title, f))
         return false;
     svg_text(&svg, 20, 28, ANCHOR_START, title_font, title);
-    draw_legend(&svg, 20, WIDTH - 8, 54);
+    svg_text(&svg, 20, 48, ANCHOR_START, what_font, plot->what);
+    draw_legend(&svg, 20, WIDTH - 8, 72);
     bool ok = true;
     for (int i = 0; i < n; i++) {
+        const struct chart_value *none = &chart->value[plot->condition][kind[i]][chart_none];
+        char text[64];
         ok = ok && chart_panel_draw(&svg, &panel[i], f);
         svg_text(&svg, panel[i].box.x, panel[i].box.y - 5.0, ANCHOR_START,
                  (struct svg_font){ .size = 13.0, .color = PANEL_INK, .bold = true },
                  kinds[kind[i]].name);
+        snprintf(text, sizeof text, "1\u00d7 = %.1f M", none->instructions / 1e6);
+        svg_text(&svg, panel[i].box.x + PLOT_W, panel[i].box.y - 5.0, ANCHOR_END, note_font, text);
     }
-    svg_text(&svg, WIDTH / 2.0, height - 12, ANCHOR_MIDDLE, axis_font, cost_axis);
+    svg_text(&svg, WIDTH / 2.0, height - 12, ANCHOR_MIDDLE, axis_font,
+             "cost: instructions of a frame in parts of the sharp one");
     svg_text_up(&svg, 16, TOP + (rows * CELL_H - CELL_H + PLOT_H) / 2.0, axis_font, error_axis);
     return svg_end(&svg, path, f) && ok;
 }
@@ -144,26 +205,17 @@ static bool draw_scenes(const struct chart *chart, const char *path, struct fail
 
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f)
 {
-    static const struct {
-        enum chart_set set;
-        const char *file, *title, *what;
-    } sets[] = {
-        { SET_OBJECT, "object.svg", "Motion blur of moving objects: accuracy and its price",
-          "Geometric means of 12 scenes, still camera. Left is cheaper, down is more accurate." },
-        { SET_CAMERA, "camera.svg", "Motion blur under a moving camera: accuracy and its price",
-          "Geometric means of 7 scenes. Left is cheaper, down is more accurate." },
-        { SET_MOVING, "all.svg", "Motion blur on a CPU: accuracy and its price",
-          "Geometric means of 19 scenes. Left is cheaper, down is more accurate." },
-    };
     char path[512];
-    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, sets[i].file);
-        if (!draw_set(chart, sets[i].set, path, sets[i].title, sets[i].what, f))
-            return false;
+    bool ok = true;
+    for (int k = 0; k < PLOTS && ok; k++) {
+        for (int i = 0; i < PARTS && ok; i++) {
+            snprintf(path, sizeof path, "%s/%s%s.svg", folder, plots[k].prefix, parts[i].file);
+            ok = draw_part(chart, &plots[k], i, path, f);
+        }
+        snprintf(path, sizeof path, "%s/%schart.svg", folder, plots[k].prefix);
+        ok = ok && draw_all_parts(chart, &plots[k], path, f);
+        snprintf(path, sizeof path, "%s/%sscenes.svg", folder, plots[k].prefix);
+        ok = ok && draw_scenes(chart, &plots[k], path, f);
     }
-    snprintf(path, sizeof path, "%s/both.svg", folder);
-    if (!draw_both(chart, path, f))
-        return false;
-    snprintf(path, sizeof path, "%s/scenes.svg", folder);
-    return draw_scenes(chart, path, f);
+    return ok;
 }

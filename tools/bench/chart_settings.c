@@ -5,9 +5,9 @@
 #include <string.h>
 
 const struct chart_condition chart_conditions[CHART_CONDITIONS] = {
-    { "encoded", "shutter", false, false, "encoded light, poses at shutter open and close" },
-    { "linear", "shutter", true, false, "linear light, poses at shutter open and close" },
-    { "encoded", "previous", false, true, "encoded light, poses of this frame and the last" },
+    { "linear", "previous", true, true, true, SHARE_SHOWN, "as it comes: linear light, poses of frames ago, dithered RGB565" },
+    { "encoded", "shutter", false, false, false, SHARE_ALL, "study: encoded light, poses at shutter open and close" },
+    { "linear", "shutter", true, false, false, SHARE_FEW, "linear light, poses at shutter open and close" },
 };
 
 /* Colours that people with colour-blindness tell apart, each with a mark of its own. */
@@ -72,7 +72,7 @@ const struct chart_setting chart_settings[] = {
     { PINGPONG, "pingpong spread", NULL, SMEAR_PINGPONG, .spread = true },
     { HALF, "half 8", "8", SMEAR_HALF, .samples = 8, .everywhere = true },
     { HALF, "half 8 mended", NULL, SMEAR_HALF, .samples = 8, .reconstruct = MEND },
-    { OBJECT, "object", NULL, SMEAR_OBJECT, .everywhere = true },
+    { OBJECT, "object", "", SMEAR_OBJECT, .everywhere = true },
     { TWO_CAMERAS, "object plain 4", "4", SMEAR_OBJECT, .samples = 4, .plain = true },
     { TWO_CAMERAS, "object plain 16", "16", SMEAR_OBJECT, .samples = 16, .plain = true },
     { LAYERED, "layered 4", "4", SMEAR_LAYERED, .samples = 4 },
@@ -126,30 +126,46 @@ int chart_find_condition(const char *light, const char *poses)
 
 int chart_index(int condition, int kind, int setting)
 {
-    return (condition * KINDS + kind) * chart_setting_count + setting;
+    return (condition * ALL_KINDS + kind) * chart_setting_count + setting;
 }
 
 bool chart_take(int index, struct take *out)
 {
-    int setting = index % chart_setting_count, kind = index / chart_setting_count % KINDS;
-    int condition = index / chart_setting_count / KINDS;
+    int setting = index % chart_setting_count, kind = index / chart_setting_count % ALL_KINDS;
+    int condition = index / chart_setting_count / ALL_KINDS;
     if (index < 0 || condition >= CHART_CONDITIONS)
         return false;
     const struct chart_setting *s = &chart_settings[setting];
+    const struct chart_condition *c = &chart_conditions[condition];
     *out = (struct take){
-        .scene = kinds[kind].scene, .frame = -1, .windowed = smear_method_is_filter(s->method),
-        .plain = s->plain,
-        .target = s->target, .format = SMEAR_XRGB8888,
+        .scene = kinds[kind].scene, .clip = kinds[kind].clip, .frame = kinds[kind].frame, .width = 320, .height = 240,
+        .windowed = !c->display && smear_method_is_filter(s->method), .plain = s->plain,
+        .target = s->target, .format = c->display ? SMEAR_RGB565 : SMEAR_XRGB8888, .dithered = c->display,
+        .plain_context = c->display,
         .method = s->method, .samples = s->samples, .reconstruct = s->reconstruct,
         .filter = s->filter, .weights = s->weights, .pingpong.spread = s->spread,
-        .linear = chart_conditions[condition].linear,
-        .shutter_poses = !chart_conditions[condition].previous
+        .linear = c->linear, .shutter_poses = !c->previous
     };
     return true;
 }
 
+bool chart_error_take(int index, struct take *out)
+{
+    if (!chart_take(index, out))
+        return false;
+    out->format = SMEAR_XRGB8888;
+    out->dithered = false;
+    return true;
+}
+
+bool chart_is_shown(int setting)
+{
+    return chart_settings[setting].label != NULL || chart_curves[chart_settings[setting].curve].bold;
+}
+
 bool chart_is_wanted(const struct chart_choice *choice, int condition, int kind, int setting)
 {
+    const enum chart_share share = chart_conditions[condition].share;
     return choice->condition[condition] && choice->kind[kind] && choice->setting[setting]
-        && (condition == CHART_MAIN || chart_settings[setting].everywhere);
+        && (share == SHARE_ALL || chart_settings[setting].everywhere || (share == SHARE_SHOWN && chart_is_shown(setting)));
 }

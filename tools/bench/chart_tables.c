@@ -13,47 +13,81 @@
 static void print_mean(FILE *out, const struct chart_mean *mean)
 {
     if (mean->known)
-        fprintf(out, " %7.2f %6.2f %7.4f %7.2f", mean->cost, mean->rmse, mean->flip, mean->flicker);
+        fprintf(out, " %7.1f %6.2f %5.2f %5.2f", mean->instructions, mean->cost, mean->rmse, mean->flicker);
     else
-        fprintf(out, " %7s %6s %7s %7s", "-", "-", "-", "-");
-    if (mean->known && mean->time > 0.0)
-        fprintf(out, " %6.2f %6.2f", mean->time, mean->cpu);
-    else
-        fprintf(out, " %6s %6s", "-", "-");
+        fprintf(out, " %7s %6s %5s %5s", "-", "-", "-", "-");
+}
+
+/* Of the sets that stand beside each other in the table. */
+static const struct {
+    enum chart_set set;
+    const char *what;
+} columns[] = { { SET_OBJECT, "objects" }, { SET_CAMERA, "camera" }, { SET_DEMO, "demo" }, { SET_FIELD, "demo, models" },
+                { SET_PEER, "with peer" } };
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+static void print_peers(FILE *out, const struct chart *chart, int condition)
+{
+    for (int s = 0; s < PEER_SETTINGS; s++) {
+        double cost[COLUMNS], rmse[COLUMNS], none[COLUMNS];
+        bool known[COLUMNS], any = false;
+        for (int i = 0; i < COLUMNS; i++) {
+            known[i] = columns[i].set == SET_PEER
+                    && chart_peer_mean(chart, condition, columns[i].set, s, &cost[i], &rmse[i]);
+            none[i] = chart_mean_of(chart, condition, columns[i].set, chart_none).instructions;
+            any = any || known[i];
+        }
+        if (!any)
+            continue;
+        fprintf(out, "TGX %-20s", chart_peer_name[s]);
+        for (int i = 0; i < COLUMNS; i++)
+            if (known[i])
+                fprintf(out, " %7.1f %6.2f %5.2f %5s", cost[i] * none[i], cost[i], rmse[i], "-");
+            else
+                fprintf(out, " %7s %6s %5s %5s", "-", "-", "-", "-");
+        fprintf(out, "\n");
+    }
 }
 
 void chart_print_means(FILE *out, const struct chart *chart, int condition)
 {
     fprintf(out, "%s\n", chart_conditions[condition].what);
-    fprintf(out, "%-24s %8s %37s %9s %37s %7s\n", "", "object:", "", "camera:", "", "still:");
-    fprintf(out, "%-24s %8s %6s %7s %7s %6s %6s %9s %6s %7s %7s %6s %6s %7s %6s\n", "setting",
-            "cost", "RMSE", "FLIP", "flicker", "wall", "cpu", "cost", "RMSE", "FLIP", "flicker",
-            "wall", "cpu", "cost", "worst");
+    fprintf(out, "%-24s", "");
+    for (int i = 0; i < COLUMNS; i++)
+        fprintf(out, " %-26s", columns[i].what);
+    fprintf(out, "  still, cpu\n%-24s", "setting");
+    for (int i = 0; i < COLUMNS; i++)
+        fprintf(out, " %7s %6s %5s %5s", "M", "cost", "RMSE", "flick");
+    fprintf(out, " %6s %6s\n", "cost", "moving");
     for (int s = 0; s < chart_setting_count; s++) {
-        struct chart_mean object = chart_mean_of(chart, condition, SET_OBJECT, s);
-        struct chart_mean camera = chart_mean_of(chart, condition, SET_CAMERA, s);
-        struct chart_mean still = chart_mean_of(chart, condition, SET_STILL, s);
-        if (!object.known && !camera.known && !still.known)
+        struct chart_mean mean[COLUMNS], still = chart_mean_of(chart, condition, SET_STILL, s);
+        struct chart_mean moving = chart_mean_of(chart, condition, SET_MOVING, s);
+        bool any = still.known;
+        for (int i = 0; i < COLUMNS; i++) {
+            mean[i] = chart_mean_of(chart, condition, columns[i].set, s);
+            any = any || mean[i].known;
+        }
+        if (!any)
             continue;
-        fprintf(out, "%-24s ", chart_settings[s].name);
-        print_mean(out, &object);
-        fprintf(out, "  ");
-        print_mean(out, &camera);
+        fprintf(out, "%-24s", chart_settings[s].name);
+        for (int i = 0; i < COLUMNS; i++)
+            print_mean(out, &mean[i]);
         if (still.known)
-            fprintf(out, " %7.2f", still.cost);
+            fprintf(out, " %6.2f", still.cost);
         else
-            fprintf(out, " %7s", "-");
-        if (object.known && camera.known)
-            fprintf(out, " %6.1f", object.worst > camera.worst ? object.worst : camera.worst);
+            fprintf(out, " %6s", "-");
+        if (moving.known && moving.cpu > 0.0)
+            fprintf(out, " %6.2f", moving.cpu);
         fprintf(out, "\n");
     }
+    print_peers(out, chart, condition);
 }
 
 void chart_print_none(FILE *out, const struct chart *chart, int condition)
 {
-    double each[KINDS], least = 0.0, most = 0.0;
+    double each[ALL_KINDS], least = 0.0, most = 0.0;
     int n = 0;
-    for (int k = 0; k < KINDS; k++) {
+    for (int k = 0; k < ALL_KINDS; k++) {
         const struct chart_value *v = &chart->value[condition][k][chart_none];
         if (!v->known)
             continue;
@@ -77,12 +111,12 @@ void chart_print_scene(FILE *out, const struct chart *chart, int condition, int 
     fprintf(out, "%s, %s (none: %.2f M instructions, %.1f per pixel)\n", kinds[kind].name,
             chart_conditions[condition].what, none->instructions / 1e6,
             none->instructions / none->pixels);
-    fprintf(out, "%-24s %8s %6s %7s %7s %7s %6s %6s\n", "setting", "cost", "RMSE", "FLIP", "SSIM",
+    fprintf(out, "%-24s %8s %8s %6s %7s %7s %7s %6s %6s\n", "setting", "M", "cost", "RMSE", "FLIP", "SSIM",
             "flicker", "wall", "cpu");
     for (int i = 0; i < count; i++) {
         const struct chart_value *v = &chart->value[condition][kind][point[i].setting];
-        fprintf(out, "%-24s %8.2f %6.2f %7.4f %7.4f %7.2f", chart_settings[point[i].setting].name,
-                point[i].cost, v->rmse, v->flip, v->ssim, v->flicker);
+        fprintf(out, "%-24s %8.2f %8.2f %6.2f %7.4f %7.4f %7.2f", chart_settings[point[i].setting].name,
+                v->instructions / 1e6, point[i].cost, v->rmse, v->flip, v->ssim, v->flicker);
         if (v->ms > 0.0)
             fprintf(out, " %6.2f %6.2f", chart_time(chart, condition, kind, point[i].setting),
                     chart_cpu(chart, condition, kind, point[i].setting));
@@ -103,13 +137,13 @@ static void write_means(FILE *out, const struct chart *chart, int condition, enu
     if (count == 0)
         return;
     fprintf(out, "\n### %s\n\n", title);
-    fprintf(out, "| setting | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | cpu "
-                 "| worst RMSE | |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    fprintf(out, "| setting | M | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | cpu "
+                 "| worst RMSE | |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < count; i++) {
         int s = point[i].setting;
         struct chart_mean m = chart_mean_of(chart, condition, set, s);
-        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
-                m.cost, m.rmse, m.rmse_mean, m.flip, m.ssim, m.flicker);
+        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
+                m.instructions, m.cost, m.rmse, m.rmse_mean, m.flip, m.ssim, m.flicker);
         if (m.time > 0.0)
             fprintf(out, "%.2f | %.2f", m.time, m.cpu);
         else
@@ -131,13 +165,13 @@ static void write_scene(FILE *out, const struct chart *chart, int condition, int
             none->instructions / 1e6, none->instructions / none->pixels);
     if (none->ms > 0.0)
         fprintf(out, ", %.2f ms of the processor", none->cpu_ms);
-    fprintf(out, "\n\n| setting | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | "
-                 "cpu | kB | |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    fprintf(out, "\n\n| setting | M | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | "
+                 "cpu | kB | |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < count; i++) {
         int s = point[i].setting;
         const struct chart_value *v = &chart->value[condition][kind][s];
-        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
-                point[i].cost, v->rmse, v->rmse_mean, v->flip, v->ssim, v->flicker);
+        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
+                v->instructions / 1e6, point[i].cost, v->rmse, v->rmse_mean, v->flip, v->ssim, v->flicker);
         if (v->ms > 0.0)
             fprintf(out, "%.2f | %.2f", chart_time(chart, condition, kind, s),
                     chart_cpu(chart, condition, kind, s));
@@ -152,25 +186,29 @@ static void write_tables(FILE *out, const struct chart *chart)
 {
     struct chart_verdict verdict;
     fprintf(out, "# Speed against accuracy\n\n"
-            "Written by `make chart`. Cost and time are relative to the sharp frame (`none`) of "
-            "the same scene:\ncost in instructions of one thread (callgrind); wall and cpu in time "
+            "Written by `make chart`. M: millions of instructions of one thread (callgrind). Cost and "
+            "time are relative to the sharp frame (`none`) of "
+            "the same scene:\ncost in instructions; wall and cpu in time "
             "(medians; what else the machine does\nshows in wall). RMSE and flicker are in codes "
             "of 1/255, against the mean of %d exact instants of a "
             "centred shutter of 180 degrees. Means are geometric, but for SSIM.\n"
             "FLIP at 67 pixels per degree. \"frontier\": no other setting is as cheap and as "
             "right.\n\n```\n", (int)TRUTH_EXACT_INSTANTS);
-    chart_print_bars(out, chart, true, KINDS * CHART_MAX_SETTINGS, &verdict);
+    chart_print_bars(out, chart, true, ALL_KINDS * CHART_MAX_SETTINGS, &verdict);
     fprintf(out, "```\n");
     for (int c = 0; c < CHART_CONDITIONS; c++) {
         fprintf(out, "\n## Means: %s\n", chart_conditions[c].what);
         write_means(out, chart, c, SET_OBJECT, "12 scenes with moving objects, still camera");
         write_means(out, chart, c, SET_CAMERA, "7 scenes with a moving camera or background");
         write_means(out, chart, c, SET_MOVING, "these 19 scenes");
+        write_means(out, chart, c, SET_DEMO, "4 frames of the demo");
+        write_means(out, chart, c, SET_FIELD, "4 frames of the demo and 3 models");
+        write_means(out, chart, c, SET_PEER, "6 frames that a peer has drawn, too");
         write_means(out, chart, c, SET_STILL, "1 still scene");
     }
     for (int c = 0; c < CHART_CONDITIONS; c++) {
         fprintf(out, "\n## Scenes: %s\n", chart_conditions[c].what);
-        for (int k = 0; k < KINDS; k++)
+        for (int k = 0; k < ALL_KINDS; k++)
             write_scene(out, chart, c, k);
     }
 }

@@ -166,7 +166,8 @@ static bool same_rig(const struct take *a, const struct take *b)
 {
     return strcmp(a->scene, b->scene) == 0 && a->width == b->width && a->height == b->height
         && a->windowed == b->windowed && a->band_rows == b->band_rows
-        && a->format == b->format && a->method == b->method && a->samples == b->samples
+        && a->format == b->format && a->dithered == b->dithered && a->plain_context == b->plain_context
+        && a->method == b->method && a->samples == b->samples
         && a->reconstruct == b->reconstruct && a->plain == b->plain
         && a->target == b->target && a->reach == b->reach && a->filter == b->filter
         && a->camera_step == b->camera_step && a->weights == b->weights

@@ -19,7 +19,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { TARGETS = 3, PLAINS = 3, SETTINGS = TARGETS + PLAINS, ROUNDS = 5, MOST = 64, NAME_LIMIT = 512 };
+enum { TARGETS = 3, PLAINS = 3, SETTINGS = TARGETS + PLAINS, ROUNDS = 5, MOST = 64 };
 
 static const double aimed[TARGETS] = { 3.0, 1.5, 0.75 };
 static const int plain[PLAINS] = { 4, 8, 16 };
@@ -36,21 +36,10 @@ struct options {
 
 /* ------------------------------------------------------------------ takes */
 
-/* The environment tells it to the program's copy under callgrind. */
-static const char *model_folder(void)
-{
-    const char *folder = getenv("SMEAR_MODELS");
-    return folder != NULL ? folder : ".";
-}
-
 static bool make_take(const struct promise_scene *s, bool linear, int setting, struct take *out)
 {
-    static char path[NAME_LIMIT];
-    const bool is_file = take_is_file(s->scene);
-    if (is_file)
-        snprintf(path, sizeof path, "%s/%s", model_folder(), s->scene);
     *out = (struct take){
-        .scene = is_file ? path : s->scene, .clip = s->clip, .frame = s->frame, .format = SMEAR_XRGB8888,
+        .scene = s->scene, .clip = s->clip, .frame = s->frame, .format = SMEAR_XRGB8888,
         .method = setting < TARGETS ? SMEAR_AUTO : SMEAR_SUBFRAMES, .linear = linear, .shutter_poses = true
     };
     if (setting < TARGETS)
@@ -215,14 +204,6 @@ static bool is_chosen(const struct options *o, const struct promise_scene *s)
     return by_name || strstr(list, word) != NULL;
 }
 
-static bool exists(const struct promise_scene *s)
-{
-    struct take take;
-    struct stat st;
-    make_take(s, false, 0, &take);
-    return !take_is_file(take.scene) || stat(take.scene, &st) == 0;
-}
-
 static bool read_options(struct options *o, int count, char **text)
 {
     *o = (struct options){ .light = { true, true } };
@@ -233,7 +214,7 @@ static bool read_options(struct options *o, int count, char **text)
         } else if (strcmp(text[i], "--scenes") == 0 && has_value) {
             o->scenes = text[++i];
         } else if (strcmp(text[i], "--models") == 0 && has_value) {
-            setenv("SMEAR_MODELS", text[++i], 1);
+            setenv("SMEAR_ASSETS", text[++i], 1);
         } else if (strcmp(text[i], "--light") == 0 && has_value) {
             const bool linear = strcmp(text[++i], "linear") == 0;
             o->light[!linear] = false;
@@ -260,7 +241,7 @@ int promise_command(const char *program, int count, char **text)
     for (int i = 0; i < promise_scene_count; i++)
         for (int linear = 0; linear < 2; linear++) {
             struct measured m;
-            if (!o.light[linear] || !is_chosen(&o, &promise_scenes[i]) || !exists(&promise_scenes[i]))
+            if (!o.light[linear] || !is_chosen(&o, &promise_scenes[i]) || !take_is_there(promise_scenes[i].scene))
                 continue;
             if (!measure(i, linear != 0, &o, &counter, &m, &f)) {
                 fprintf(stderr, "smear: %s: %s\n", promise_scenes[i].scene, f.text);

@@ -103,15 +103,16 @@ static bool start_library(struct rig *rig, struct failure *f)
     const struct take *t = &rig->take;
     smear_desc desc = presented_desc(rig->frame, t->width, t->height);
     desc.format = (uint8_t)t->format;
-    desc.display.dither = SMEAR_DITHER_NONE;
+    desc.display.dither = t->dithered ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE;
     desc.reach = (int16_t)t->reach;
     desc.methods |= (uint16_t)(t->windowed ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u);
-    present_tiles(&desc);
+    if (!t->plain_context)
+        present_tiles(&desc);
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */
         desc.max_draws = MOST_DRAWS;
-    desc.vertex_cache = 4096;
+    desc.vertex_cache = t->plain_context ? 0 : 4096;
     desc.flush = take_band;
     desc.idle = t->workers > 1 ? bench_idle : NULL;
     desc.user = rig;
@@ -152,11 +153,29 @@ bool take_is_file(const char *scene)
     return length > 4 && strcmp(scene + length - 4, ".glb") == 0;
 }
 
+enum { PATH_LIMIT = 512 };
+
+/* The environment tells it to the program's copy under callgrind, too. */
+static void model_path(char out[PATH_LIMIT], const char *file)
+{
+    const char *folder = getenv("SMEAR_ASSETS");
+    snprintf(out, PATH_LIMIT, "%s/%s", folder != NULL && folder[0] != '\0' ? folder : "../shared/assets", file);
+}
+
+bool take_is_there(const char *scene)
+{
+    char path[PATH_LIMIT];
+    model_path(path, scene);
+    return !take_is_file(scene) || access(path, R_OK) == 0;
+}
+
 /* With the automatic camera, unless the file has one. */
 static bool open_model(struct rig *rig, struct failure *f)
 {
     const char *clip = rig->take.clip;
-    if (!model_load(rig->take.scene, &rig->model, f))
+    char path[PATH_LIMIT];
+    model_path(path, rig->take.scene);
+    if (!model_load(path, &rig->model, f))
         return false;
     struct scene_view view = { .clip = rig->model.clip_count > 0 ? 0 : MODEL_CLIP_NONE, .loop = true,
                                .camera = rig->model.camera_count > 0 ? 0 : -1, .aspect = 4.0 / 3.0 };

@@ -17,7 +17,7 @@
 #include <stdbool.h>
 
 struct take {
-    const char *scene;          /* of the catalog, or a model's file */
+    const char *scene;          /* of the catalog, or a model's file below the folder of models */
     const char *clip;           /* of a model; null: its first */
     int frame;                  /* at the scene's rate; -1: the frame that stands for the scene */
     double later;               /* frames after that */
@@ -25,7 +25,9 @@ struct take {
     bool windowed;              /* room for SMEAR_RECONSTRUCT, whatever the method is */
     bool plain;                 /* SMEAR_OBJECT as two cameras do it */
     int band_rows;              /* of sharp contexts; 0: a tile, as with a window */
-    smear_format format;        /* never dithered */
+    smear_format format;
+    bool dithered;              /* as a display gets it by default */
+    bool plain_context;         /* tile, strip and vertex cache are the library's defaults */
     smear_method method;
     int samples;                /* 0: the library's default */
     int reconstruct;            /* SMEAR_FENCE | ... */
@@ -63,6 +65,9 @@ enum { CLEAR_OF_SCENE = -1, TAKE_SHUTTER_DEGREES = 180 };
 
 /* Whether a take's scene is a file. */
 bool take_is_file(const char *scene);
+
+/* Whether it can be drawn here: a model's file is looked for in the folder that SMEAR_ASSETS of the environment names. */
+bool take_is_there(const char *scene);
 
 /* The whole frame as one band: the height in rows of 8. */
 int take_whole(int height);

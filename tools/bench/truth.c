@@ -185,7 +185,8 @@ static bool draw_exact(struct rig *rig, struct float_image *out, struct failure 
 bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
 {
     const struct take take = {
-        .scene = of->scene, .clip = of->clip, .frame = of->frame, .later = of->later, .format = SMEAR_XRGB8888,
+        .scene = of->scene, .width = of->width, .height = of->height, .clip = of->clip,
+        .frame = of->frame, .later = of->later, .format = SMEAR_XRGB8888,
         .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
     };
     struct rig rig;

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # chart.awk - from build/chart/chart.csv, as `make chart` writes it, what the page shows: per setting the geometric means
-# of cost and error over all scenes in which something moves, as tools/bench/chart_means.c takes them. Other weights and
-# variants have no switch on the page.
+# of cost and error as it comes (linear light, poses of frames ago) over the scenes of the suite in which something
+# moves and frames of the demo, as tools/bench/chart_means.c takes them. Other weights and variants have no switch on the
+# page.
 BEGIN { FS = OFS = ","; print "setting,cost,rmse" }
 NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
-$column["light"] == "encoded" && $column["poses"] == "shutter" && $column["group"] != "still" && $column["cost"] > 0 {
+$column["light"] == "linear" && $column["poses"] == "previous" && $column["group"] ~ /object|camera|demo/ && $column["cost"] > 0 {
     s = $column["setting"]
     if (s ~ /mcguire|guertin|jimenez|spread|plain|half 8 mended/)
         next
