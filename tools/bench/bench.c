@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [formats] [targets FILE...]
+ *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [targets FILE...]
  *     bench chart [options]
+ *     bench promise [options]
  *
- * Without arguments, the first seven. `targets` reads what target_bench printed, from files named
+ * Without arguments, the first eight. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "tools/bench/chart.h"
@@ -26,6 +27,8 @@ bool group_take(const char *group, int index, struct take *out)
         return methods_take(index, out);
     if (strcmp(group, "filters") == 0)
         return filters_take(index, out);
+    if (strcmp(group, "blur") == 0)
+        return blur_take(index, out);
     if (strcmp(group, "chart") == 0)
         return chart_take(index, out);
     if (strcmp(group, "promise") == 0)
@@ -41,7 +44,7 @@ struct report {
 static const struct report reports[] = {
     { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
     { "filters", filters_report }, { "threads", threads_report }, { "memory", memory_report },
-    { "formats", formats_report },
+    { "formats", formats_report }, { "blur", blur_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

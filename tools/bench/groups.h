@@ -14,5 +14,6 @@ bool peers_take(int index, struct take *out);
 bool methods_take(int index, struct take *out);
 bool threads_take(int index, struct take *out);
 bool filters_take(int index, struct take *out);
+bool blur_take(int index, struct take *out);
 
 #endif

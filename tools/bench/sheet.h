@@ -35,6 +35,7 @@ bool methods_report(struct sheet *sheet, struct failure *f);    /* cost and erro
 bool filters_report(struct sheet *sheet, struct failure *f);    /* camera, pingpong, half, weights */
 bool threads_report(struct sheet *sheet, struct failure *f);
 bool memory_report(struct sheet *sheet, struct failure *f);      /* arenas of small displays */
+bool blur_report(struct sheet *sheet, struct failure *f);        /* at default options */
 bool formats_report(struct sheet *sheet, struct failure *f);     /* few greys through an eye */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);
 
