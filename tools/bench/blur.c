@@ -61,14 +61,22 @@ bool blur_take(int index, struct take *out)
 
 /* ------------------------------------------------------------------ measuring */
 
-/* Millions of instructions. */
-static bool price(const struct sheet *sheet, int kind, enum shot shot, double *out, struct failure *f)
+/* Millions of instructions, kept for the next report that asks: callgrind starts once for shots of a scene that are asked
+ * for together. */
+static bool prices(const struct sheet *sheet, int kind, const enum shot *shot, int count, double *out, struct failure *f)
 {
-    const int index = kind * SHOTS + (int)shot;
-    uint64_t instructions;
-    if (!count_list(&sheet->counter, "blur", &index, 1, &count_frame, &instructions, f))
+    static double known[ALL_KINDS][SHOTS];
+    int index[SHOTS], missing = 0;
+    uint64_t instructions[SHOTS];
+    for (int i = 0; i < count; i++)
+        if (known[kind][shot[i]] == 0.0)
+            index[missing++] = kind * SHOTS + (int)shot[i];
+    if (missing > 0 && !count_list(&sheet->counter, "blur", index, missing, &count_frame, instructions, f))
         return false;
-    *out = (double)instructions / 1e6;
+    for (int i = 0; i < missing; i++)
+        known[kind][index[i] % SHOTS] = (double)instructions[i] / 1e6;
+    for (int i = 0; i < count; i++)
+        out[i] = known[kind][shot[i]];
     return true;
 }
 
@@ -156,13 +164,14 @@ static bool report_demo(struct sheet *sheet, struct failure *f)
     printf("\ndefault options, frames of the demo: balanced, at most 2.5 codes at half the price of 8 whole frames\n"
            "  %-9s %8s %8s %8s %8s   %-6s %-14s\n", "", "draft M", "balanced", "8 whole", "codes", "error", "price / whole");
     for (int k = 0; k < ALL_KINDS; k++) {
-        double d, b, whole, codes, whole_codes;
+        static const enum shot shot[] = { SHOT_DEFAULT_DRAFT, SHOT_DEFAULT_BALANCED, SHOT_DEFAULT_WHOLE };
+        double each[3], codes, whole_codes;
         if (kinds[k].group != GROUP_DEMO)
             continue;
-        if (!price(sheet, k, SHOT_DEFAULT_DRAFT, &d, f) || !price(sheet, k, SHOT_DEFAULT_BALANCED, &b, f)
-            || !price(sheet, k, SHOT_DEFAULT_WHOLE, &whole, f) || !error(sheet, k, SHOT_DEFAULT_BALANCED, &codes, f)
+        if (!prices(sheet, k, shot, 3, each, f) || !error(sheet, k, SHOT_DEFAULT_BALANCED, &codes, f)
             || !error(sheet, k, SHOT_DEFAULT_WHOLE, &whole_codes, f))
             return false;
+        const double d = each[0], b = each[1], whole = each[2];
         printf("  %-9s %8.1f %8.1f %8.1f %8.2f   %-6s %.2f %-6s (whole: %.2f codes)\n", kinds[k].name, d, b, whole, codes,
                sheet_most(sheet, codes, 2.5), b / whole, sheet_most(sheet, b / whole, 0.5), whole_codes);
         fflush(stdout);
@@ -181,8 +190,9 @@ static bool report_peer(struct sheet *sheet, struct failure *f)
     printf("\nencoded light, exact poses, XRGB8888: balanced against TGX's sharp frame, instructions\n");
     for (int i = 0; i < PEER_FRAMES; i++) {
         const int kind = kind_find(chart_peer[i].kind);
+        const enum shot shot = SHOT_ENCODED;
         double balanced, codes;
-        if (!price(sheet, kind, SHOT_ENCODED, &balanced, f) || !error(sheet, kind, SHOT_ENCODED, &codes, f))
+        if (!prices(sheet, kind, &shot, 1, &balanced, f) || !error(sheet, kind, SHOT_ENCODED, &codes, f))
             return false;
         const double ratio = balanced / chart_peer[i].instructions[PEER_SHARP];
         printf("  %-12s %6.1f M %6.2fx at %.2f codes   at most %.1fx  %s\n", chart_peer[i].kind, balanced, ratio, codes,
@@ -204,15 +214,17 @@ static bool report_light(struct sheet *sheet, struct failure *f)
         double ratio[ALL_KINDS];
         int n = 0;
         for (int k = 0; k < ALL_KINDS; k++) {
-            double linear, encoded;
+            static const enum shot shot[] = { SHOT_LINEAR, SHOT_ENCODED };
+            double each[2];
             if (kinds[k].group != groups[i].group)
                 continue;
-            if (!price(sheet, k, SHOT_LINEAR, &linear, f) || !price(sheet, k, SHOT_ENCODED, &encoded, f))
+            if (!prices(sheet, k, shot, 2, each, f))
                 return false;
-            ratio[n++] = linear / encoded;
+            ratio[n++] = each[0] / each[1];
         }
         const double mean = geometric_mean(ratio, n);
         printf("  %-12s %.2fx in the mean of %d  at most 1.2x  %s\n", groups[i].what, mean, n, sheet_most(sheet, mean, 1.2));
+        fflush(stdout);
     }
     return true;
 }
@@ -225,12 +237,13 @@ static bool report_filter(struct sheet *sheet, struct failure *f)
     } scenes[] = { { "translate", 8.0 }, { "pan", 26.0 }, { "arena", 15.0 } };
     printf("\nencoded light, exact poses: reconstruct 8 less the sharp frame\n");
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        const int kind = kind_find(scenes[i].name);
-        double filter, sharp;
-        if (!price(sheet, kind, SHOT_FILTER, &filter, f) || !price(sheet, kind, SHOT_SHARP, &sharp, f))
+        static const enum shot shot[] = { SHOT_FILTER, SHOT_SHARP };
+        double each[2];
+        if (!prices(sheet, kind_find(scenes[i].name), shot, 2, each, f))
             return false;
-        printf("  %-12s %6.1f M  at most %.0f M  %s\n", scenes[i].name, filter - sharp, scenes[i].bar,
-               sheet_most(sheet, filter - sharp, scenes[i].bar));
+        printf("  %-12s %6.1f M  at most %.0f M  %s\n", scenes[i].name, each[0] - each[1], scenes[i].bar,
+               sheet_most(sheet, each[0] - each[1], scenes[i].bar));
+        fflush(stdout);
     }
     return true;
 }
