@@ -10,112 +10,208 @@
 
 #if SMEAR_WITH_OVERLAY
 
+/* An end of the exposure in clip space: rows of what is added up for an offset from the eye, q16, for the way that a point goes
+ * in a frame, and of where eyes are that the pose of now has not. */
+struct lens_end {
+    int32_t offset[4][3], way[4][3];
+    int64_t eyes[4];
+};
+
 /* What is the same for all points. */
 struct lens {
-    struct smear_projection projection[3];      /* of offsets from the eye, in one scale */
-    const smear_transform *eye[3];
-    const struct smear_instant *at[2];
+    struct smear_projection projection; /* of offsets from the eye of now */
+    struct lens_end end[2];
     const struct smear_shot *shot;
     struct smear_viewport viewport;
-    int poses;
-    int32_t unit;               /* length of projection[0].m[0] / 2 */
-    uint32_t pixel;             /* of a point at distance 1, in units: q16 */
-    int depth_shift;            /* of projection[0] */
+    int32_t eye[3];
+    uint32_t apart;  /* eyes, at least by their highest bit */
+    bool still;      /* they are one, in one direction */
+    int shift;       /* rows for steps of 2^exponent are in the projection's scale times 2^-(shift + exponent) */
+    int32_t unit;    /* length of projection.m[0] / 2 */
+    uint32_t pixel;  /* of a point at distance 1, in units: q16 */
+    int depth_shift; /* of the projection */
 };
 
 /* Where a point is at one end of its streak. */
 struct end {
-    struct smear_homogeneous h; /* times 2^(exponent - 8) in the projection's scale */
+    struct smear_homogeneous h; /* times 2^exponent in the lens's scale */
     struct smear_screen s;
 };
 
 /* ------------------------------------------------------------------ the lens */
 
-static void make_pose(struct lens *l, int k, int32_t height)
+static const smear_camera *camera_of(const struct smear_shot *shot, int k)
+{
+    return &shot->camera[shot->camera_moves && !shot->cut ? k : 0];
+}
+
+static void make_pose(struct smear_projection *p, const smear_camera *camera, int32_t height)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
     static const smear_mesh unit = { .scale = 1 };
-    const smear_camera *camera = &l->shot->camera[l->shot->camera_moves && !l->shot->cut ? k : 0];
     struct smear_view view;
     smear_transform at_eye = identity;
     for (int i = 0; i < 3; i++)
         at_eye.origin[i] = camera->pose.origin[i];
     smear_view_compose(&view, &at_eye, &unit, &camera->pose);
-    smear_projection_make(&l->projection[k], &view, camera, height);
-    l->eye[k] = &camera->pose;
+    smear_projection_make(p, &view, camera, height);
 }
 
-static void make_lens(struct lens *l, const struct smear_rows *rows)
+/* Returns how far a point is on its way in a pose, q16 frames. */
+static int32_t way_at(const struct smear_shot *shot, int k)
+{
+    if (k != 0 && shot_is_curved(shot))
+        return smear_shot_time(shot, k) >> 8;
+    return k == 0 ? 0 : k == 1 ? -65536
+                               : 65536;
+}
+
+/* What poses add to the rows, q24: of offsets and of ways. */
+struct sums {
+    int64_t offset[4][3], way[4][3];
+};
+
+static uint64_t make_sums(struct sums *sum, const struct smear_projection pose[], const int32_t weight[], const struct smear_shot *shot,
+                          int poses)
+{
+    uint64_t any = 0;
+    for (int r = 0; r < 4; r++)
+        for (int j = 0; j < 3; j++) {
+            int64_t offset = 0, way = 0;
+            for (int k = 0; k < poses; k++) {
+                const int64_t term = r == 3 && !is_orthographic(&pose[0]) ? 0 : (int64_t)pose[k].m[r][j] * weight[k];
+                offset += term;
+                way += (term >> 16) * way_at(shot, k);
+            }
+            sum->offset[r][j] = offset;
+            sum->way[r][j] = way;
+            any |= (uint64_t)(offset ^ offset >> 63) | (uint64_t)(way ^ way >> 63);
+        }
+    return any;
+}
+
+/* Brings the sums of an end to 28 bits, of which cores without a wide product leave out the last two. */
+static void make_end(struct lens_end *end, const struct sums *sum, const struct smear_projection pose[], const int32_t weight[],
+                     const struct smear_shot *shot, int poses, int down)
+{
+    const int64_t most = 1 << 29;
+    for (int r = 0; r < 4; r++) {
+        end->eyes[r] = 0;
+        for (int j = 0; j < 3; j++) {
+            end->offset[r][j] = (int32_t)(sum->offset[r][j] >> down) & ~3;
+            end->way[r][j] = (int32_t)(sum->way[r][j] >> down) & ~3;
+            for (int k = 1; k < poses && (r < 3 || is_orthographic(&pose[0])); k++) {
+                const int64_t apart = (int64_t)camera_of(shot, 0)->pose.origin[j] - camera_of(shot, k)->pose.origin[j];
+                const int64_t row = (int64_t)pose[k].m[r][j] * weight[k] >> down >> 4;
+                end->eyes[r] += (row < -most ? -most : row > most ? most
+                                                                  : row)
+                                  * apart
+                             >> 12;
+            }
+        }
+    }
+}
+
+static void make_lens(struct lens *l, const struct smear_rows *rows, const struct smear_instant *const at[2])
 {
     static const int32_t one[3] = { 1 << 24, 1 << 24, 1 << 24 };
+    const smear_camera *now = camera_of(l->shot, 0);
+    struct smear_projection pose[3];
+    struct sums sum[2];
+    int poses = 1;
     l->viewport = (struct smear_viewport){ rows->window.width, rows->window.height };
-    l->poses = 1;
     for (int k = 1; k < 3; k++)
-        if ((l->at[0]->weight[k] | l->at[1]->weight[k]) != 0)
-            l->poses = k + 1;
-    for (int k = 0; k < l->poses; k++)
-        make_pose(l, k, rows->window.height);
-    smear_projection_weigh(l->projection, one, l->poses, 0, &l->shot->camera[0]);
-    const int32_t *m = l->projection[0].m[0];
+        if ((at[0]->weight[k] | at[1]->weight[k]) != 0)
+            poses = k + 1;
+    l->still = !l->shot->camera_moves || l->shot->cut;
+    l->apart = 0;
+    for (int k = 0; k < poses; k++) {
+        const int32_t *eye = camera_of(l->shot, k)->pose.origin;
+        make_pose(&pose[k], camera_of(l->shot, k), rows->window.height);
+        for (int j = 0; j < 3; j++) {
+            const int32_t apart = narrow_sat((int64_t)now->pose.origin[j] - eye[j]);
+            l->apart |= (uint32_t)(apart ^ apart >> 31);
+            l->eye[j] = now->pose.origin[j];
+        }
+    }
+    smear_projection_weigh(pose, one, poses, 0, now);
+    l->projection = pose[0];
+    uint64_t any = 1u << 28;
+    for (int e = 0; e < 2; e++)
+        any |= make_sums(&sum[e], pose, at[e]->weight, l->shot, poses);
+    const int down = 36 - count_leading_zeros_64(any);
+    for (int e = 0; e < 2; e++)
+        make_end(&l->end[e], &sum[e], pose, at[e]->weight, l->shot, poses, down);
+    l->shift = down - 40;
+    const int32_t *m = l->projection.m[0];
     const uint64_t square = (uint64_t)((int64_t)m[0] * m[0]) + (uint64_t)((int64_t)m[1] * m[1])
                           + (uint64_t)((int64_t)m[2] * m[2]);
     l->unit = (int32_t)(sqrt_floor_64(square) >> 1);
-    l->depth_shift = l->projection[0].depth_shift;
+    l->depth_shift = l->projection.depth_shift;
     /* Pixels per unit at distance 1 are focal height / 2. */
     const uint32_t pixels = (uint32_t)max_i32(narrow_sat((int64_t)l->shot->camera[0].focal * l->viewport.height >> 17), 1);
-    l->pixel = is_orthographic(&l->projection[0]) ? 0 : 65536u / pixels;
+    l->pixel = is_orthographic(&l->projection) ? 0 : 65536u / pixels;
 }
 
-/* ------------------------------------------------------------------ poses of a point */
+/* ------------------------------------------------------------------ ends of a streak */
 
-/* Finds where it is in each pose: its path is a line. */
-static void find_poses(int32_t at[3][3], const struct lens *l, const smear_point *point)
+/* Returns a - b, saturated. */
+static inline int32_t difference(int32_t a, int32_t b)
 {
-    const struct smear_shot *shot = l->shot;
-    for (int i = 0; i < 3; i++) {
-        const int64_t now = point->now[i];
-        int64_t step = now - point->before[i];
-        if (SMEAR_WITH_SCALES && shot->object_scale != 256)
-            step = step * (int32_t)shot->object_scale >> 8;
-        if (shot->cut)
-            step = 0;
-        at[0][i] = point->now[i];
-        for (int k = 1; k < l->poses; k++) {
-            int64_t moved = k == 1 ? -step : step;
-            if (shot_is_curved(shot))
-                moved = step * (smear_shot_time(shot, k) >> 8) >> 16;
-            at[k][i] = narrow_sat(now + moved);
-        }
-    }
+    const int32_t d = sub_wrap(a, b);
+    return ((a ^ b) & (a ^ d)) >= 0 ? d : a < 0 ? INT32_MIN
+                                                : INT32_MAX;
+}
+
+static inline uint32_t bits_of(int32_t a) { return (uint32_t)(a ^ a >> 31); }
+
+static inline int16_t in_steps(int32_t a, int exponent)
+{
+    return (int16_t)(exponent >= 0 ? a >> exponent : shl_wrap(a, -exponent));
+}
+
+/* Returns a row's sum for three of 15 bits. */
+static inline int32_t row_of(const int32_t m[3], const int16_t v[3])
+{
+    const int32_t row[4] = { m[0], m[1], m[2], 0 };
+    return transform_row(row, v);
+}
+
+static int32_t eyes_of(const struct lens_end *end, int r, int exponent)
+{
+    return narrow_sat(exponent >= 0 ? end->eyes[r] >> exponent : end->eyes[r] * (1 << -exponent));
 }
 
 /* Finds the point at the ends of its streak. Returns the exponent: steps from the eye are q16 units times 2^exponent. */
 static int transform_ends(struct end end[2], const struct lens *l, const smear_point *point)
 {
-    int32_t at[3][3];
-    uint32_t any = 1u << 10;
-    find_poses(at, l, point);
-    for (int k = 0; k < l->poses; k++)
-        for (int i = 0; i < 3; i++) {
-            at[k][i] = narrow_sat((int64_t)at[k][i] - l->eye[k]->origin[i]);
-            any |= (uint32_t)(at[k][i] ^ at[k][i] >> 31);
+    int32_t offset[3], way[3];
+    int16_t v[3], w[3];
+    uint32_t any = 1u << 10 | l->apart;
+    for (int i = 0; i < 3; i++) {
+        offset[i] = difference(point->now[i], l->eye[i]);
+        way[i] = l->shot->cut ? 0 : difference(point->now[i], point->before[i]);
+        if (SMEAR_WITH_SCALES && l->shot->object_scale != 256)
+            way[i] = narrow_sat((int64_t)way[i] * (int32_t)l->shot->object_scale >> 8);
+        any |= bits_of(offset[i]) | bits_of(way[i]);
+    }
+    const int exponent = 17 - count_leading_zeros(any); /* below 2^15 */
+    for (int i = 0; i < 3; i++) {
+        v[i] = in_steps(offset[i], exponent);
+        w[i] = in_steps(way[i], exponent);
+    }
+    const int rows = is_orthographic(&l->projection) ? 4 : 3;
+    int32_t from_eye[4];
+    for (int e = 0; e < 2; e++) {
+        int32_t row[4];
+        for (int r = 0; r < rows; r++) {
+            if (e == 0 || !l->still)
+                from_eye[r] = row_of(l->end[e].offset[r], v);
+            row[r] = from_eye[r] + row_of(l->end[e].way[r], w);
+            if (!l->still)
+                row[r] = narrow_sat((int64_t)row[r] + eyes_of(&l->end[e], r, exponent));
         }
-    const int exponent = 17 - count_leading_zeros(any);         /* below 2^15 */
-    end[0].h = end[1].h = (struct smear_homogeneous){ 0, 0, 0, 0 };
-    for (int k = 0; k < l->poses; k++) {
-        int16_t v[3];
-        struct smear_homogeneous h;
-        for (int i = 0; i < 3; i++)
-            v[i] = (int16_t)(exponent >= 0 ? at[k][i] >> exponent : shl_wrap(at[k][i], -exponent));
-        transform_inline(&h, &l->projection[k], v);
-        for (int e = 0; e < 2; e++) {
-            const int32_t weight = l->at[e]->weight[k];
-            if (weight == 0)
-                continue;
-            struct smear_homogeneous part = { mulh_i32(h.x, weight), mulh_i32(h.y, weight), mulh_i32(h.w, weight), 0 };
-            part.distance = is_orthographic(&l->projection[0]) ? mulh_i32(h.distance, weight) : part.w;
-            homogeneous_add(&end[e].h, &part);
-        }
+        end[e].h = (struct smear_homogeneous){ row[0], row[1], row[2], row[rows - 1] };
     }
     return exponent;
 }
@@ -149,9 +245,9 @@ static uint32_t clip_near(struct end end[2], int32_t near)
 /* Brings an end into the scale of the projection: an orthographic view is not the same in another. */
 static void unscale(struct smear_homogeneous *h, int shift, const struct smear_projection *p)
 {
-    h->x = scale_sat(h->x, shift);
-    h->y = scale_sat(h->y, shift);
-    h->distance = scale_sat(h->distance, shift);
+    h->x = scale_sat(h->x, clamp_i32(shift, -31, 31));
+    h->y = scale_sat(h->y, clamp_i32(shift, -31, 31));
+    h->distance = scale_sat(h->distance, clamp_i32(shift, -31, 31));
     h->w = p->m[2][3];
 }
 
@@ -189,14 +285,17 @@ struct dot {
 /* A disc of radius R has the light of (1 - (r / a)^2)^2 where a^2 = 3 R^2; 5/4 more make it smooth at any place. */
 static struct dot dot_of(int32_t radius, uint32_t light)
 {
-    enum { SMOOTH = 5 << 14, LEAST = 128 };
+    enum { SMOOTH = 5 << 14,
+           LEAST = 128 };
     if (radius < LEAST) {
         light = light * (uint32_t)(radius * radius) >> 14;
         radius = LEAST;
     }
-    const uint32_t square = 3u * (uint32_t)(radius * radius) + SMOOTH;     /* q16, below 2^30 */
-    const int32_t a = (int32_t)rough_root(square), per_radius = ((1 << 21) + a / 2) / a;
-    const uint32_t peak = 65536u - (uint32_t)(per_radius * per_radius * 5 >> 12);      /* 1 - 5/4 / a^2 */
+    const uint32_t square = 3u * (uint32_t)(radius * radius) + SMOOTH; /* q16, below 2^30 */
+    const int32_t a = (int32_t)rough_root(square);                     /* 361 .. 28400 */
+    const int zeros = count_leading_zeros((uint32_t)a);
+    const int32_t per_radius = (int32_t)((recip_norm((uint32_t)a << zeros) + (1u << (39 - zeros))) >> (40 - zeros));
+    const uint32_t peak = 65536u - (uint32_t)(per_radius * per_radius * 5 >> 12); /* 1 - 5/4 / a^2 */
     return (struct dot){ a, per_radius, (peak >> 1) * light >> 15 };
 }
 
@@ -220,23 +319,30 @@ static bool make_streak(smear_point_place *p, const struct end end[2], const str
     const int32_t most = max_i32(abs_i32(x), abs_i32(y));
     if (dot->light == 0 || most > LONGEST || !find_box(p, end, a, v))
         return false;
-    const int down = most >= 1 << 15 ? 3 : most < 1 << 11 ? -4 : 0;
+    const int down = most >= 1 << 15 ? 3 : most < 1 << 11 ? -4
+                                                          : 0;
     const int32_t dx = down >= 0 ? x >> down : x * 16, dy = down >= 0 ? y >> down : y * 16;
     const uint32_t square = (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
     const uint32_t rough = max_u32(rough_root(square), 1);
-    const int32_t root = max_i32((int32_t)((rough + square / rough) >> 1), 1);          /* Heron's rule */
-    const int32_t length = down >= 0 ? root << down : (root + 8) >> 4, scale = (dot->per_radius << 15) / root;
+    const int rough_zeros = count_leading_zeros(rough); /* Heron's rule; of less than 8 the root is its own */
+    const uint32_t over = rough_zeros > 28 ? rough : mulh_u32(square, recip_norm(rough << rough_zeros)) >> (29 - rough_zeros);
+    const uint32_t root = max_u32((rough + over) >> 1, 1);
+    const int zeros = count_leading_zeros(root);
+    const uint32_t recip = recip_norm(root << zeros); /* 1 / root = recip 2^(zeros - 61) */
+    const int32_t length = (int32_t)(down >= 0 ? root << down : (root + 8) >> 4);
+    const int32_t scale = (int32_t)(((uint32_t)dot->per_radius * (recip >> 13)) >> (33 - zeros));
     p->x = end[0].s.x;
     p->y = end[0].s.y;
     p->along_x = (int16_t)((dx * scale + (1 << 14)) >> 15);
     p->along_y = (int16_t)((dy * scale + (1 << 14)) >> 15);
-    p->length = (int32_t)((int64_t)length * dot->per_radius >> 8);
-    p->gain = (uint32_t)a * dot->light / (uint32_t)max_i32(length, 1);
-    if (p->length >= SMEAR_POINT_SHORT)
+    p->length = length * dot->per_radius >> 8;
+    if (p->length >= SMEAR_POINT_SHORT) { /* of 15/16 of the light */
+        p->gain = mulh_u32((uint32_t)a * (dot->light + (dot->light >> 4) + (dot->light >> 8)), recip) >> (29 - zeros + down);
         return true;
+    }
     p->x += x >> 1;
     p->y += y >> 1;
-    p->length = p->length * 9459 >> 15;         /* 1 / sqrt(12) */
+    p->length = p->length * 9459 >> 15; /* 1 / sqrt(12) */
     p->gain = dot->light;
     if (square == 0)
         p->along_x = (int16_t)dot->per_radius;
@@ -247,8 +353,8 @@ static bool make_streak(smear_point_place *p, const struct end end[2], const str
 static bool place(smear_point *point, struct lens *l)
 {
     struct end end[2];
-    struct smear_projection *p = &l->projection[0];
-    int shift = transform_ends(end, l, point) - 8;
+    struct smear_projection *p = &l->projection;
+    int shift = transform_ends(end, l, point) + l->shift;
     if (is_orthographic(p)) {
         unscale(&end[0].h, shift, p);
         unscale(&end[1].h, shift, p);
@@ -270,8 +376,9 @@ static bool place(smear_point *point, struct lens *l)
         smear_project(&end[e].s, p, &end[e].h, &l->viewport);
     }
     const int32_t middle = (end[0].s.depth >> 1) + (end[1].s.depth >> 1);
-    const int64_t nearer = (int64_t)middle * (uint32_t)radius * l->pixel >> 24;
-    point->place.depth = depth_code((int32_t)(nearer < SMEAR_DEPTH_MAX - middle ? middle + nearer : SMEAR_DEPTH_MAX));
+    const uint32_t nearer = mulh_u32((uint32_t)middle << 4, (uint32_t)radius * l->pixel << 2), /* in 4 steps */
+        room = (uint32_t)(SMEAR_DEPTH_MAX - middle);
+    point->place.depth = depth_code(nearer < room >> 2 ? middle + (int32_t)(nearer << 2) : SMEAR_DEPTH_MAX);
     return make_streak(&point->place, end, &dot, &l->viewport);
 }
 
@@ -279,10 +386,12 @@ void smear_points_place(const struct smear_rows *rows, const struct smear_shot *
                         const struct smear_instant *to)
 {
     const smear_points *points = rows->overlay->points;
-    struct lens lens = { .at = { from, to }, .shot = shot };
+    const struct smear_instant *const at[2] = { from, to };
+    struct lens lens;
     if (points->count == 0)
         return;
-    make_lens(&lens, rows);
+    lens.shot = shot;
+    make_lens(&lens, rows, at);
     for (uint32_t i = 0; i < points->count; i++)
         if (!place(&points->point[i], &lens))
             points->point[i].place.y1 = INT16_MIN;
