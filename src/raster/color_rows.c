@@ -86,7 +86,7 @@ static void draw(const struct setup *s, const struct row_run *p, int32_t at, int
 {
     const struct smear_raster_target *t = s->target;
     const uint32_t z = p->z + p->dz * (uint32_t)a;
-    if (SMEAR_WITH_FOG && (k->d[0] | k->d[1] | k->d[2]) == 0) {
+    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE && (k->d[0] | k->d[1] | k->d[2]) == 0) {
         draw_flat(s, z, p->dz, at + a, b - a, k);
         return;
     }

@@ -30,7 +30,8 @@ static inline int32_t weigh(struct beyond b, int32_t w1, int32_t w2)
 enum light_kind {
     LIGHT_NONE,
     LIGHT_WHITE,            /* red, green and blue alike */
-    LIGHT_COLORED
+    LIGHT_COLORED,
+    LIGHT_IN_FOG            /* any, and one part of fog */
 };
 
 /* Coordinates of v[0] (q15 mesh units) and changes of them; depth, units q11; e, q15; light, 16 bits. */
@@ -161,7 +162,7 @@ static inline uint32_t code_at(const struct few_texels *k, int c, int32_t w1, in
 }
 
 /* A texel in the light at weights. */
-static inline uint32_t light_texel(const struct few_texels *k, uint32_t t, int32_t w1, int32_t w2, bool linear)
+SMEAR_INLINE uint32_t light_texel(const struct few_texels *k, uint32_t t, int32_t w1, int32_t w2, bool linear)
 {
     if (linear) {
         const uint32_t blue = light_at(k, 2, w1, w2);
@@ -216,7 +217,7 @@ SMEAR_INLINE void put_texel(const struct setup *s, const struct few_texels *k, i
                 return;
         }
         uint32_t pixel = k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame));
-        if (SMEAR_WITH_FOG && fog_is_even(s))
+        if (SMEAR_WITH_FOG && k->kind == LIGHT_IN_FOG)
             pixel = fog_pixel(s->frame, pixel, fog_even_part(s));
         target_put(t, at, pixel);
     }
@@ -263,17 +264,24 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
 {
     const struct smear_sampler *m = &s->draw->sampler;
     struct few_texels k;
-    if (fog_varies(s) || !load_coordinates(&k, s))
+    if (!load_coordinates(&k, s))
         return false;
     k.kind = LIGHT_NONE;
     if (s->segment->shade != SHADE_NONE && !load_light(&k, s))
         return false;
+    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
+        if (fog_varies(s))
+            return false;
+        if (k.kind == LIGHT_NONE)
+            load_flat_light(&k, UINT32_MAX, frame_is_linear(s->frame));
+        k.kind = LIGHT_IN_FOG;
+    }
     const bool turns = load_turns(&k, m);
     if (!turns)
         k.from_v = -1;
 #if FEW_COPIES
     const bool narrow = target_is_direct(s->target);
-    if (turns && k.kind == LIGHT_NONE && draw_is_opaque(s->draw) && fog_of(s) == FOG_NONE
+    if (turns && k.kind == LIGHT_NONE && draw_is_opaque(s->draw)
         && m->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (narrow)
             draw_few(s, &k, area, box, FEW_NARROW);

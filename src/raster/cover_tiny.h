@@ -17,10 +17,11 @@ static inline void edges_start(struct tiny_edges *e, const struct setup *s, int3
  * less than their gradients. Untextured, opaque, no motion. */
 enum { TINY_PIXELS = 32 };
 
-static inline bool cover_is_tiny(const struct setup *s, int32_t pixels)
+/* `in_fog`: that of the frame. */
+static inline bool cover_is_tiny(const struct setup *s, int32_t pixels, bool in_fog)
 {
     return pixels <= TINY_PIXELS && !segment_textured(s->segment) && segment_moves(s->segment) == 0
-        && draw_is_opaque(s->draw) && !fog_varies(s)
+        && draw_is_opaque(s->draw) && !(in_fog && fog_varies(s))
         && (!segment_by_vertices(s->segment) || segment_flat_depth(s->segment)
             || tiny_is_even(s->v[0][VERTEX_DEPTH], s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH]));
 }
@@ -38,7 +39,21 @@ static inline uint32_t channels_mix(const struct tiny_channels *c, uint32_t w1, 
                       ((uint32_t)c->value[2] << 14) + (uint32_t)(c->to1[2] * a + c->to2[2] * b), linear);
 }
 
-static inline void channels_start(struct tiny_channels *c, const struct setup *s)
+/* The same, in one part of fog. */
+static SMEAR_NOINLINE struct tiny_channels channels_in_fog(struct tiny_channels c, const struct setup *s)
+{
+    const int32_t part = fog_even_part(s) >> 1;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
+        const int32_t there = frame_is_linear(s->frame) ? smear_srgb_decode[code] : (int32_t)(code << 8);
+        c.value[i] += (there - c.value[i]) * part >> 15;
+        c.to1[i] -= c.to1[i] * part >> 15;
+        c.to2[i] -= c.to2[i] * part >> 15;
+    }
+    return c;
+}
+
+SMEAR_INLINE void channels_start(struct tiny_channels *c, const struct setup *s, bool in_fog)
 {
     int at = s->segment->color;
     for (int i = 0; i < 3; i++, at += i == 2) {
@@ -47,19 +62,13 @@ static inline void channels_start(struct tiny_channels *c, const struct setup *s
         c->value[i] = value;
         c->to1[i] = (int32_t)((uint32_t)s->v[1][at] >> shift & 0xffffu) - value;
         c->to2[i] = (int32_t)((uint32_t)s->v[2][at] >> shift & 0xffffu) - value;
-        if (SMEAR_WITH_FOG && fog_is_even(s)) {
-            const int32_t part = fog_even_part(s) >> 1;
-            const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
-            const int32_t there = frame_is_linear(s->frame) ? smear_srgb_decode[code] : (int32_t)(code << 8);
-            c->value[i] += (there - value) * part >> 15;
-            c->to1[i] -= c->to1[i] * part >> 15;
-            c->to2[i] -= c->to2[i] * part >> 15;
-        }
     }
+    if (in_fog && fog_of(s) != FOG_NONE)
+        *c = channels_in_fog(*c, s);
 }
 
 /* Draws a tiny triangle, of which only the edges are known, and twice the area. */
-static inline void cover_tiny(const struct setup *s, int32_t area, const struct pixel_box *box)
+SMEAR_INLINE void cover_tiny(const struct setup *s, int32_t area, const struct pixel_box *box, bool in_fog)
 {
     const struct smear_raster_target *t = s->target;
     const bool gouraud = segment_gouraud(s->segment);
@@ -70,7 +79,7 @@ static inline void cover_tiny(const struct setup *s, int32_t area, const struct 
     struct tiny_edges e;
     edges_start(&e, s, area, x0, top);
     if (gouraud)
-        channels_start(&channels, s);
+        channels_start(&channels, s, in_fog);
     int32_t ring_row = t->window_rows.ring_row + (top - t->y0);
     for (int32_t y = top; y < bottom; y++, ring_row++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
         int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = x0;

@@ -83,10 +83,10 @@ static inline struct bounds bounds_of(const int32_t *const v[3])
 }
 
 /* Draws a triangle of few pixels by the weights of its vertices. False where it needs gradients. */
-static inline bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box)
+SMEAR_INLINE bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box, bool in_fog)
 {
-    if (cover_is_tiny(s, pixels)) {
-        cover_tiny(s, (int32_t)area, box);
+    if (cover_is_tiny(s, pixels, in_fog)) {
+        cover_tiny(s, (int32_t)area, box, in_fog);
         return true;
     }
     return cover_has_texels(s, pixels) && smear_cover_texels(s, (int32_t)area, box);
@@ -94,11 +94,9 @@ static inline bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixel
 
 /* Draws a triangle with these vertices, and this box of them where it is given. `triangle` is its number in the list's
  * geometry, or none. */
-static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
-                                         const struct smear_raster_target *target,
-                                         const struct smear_segment *segment, uint32_t color,
-                                         uint32_t triangle, const int32_t *const v[3],
-                                         const struct bounds *given, bool *moved)
+SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                           const struct smear_segment *segment, uint32_t color, uint32_t triangle,
+                           const int32_t *const v[3], const struct bounds *given, bool *moved, bool in_fog)
 {
     struct bounds bounds;
     if (given != NULL)
@@ -129,7 +127,9 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
         for (int i = 0; i < 3; i++)
             s->v[i] = v[i];
         s->bounds = bounds;
-        if (SMEAR_WITH_FOG && frame_has_fog(frame))
+        if (SMEAR_WITH_FOG)
+            s->fog = FOG_NONE;
+        if (in_fog)
             smear_fog_triangle(s);
     }
     /* The planes start with the background's velocity: static triangles write theirs only over others, after the first
@@ -142,7 +142,7 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     if (!known) {
         const uint64_t area = setup_edges(s);
         SMEAR_ASSERT((int64_t)area > 0);
-        if (draw_tiny(s, area, pixels, &box)) {
+        if (draw_tiny(s, area, pixels, &box, in_fog)) {
             if (entry != NULL)
                 entry->triangle = SMEAR_NO_TRIANGLE;
             return;
@@ -154,6 +154,33 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
     }
     smear_cover(s, &box, small);
 }
+
+/* A copy of its own for fog, where size does not count: others need not ask. */
+#if SMEAR_WITH_FOG && !defined(__OPTIMIZE_SIZE__) && !defined(__ARM_ARCH_6M__)
+#define HAS_LOOP_FOR_FOG true
+static SMEAR_NOINLINE void draw_in_fog(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                       const struct smear_segment *segment, uint32_t color, uint32_t triangle,
+                                       const int32_t *const v[3], const struct bounds *given, bool *moved)
+{
+    draw_any(frame, target, segment, color, triangle, v, given, moved, true);
+}
+
+static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                         const struct smear_segment *segment, uint32_t color, uint32_t triangle,
+                                         const int32_t *const v[3], const struct bounds *given, bool *moved)
+{
+    draw_any(frame, target, segment, color, triangle, v, given, moved, false);
+}
+#else
+#define HAS_LOOP_FOR_FOG false
+#define draw_in_fog draw_triangle
+static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                         const struct smear_segment *segment, uint32_t color, uint32_t triangle,
+                                         const int32_t *const v[3], const struct bounds *given, bool *moved)
+{
+    draw_any(frame, target, segment, color, triangle, v, given, moved, SMEAR_WITH_FOG && frame_has_fog(frame));
+}
+#endif
 
 /* A finished pixel; in fog there are none. */
 static inline void draw_point(const struct smear_raster_frame *frame,
@@ -175,8 +202,8 @@ static inline void draw_point(const struct smear_raster_frame *frame,
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }
 
-void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                       uint32_t head)
+SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
+                            bool in_fog)
 {
     bool moved = target->over;
     while (head != SMEAR_NO_TRIANGLE) {
@@ -191,8 +218,19 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
         const int32_t *v[3];
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
-        draw_triangle(frame, target, segment, t->color, number, v, NULL, &moved);
+        if (in_fog)
+            draw_in_fog(frame, target, segment, t->color, number, v, NULL, &moved);
+        else
+            draw_triangle(frame, target, segment, t->color, number, v, NULL, &moved);
     }
+}
+
+void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    if (HAS_LOOP_FOR_FOG && frame_has_fog(frame))
+        draw_list(frame, target, head, true);
+    else
+        draw_list(frame, target, head, false);
 }
 
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -200,5 +238,8 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
                            const struct bounds *bounds)
 {
     bool moved = false;
-    draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
+    if (HAS_LOOP_FOR_FOG && frame_has_fog(frame))
+        draw_in_fog(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
+    else
+        draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
 }

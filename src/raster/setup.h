@@ -156,7 +156,7 @@ static inline int32_t channel_of_code(uint32_t code, bool linear)
 
 static inline int fog_of(const struct setup *s)
 {
-    return SMEAR_WITH_FOG && frame_has_fog(s->frame) ? s->fog : FOG_NONE;
+    return SMEAR_WITH_FOG ? s->fog : FOG_NONE;
 }
 
 static inline bool fog_varies(const struct setup *s) { return fog_of(s) >= FOG_VARIES; }
