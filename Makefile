@@ -321,15 +321,17 @@ $(BUILD)/frames: $(call objects,tests/fuzz/frames.c $(wildcard tests/fuzz/cases*
 	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
 
 .PHONY: proofs
-## fixed.h and fixmath.h free of run-time errors, by Frama-C and by trying all numbers; STEP=n tries every n-th
-proofs: build/proofs/reciprocals
-	sh tests/proofs/proofs.sh $< $(STEP)
+## numbers, texture addresses, formats and clipping free of run-time errors, by Frama-C and by trying all; STEP=n: every n-th
+proofs: build/proofs/reciprocals build/proofs/polygons
+	sh tests/proofs/proofs.sh $^ $(STEP)
 
-build/proofs/reciprocals: tests/proofs/reciprocals.c src/base/tables.c src/base/fixmath.h src/base/fixed.h
+build/proofs/reciprocals: src/base/fixmath.h src/base/fixed.h
+build/proofs/polygons: src/geometry/clip.c src/geometry/clip.h src/base/fixmath.h src/base/fixed.h
+build/proofs/%: tests/proofs/%.c src/base/tables.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -O2 -Wall -Wextra -Iinclude -Isrc -I. -fsanitize=signed-integer-overflow,shift,bounds \
-	    -fsanitize-undefined-trap-on-error -o $@ $(filter %.c,$^)
+	$(CC) -std=c11 -O2 -Wall -Wextra -Iinclude -Isrc -I. -DSMEAR_CHECK=1 -fsanitize=signed-integer-overflow,shift,bounds \
+	    -fsanitize-undefined-trap-on-error -o $@ $< src/base/tables.c
 
 .PHONY: check-kernels
 ## every variant of an inner loop against its reference, and nanoseconds per pixel of both

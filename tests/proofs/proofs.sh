@@ -1,10 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# proofs.sh RECIPROCALS [STEP] - `make proofs`: fixed.h and fixmath.h by Frama-C's Eva, as three kinds of core have them;
-# texture addresses and rows of all formats; and the reciprocals one by one. Fails on any alarm.
+# proofs.sh RECIPROCALS POLYGONS [STEP] - `make proofs`: fixed.h and fixmath.h by Frama-C's Eva, as three kinds of core have
+# them; texture addresses and rows of all formats; the arithmetic of clipping, by two kinds of products; then, one by one, the
+# reciprocals and the cuts of polygons. Fails on any alarm.
 set -u
-program=$1
-step=${2:-1}
+reciprocals=$1
+polygons=$2
+step=${3:-1}
 log=build/proofs
 mkdir -p $log
 bad=0
@@ -32,5 +34,9 @@ for core in "-DSMEAR_HAS_MUL64=1" "-DSMEAR_HAS_MUL64=0" "-D__OPTIMIZE_SIZE__=1";
 done
 eva "texture addresses, rows of all formats" tests/proofs/single.c "-DSMEAR_VECTORS=0 -D__OPTIMIZE_SIZE__=1" \
     -eva-precision 8 -eva-slevel 3000
-"$program" "$step" || bad=1
+for core in "-DSMEAR_HAS_MUL64=1" "-DSMEAR_HAS_MUL64=0 -D__OPTIMIZE_SIZE__=1"; do
+    eva "cuts of triangles, $core" tests/proofs/clip.c "-DSMEAR_VECTORS=0 $core" -eva-precision 4 -eva-use-spec ratio_q30
+done
+"$reciprocals" "$step" || bad=1
+"$polygons" || bad=1
 exit $bad
