@@ -28,7 +28,7 @@ for name; do
 done
 
 rate='function rate(count) { r = hz / count; return r < 10 ? sprintf("%.1f", r) : sprintf("%.0f", r) }'
-echo '| | panel | sharp | blurred, things move | blurred, the camera moves, too |'
+echo '| | panel | sharp | blurred, objects move | blurred, the camera moves, too |'
 echo '|---|---|---|---|---|'
 [ ! -f $out/pico ] || awk 'function short(r) { return r < 10 ? sprintf("%.1f", r) : sprintf("%.0f", r) }
     $3 ~ /^(sharp|objects|camera)$/ { fps[$1 $3] = $(NF - 3) }

@@ -23,12 +23,12 @@ int main(void)
 {
     struct row rows[] = {
         ROW("SMEAR_AUTO", SMEAR_SET(SMEAR_AUTO),
-            "the default: draws what moves at as few instants as look right, and fills the gaps between them"),
-        ROW("SMEAR_SUBFRAMES", SMEAR_SET(SMEAR_SUBFRAMES), "an instant for each half pixel of the way; slower, closer to the truth"),
+            "the default: draws what moves at a few moments of the exposure, and fills the gaps between them"),
+        ROW("SMEAR_SUBFRAMES", SMEAR_SET(SMEAR_SUBFRAMES), "a moment for each half pixel of travel; slower, closer to the truth"),
         ROW("SMEAR_TIMEMASK", SMEAR_SET(SMEAR_TIMEMASK), "works out when each triangle covers each pixel; the cleanest streaks"),
-        ROW("SMEAR_OBJECT", SMEAR_SET(SMEAR_OBJECT), "smears each object along one line, however long, for the same price"),
+        ROW("SMEAR_OBJECT", SMEAR_SET(SMEAR_OBJECT), "smears each object along one line; a long one costs no more"),
         ROW("SMEAR_RECONSTRUCT", SMEAR_SET(SMEAR_RECONSTRUCT), "filters a sharp picture, as large game engines do"),
-        ROW("SMEAR_ACCUMULATE", SMEAR_SET_ACCUMULATE_BANDS, "the mean of whole sharp pictures, a few rows at a time; slowest"),
+        ROW("SMEAR_ACCUMULATE", SMEAR_SET_ACCUMULATE_BANDS, "the mean of sharp pictures; memory of `SMEAR_SET_ACCUMULATE_BANDS`; slowest"),
         ROW("SMEAR_NONE", SMEAR_SET(SMEAR_NONE), "no blur"),
     };
     printf("| method | what it does | memory |\n|---|---|---|\n");

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # manual.sh SMEAR LIB FOLDER - the manual, include/README.md: what is in its blocks of C is compiled as C99 and as C++11
 # and run, in order; its block of C++ is compiled; and every public function, field, constant and macro is named in it, functions and
-# fields of smear.h and smear_math.h, and functions of smear_model.h, in a block.
+# fields of smear.h, smear_math.h and smear_overlay.h, and functions of smear_model.h, in a block. That a field is set to 0 shows
+# nothing of it.
 #
 # A block ```c file stands outside of functions; a block ```c is the inside of one, after which `result` must be SMEAR_OK.
 set -eu
@@ -45,7 +46,7 @@ strict="-O1 -Wall -Wextra -Werror -Wno-unused -Iinclude -I$base"
 }
 "$base/manual"
 
-awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' $page >"$base/code"
+awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on { gsub(/[a-z_]+ = 0[,;]/, ""); print }' $page >"$base/code"
 # Words of a header without comments and strings: struct fields, functions, enum constants, macros; one a line, its kind first.
 names() {
     sed 's://.*::' "$1" | awk '
@@ -111,15 +112,18 @@ check() { # KIND NAME PATTERN FILE
     grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
 }
 known=0
-for header in include/smear.h include/smear_math.h include/smear_model.h include/smear_memory.h; do
+for header in include/smear.h include/smear_math.h include/smear_overlay.h include/smear_model.h include/smear_memory.h; do
     names $header >"$base/names"
     known=$((known + $(wc -l <"$base/names")))
     while read -r kind name; do
         case $kind:$name:$header in
+        # Fields of smear_point_place are the library's own.
+        field:length:*overlay.h | field:gain:*overlay.h | field:along_[xy]:*overlay.h | field:[xy][01]:*overlay.h) ;;
+        field:depth:*overlay.h | field:next:*overlay.h) ;;
         *_ | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:* | *:smear_desc_of:*) ;;
         function:*) check "$kind" "$name" "\\b$name(" "$base/code" ;;
-        field:*:include/smear.h | field:*:include/smear_math.h) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
-        *:include/smear.h) check "$kind" "$name" "\\b$name\\b" $page ;;
+        field:*:include/smear.h | field:*:include/smear_math.h | field:*:include/smear_overlay.h) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
+        *:include/smear.h | *:include/smear_overlay.h) check "$kind" "$name" "\\b$name\\b" $page ;;
         esac
     done <"$base/names"
 done
