@@ -276,13 +276,14 @@ static double step_at(const struct pictures *p, int x, int y, bool is_row, int l
 
 struct steps {
     double mean, worst;
+    int x, y;                   /* where the worst begins */
 };
 
 /* At all edges as long as a tile that lie `aside` of its borders. */
 static struct steps steps_of(const struct pictures *p, int aside)
 {
     const int tile = p->tile, width = p->picture.width, height = p->picture.height;
-    struct steps out = { 0.0, 0.0 };
+    struct steps out = { 0.0, 0.0, 0, 0 };
     int n = 0;
     for (int y = 0; y + tile <= height; y += tile)
         for (int x = 0; x + tile <= width; x += tile)
@@ -290,9 +291,14 @@ static struct steps steps_of(const struct pictures *p, int aside)
                 const int at = (is_row ? y : x) + aside;
                 if (at < 2 || at + 2 > (is_row ? height : width))
                     continue;
-                const double step = step_at(p, is_row ? x : at, is_row ? at : y, is_row != 0, tile);
+                const int edge_x = is_row ? x : at, edge_y = is_row ? at : y;
+                const double step = step_at(p, edge_x, edge_y, is_row != 0, tile);
                 out.mean += step;
-                out.worst = fmax(out.worst, step);
+                if (step > out.worst) {
+                    out.worst = step;
+                    out.x = edge_x;
+                    out.y = edge_y;
+                }
                 n++;
             }
     out.mean /= n;
@@ -313,7 +319,8 @@ static bool report_steps(struct sheet *sheet, struct failure *f)
             return false;
         const struct steps border = steps_of(&p, 0), inside = steps_of(&p, p.tile / 2);
         close_pictures(&p);
-        printf("  %-10s %5.2f %5.2f   largest %6.2f %6.2f\n", kinds[k].name, border.mean, inside.mean, border.worst, inside.worst);
+        printf("  %-10s %5.2f %5.2f   largest %6.2f at %d, %d; %.2f\n", kinds[k].name, border.mean, inside.mean, border.worst, border.x,
+               border.y, inside.worst);
         fflush(stdout);
         if (border.mean - inside.mean > most) {
             most = border.mean - inside.mean;

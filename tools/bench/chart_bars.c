@@ -96,8 +96,10 @@ static double auto_mean_at(const struct bars *b, enum chart_set set, double rmse
         if (mean.known && mean.rmse <= rmse && (!below.known || mean.rmse > below.rmse))
             below = mean;
     }
-    if (!above.known || !below.known)
+    if (!below.known)
         return NAN;
+    if (!above.known)           /* the coarsest is finer than that */
+        return below.cost;
     return above.cost * pow(below.cost / above.cost, log(rmse / above.rmse) / log(below.rmse / above.rmse));
 }
 
