@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* promise.c - whether a target is an error that is had, and what it costs beside plain instants.
  *
- *     promise [--scenes NAME,...] [--models FOLDER] [--light linear|encoded] [--count] [--plain]
+ *     promise [--scenes NAME,...] [--models FOLDER] [--light linear|encoded] [--count]
  *
  * Exact poses, 180 degrees, XRGB8888. For each scene and light: the error that each target has, in
  * parts of it, its cost, and its cost in parts of that of plain instants (SMEAR_SUBFRAMES 4, 8, 16,
@@ -161,6 +161,11 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static const char *verdict(bool met)
+{
+    return met ? "met" : "MISSED";
+}
+
 static void print_parts(const char *what, double *part, int count)
 {
     if (count == 0)
@@ -169,8 +174,9 @@ static void print_parts(const char *what, double *part, int count)
     int within = 0;
     while (within < count && part[within] <= 1.25)
         within++;
-    printf("%s: had / aimed at: at most 1.25 for %.0f %% of %d, largest %.2f, middle %.2f\n", what,
-           100.0 * within / count, count, part[count - 1], part[count / 2]);
+    printf("%s: had / aimed at: at most 1.25 for %.0f %% of %d (at least 90 %s), largest %.2f (at most 1.6 %s), middle %.2f "
+           "(at least 0.5 %s)\n", what, 100.0 * within / count, count, verdict(10 * within >= 9 * count), part[count - 1],
+           verdict(part[count - 1] <= 1.6), part[count / 2], verdict(part[count / 2] >= 0.5));
 }
 
 static void print_summary(struct summary *s)
@@ -181,9 +187,10 @@ static void print_summary(struct summary *s)
         double most = 0.0;
         for (int i = 0; i < s->ratios[g]; i++)
             most = fmax(most, s->ratio[g][i]);
+        const double mean = s->ratios[g] > 0 ? geometric_mean(s->ratio[g], s->ratios[g]) : 0.0;
         if (s->ratios[g] > 0)
-            printf("%s: cost in parts of plain instants' at equal error: %.2f in the mean, %.2f at most\n",
-                   group_name[g], geometric_mean(s->ratio[g], s->ratios[g]), most);
+            printf("%s: cost in parts of plain instants' at equal error: %.2f in the mean (at most 0.6 %s), %.2f at most "
+                   "(1 %s)\n", group_name[g], mean, verdict(mean <= 0.6), most, verdict(most <= 1.0));
     }
 }
 
