@@ -83,6 +83,12 @@ void smear_gap_means_two_passes(const struct gap_planes *p, int32_t at, int32_t 
                                 enum gap_cover cover)
 {
     struct packed_sum sums[16];
+#if !SMEAR_VECTORS
+    if (taps->at.pairs == 0 && taps->unit_log2 == 0 && n > 0) {         /* a pixel's own sum, whatever hides */
+        smear_packed_means(p->color + at, p->sums.pair + at, n, taps->mean);
+        return;
+    }
+#endif
     while (n > 0) {
         const int32_t count = min_i32(n, 16);
         sums_uncovered(sums, &p->sums, at, count, taps);

@@ -314,18 +314,26 @@ static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t depth
                                    near, 0 };
 }
 
-/* Puts a triangle into the block if its middle (x, y) lies in it. */
-static void put_covering(struct smear_block *b, const struct corners *c, const struct displacements *w, int32_t x, int32_t y)
+/* Twice the areas between a place and a triangle's sides, and how they change from block to block. */
+struct sides {
+    int32_t e[3], right[3], down[3];
+};
+
+static void sides_at(struct sides *s, const struct corners *c, int32_t x, int32_t y)
 {
-    int32_t e[3], most = 0;
     for (int i = 0; i < 3; i++) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        e[i] = (c->x[j] - x) * (c->y[k] - y) - (c->x[k] - x) * (c->y[j] - y);
-        if (e[i] < 0)
-            return;
-        most = max_i32(most, e[i]);
+        s->e[i] = (c->x[j] - x) * (c->y[k] - y) - (c->x[k] - x) * (c->y[j] - y);
+        s->right[i] = BLOCK_PX * (c->y[j] - c->y[k]);
+        s->down[i] = BLOCK_PX * (c->x[k] - c->x[j]);
     }
-    const int shift = shift_to(most);
+}
+
+/* Puts a triangle into a block whose middle (x, y) it covers: e, none below 0. */
+static void put_covering(struct smear_block *b, const struct corners *c, const struct displacements *w, int32_t x, int32_t y,
+                         const int32_t e[3])
+{
+    const int shift = shift_to(max_i32(e[0], max_i32(e[1], e[2])));
     int32_t sum = 0, dx = 0, dy = 0, depth = 0;
     for (int i = 0; i < 3; i++) {
         const int32_t part = e[i] >> shift;
@@ -362,10 +370,22 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct smear_b
             put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c.depth[0]);
         return;
     }
-    for (int32_t y = max_i32((y0 - top) >> BLOCK_SHIFT, 0); y <= min_i32((y1 - top) >> BLOCK_SHIFT, rows - 1); y++)
-        for (int32_t x = max_i32(x0 >> BLOCK_SHIFT, wanted.low); x <= min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1); x++)
-            put_covering(block_at(&r->blocks, x, y), &c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
-                         top + (y << BLOCK_SHIFT) + BLOCK_PX / 2);
+    const int32_t left = max_i32(x0 >> BLOCK_SHIFT, wanted.low), right = min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1);
+    const int32_t upper = max_i32((y0 - top) >> BLOCK_SHIFT, 0), lower = min_i32((y1 - top) >> BLOCK_SHIFT, rows - 1);
+    struct sides s;
+    sides_at(&s, &c, (left << BLOCK_SHIFT) + BLOCK_PX / 2, top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2);
+    for (int32_t y = upper; y <= lower; y++) {
+        int32_t e[3] = { s.e[0], s.e[1], s.e[2] };
+        for (int32_t x = left; x <= right; x++) {
+            if ((e[0] | e[1] | e[2]) >= 0)
+                put_covering(block_at(&r->blocks, x, y), &c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
+                             top + (y << BLOCK_SHIFT) + BLOCK_PX / 2, e);
+            for (int i = 0; i < 3; i++)
+                e[i] += s.right[i];
+        }
+        for (int i = 0; i < 3; i++)
+            s.e[i] += s.down[i];
+    }
 }
 
 /* ------------------------------------------------------------------ lists */

@@ -160,10 +160,12 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
 }
 
 /* Returns how what is seen in the block at a pixel goes on from one instant to the next, if gaps are closed there. */
-static struct smear_step step_of(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
+static struct smear_step step_at(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
 {
     const struct smear_tile_run *t = f->t;
     const int32_t instants = (int32_t)f->instants;
+    if (plan == NULL)
+        return (struct smear_step){ 0, 0 };
     const struct smear_block *b = block_at(plan->blocks, x >> BLOCK_SHIFT, (y - t->background.y0) >> BLOCK_SHIFT);
     if (instants > b->last)
         return (struct smear_step){ 0, 0 };
@@ -173,6 +175,8 @@ static struct smear_step step_of(const struct subframes *f, const struct smear_t
     return (struct smear_step){ (int16_t)(tile->x / instants), (int16_t)(tile->y / instants) };
 }
 
+static inline bool is_alike(struct smear_step a, struct smear_step b) { return a.x == b.x && a.y == b.y; }
+
 void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_tile_plan *plan)
 {
     const struct smear_tile_run *t = f->t;
@@ -181,16 +185,20 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     struct smear_step last = { 0, 0 };
     struct gap gap;
     gap_make(&gap, f, &last);
-    for (int32_t y = s->y0; y < s->y1; y += high)
-        for (int32_t x = t->x0; x < t->x1; x += wide) {
-            const struct smear_step step = plan != NULL ? step_of(f, plan, x, y) : last;
-            if (step.x != last.x || step.y != last.y)
+    for (int32_t y = s->y0; y < s->y1; y += high) {
+        struct smear_step step = step_at(f, plan, t->x0, y);
+        for (int32_t x = t->x0, end; x < t->x1; x = end) {
+            if (!is_alike(step, last))
                 gap_make(&gap, f, &step);
             last = step;
+            for (end = x + wide; end < t->x1; end += wide)      /* blocks beside each other that have the same step */
+                if (!is_alike(step = step_at(f, plan, end, y), last))
+                    break;
             const struct subframe_box b = { max_i32(x, all->x0 - gap.pairs), max_i32(y, all->y0 - gap.pairs),
-                                            min_i32(min_i32(x + wide, t->x1), all->x1 + gap.pairs),
+                                            min_i32(min_i32(end, t->x1), all->x1 + gap.pairs),
                                             min_i32(min_i32(y + high, s->y1), all->y1 + gap.pairs) };
             if (!subframe_box_is_empty(&b))
                 average_tile(f, &b, &gap);
         }
+    }
 }

@@ -63,13 +63,14 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     for (int i = 0; i < 3; i++)
         p->v[i] = bins_vertex(frame->bins, s, t->vertex[i]);
     const int32_t u = path_phase(time);
-    const struct range x = s->path ? place(p, VERTEX_X, u, frame->width << 7)
-                                   : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
+    const bool moves = s->path && u != 0;       /* in the middle, vertices are where their records say */
+    const struct range x = moves ? place(p, VERTEX_X, u, frame->width << 7)
+                                 : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
     const struct range columns = pixels_of(x, tile->x0, tile->x1);
     if (columns.low >= columns.high)
         return false;
-    const struct range y = s->path ? place(p, VERTEX_Y, u, frame->height << 7)
-                                   : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    const struct range y = moves ? place(p, VERTEX_Y, u, frame->height << 7)
+                                 : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
     const struct range rows = pixels_of(y, tile->y0, tile->y1);
     if (rows.low >= rows.high)
         return false;
@@ -77,6 +78,8 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
     if (!s->path)
         return true;
+    if (!moves)
+        return !is_turned_away(p->v[0], p->v[1], p->v[2]);
     if (is_turned_away(p->record[0], p->record[1], p->record[2]))
         return false;
     for (int i = 0; i < 3; i++) {

@@ -41,22 +41,22 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
     }
     if (y + dy < s->y0 || y + dy >= s->y1)
         return 0;
-    const int32_t at = (y - s->y0) * f->t->pitch - s->x0, there = at + dy * f->t->pitch + dx;
-    const uint32_t *color = f->work.color + at, *color_there = f->work.color + there,
-                   *behind = s->color + target_row(&s->color_rows, s, y),
-                   *behind_there = s->color + target_row(&s->color_rows, s, y + dy) + dx;
-    const uint16_t *depth = f->work.depth + at, *depth_there = f->work.depth + there,
-                   *deep = s->depth + target_row(&s->window_rows, s, y),
-                   *deep_there = s->depth + target_row(&s->window_rows, s, y + dy) + dx;
-    const int32_t end = min_i32(l->x1, s->x1 - max_i32(dx, 0));
+    const int32_t first = max_i32(l->x, s->x0 - min_i32(dx, 0)), n = min_i32(l->x1, s->x1 - max_i32(dx, 0)) - first;
+    const int32_t at = (y - s->y0) * f->t->pitch - s->x0 + first, there = dy * f->t->pitch + dx;
+    const int32_t behind = target_row(&s->color_rows, s, y) + first, deep = target_row(&s->window_rows, s, y) + first;
+    const int32_t behind_there = target_row(&s->color_rows, s, y + dy) + dx + first,
+                  deep_there = target_row(&s->window_rows, s, y + dy) + dx + first;
     uint32_t sum = 0, count = 0;
-    for (int32_t x = max_i32(l->x, s->x0 - min_i32(dx, 0)); x < end; x++) {
-        const bool moves = depth[x] != deep[x] || color[x] != behind[x];
+    const uint32_t *color = f->work.color + at;
+    const uint16_t *depth = f->work.depth + at;
+    for (int32_t i = 0; i < n; i++, color++, depth++) {
+        const uint32_t here = *color, next = color[there];
+        const bool moves = *depth != s->depth[deep + i] || here != s->color[behind + i];
         count += moves;
-        if (color[x] != color_there[x]
-            && edge_moves(moves, depth[x], depth_there[x] != deep_there[x] || color_there[x] != behind_there[x],
-                          depth_there[x]))
-            sum += squared(color[x], color_there[x]);
+        if (here != next
+            && edge_moves(moves, *depth, depth[there] != s->depth[deep_there + i] || next != s->color[behind_there + i],
+                          depth[there]))
+            sum += squared(here, next);
     }
     *moving += count;
     return sum;
