@@ -427,6 +427,15 @@ typedef struct smear_motion_scale {
     uint16_t object;            /* of draws and their deformation (which grows 8 times at most) */
 } smear_motion_scale;
 
+/* How edges look whose pixels lie partly on one side of them and partly on the other. */
+typedef enum smear_edges {
+    SMEAR_EDGES_HARD,           /* a pixel shows what lies under its centre */
+    SMEAR_EDGES_SMOOTH          /* SMEAR_AUTO, SMEAR_SUBFRAMES: what moves is drawn at another place within the pixel at each
+                                 * instant, and edges of what stands still mix what lies on both sides of them. What is
+                                 * blended and stands still keeps hard edges, and so do holes of cutouts. Sharp frames:
+                                 * SMEAR_AUTO with `cut`. With desc.reuse.buffer_age only beside cache_static */
+} smear_edges;
+
 typedef struct smear_overlay smear_overlay;
 
 typedef struct smear_frame {
@@ -455,6 +464,7 @@ typedef struct smear_frame {
     const smear_layer *layer;   /* up to SMEAR_LAYERS_MAX, copied with their cameras; null: one layer of all that
                                  * moves */
     uint8_t layer_count;
+    uint8_t edges;              /* smear_edges */
     const smear_overlay *overlay;       /* text and sprites over the frame, points in the world:
                                          * smear_overlay.h. Null: none */
 } smear_frame;

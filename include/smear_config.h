@@ -65,7 +65,7 @@
 #ifndef SMEAR_WITH_VIEWS                /* cameras without perspective, draws that turn with the camera */
 #define SMEAR_WITH_VIEWS SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_FOG                  /* frame.fog */
+#ifndef SMEAR_WITH_FOG                  /* frame.fog, frame.edges */
 #define SMEAR_WITH_FOG SMEAR_WITH_ALL
 #endif
 

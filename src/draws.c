@@ -203,7 +203,7 @@ void smear_draws_find_damage(struct smear_context *c)
     struct smear_damage *d = c->damage;
     if (!SMEAR_WITH_DAMAGE || d == NULL)
         return;
-    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, c->frame.light_space, &c->sun);
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, (uint8_t)(c->frame.light_space | c->frame.edges << 1), &c->sun);
     for (uint32_t i = 0; i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)
             smear_damage_add(d, &c->submitted[i].draw);

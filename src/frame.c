@@ -150,6 +150,7 @@ static void prepare_stages(struct smear_context *c, bool filters)
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
     rows->refill = NULL;
+    rows->bins.margin = c->frame.edges;
     c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc, c->filtered.ports != NULL);
 }
 

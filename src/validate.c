@@ -235,6 +235,11 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
     if ((sums && f->samples > SUM_SAMPLES_MAX)
         || (f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_SUBFRAMES_MOST))
         return FAULT(FRAME_SAMPLES);
+    /* A tile that the display keeps would have edges with tiles that are not drawn. */
+    if (f->edges != SMEAR_EDGES_HARD
+        && ((f->method != SMEAR_AUTO && f->method != SMEAR_SUBFRAMES) || f->edges > SMEAR_EDGES_MOST
+            || (has_buffer_age(d) && !caches_static(d))))
+        return FAULT(FRAME_EDGES);
     /* Steps of so few greys hide an error of several codes. */
     if (is_temporal(d) && f->target == 0)
         f->target = d->format == SMEAR_L4 || is_one_bit(d->format) ? SMEAR_DRAFT : SMEAR_BALANCED;

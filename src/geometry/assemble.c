@@ -166,8 +166,10 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
                                      uint32_t triangle, bool back, bool cut)
 {
     struct box box = box_of(&v0->screen, &v1->screen, &v2->screen);
+    if (SMEAR_EDGES)
+        box_widen(&box, b->a);
     bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
-    if (cut)
+    if (cut || (SMEAR_EDGES && bins_margin(b->a->bins) != 0))
         box_cut(&box, b->a);
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
@@ -263,7 +265,8 @@ static void batch_start(struct batch *b)
     const struct smear_bins *g = a->bins;
     b->shares = shares_vertices(d, s);
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
-    b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed;
+    b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
+             && bins_margin(g) == 0;
     b->double_sided = d->material->double_sided;
     if (d->shading.lit || !d->shading.white)
         return;
@@ -649,7 +652,7 @@ static bool assemble_places(struct batch *b)
     const struct smear_bins *g = a->bins;
     const uint32_t end = b->d->end;
     const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
-    struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided,
+    struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided, bins_margin(g),
                                    b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
     for (uint32_t i = b->d->first; i < end;) {
         const uint32_t last = open_places(&r, b, i, end);

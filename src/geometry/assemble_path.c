@@ -83,7 +83,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         curvature = max_i32(curvature, abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
     }
     /* A parabola leaves the box of its three places by at most an eighth of the curvature. */
-    int32_t margin = curvature >> 3;
+    int32_t margin = (curvature >> 3) + bins_margin(a->bins) * 256;
     struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
                        (y1 + margin + 128 + 127) >> 8 };
     /* Of the whole frame, so that it is the same in every part. */

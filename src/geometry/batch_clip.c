@@ -105,6 +105,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
     if (area == 0 || (area > 0) != (c->area > 0))
         return true;
     struct box box = box_of(place[0], place[1], place[2]);
+    box_widen(&box, b->a);
     box_cut(&box, b->a);
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;

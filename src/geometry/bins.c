@@ -34,7 +34,7 @@ static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
     const struct smear_segment *s = &g->segment[t->segment];
     if (s->path)
         return bins_bounds(g, triangle)->y1 > y;
-    int32_t end = y * 256 + 128;
+    int32_t end = y * 256 + 128 - bins_margin(g) * 256;
     for (int i = 0; i < 3; i++)
         if (bins_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
             return true;

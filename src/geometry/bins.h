@@ -15,6 +15,7 @@
 
 #include "smear.h"
 
+#include "base/compiled.h"
 #include "base/fixed.h"
 
 #define SMEAR_NO_TRIANGLE UINT32_MAX
@@ -132,12 +133,16 @@ struct smear_bins {
     uint32_t segment_count, segment_limit;
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
-    int moving_rows;                /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
+    uint16_t moving_rows;           /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
+    uint16_t margin;                /* with smooth edges 1: so many pixels beyond the centres that it covers, a triangle may be
+                                     * seen, and is in lists. Else 0 */
     int row_px;                     /* pixel rows of a tile row */
     int row_count;
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
     int row_first, row_end;         /* tile rows that are being filled: a part of the frame */
 };
+
+static inline int bins_margin(const struct smear_bins *g) { return SMEAR_EDGES ? g->margin : 0; }
 
 static inline struct smear_triangle *bins_triangle(const struct smear_bins *g, uint32_t i)
 {

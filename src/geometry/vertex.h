@@ -297,6 +297,16 @@ static inline struct box box_of(const struct smear_screen *a, const struct smear
     return box;
 }
 
+/* Adds the margin in which what does not cover the box's centres may be seen all the same. */
+static inline void box_widen(struct box *box, const struct smear_assembler *a)
+{
+    const int32_t margin = bins_margin(a->bins);
+    box->x0 -= margin;
+    box->y0 -= margin;
+    box->x1 += margin;
+    box->y1 += margin;
+}
+
 /* Cuts a box to the part of the frame that is being filled. */
 static inline void box_cut(struct box *box, const struct smear_assembler *a)
 {

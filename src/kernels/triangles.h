@@ -22,6 +22,7 @@ struct smear_triangles {
 struct triangles_setup {
     uint32_t low, high;                 /* what of the frame is filled, as a box: coordinates below 2^15 */
     bool both_sides;                    /* those that face away are seen from behind */
+    int margin;                         /* boxes are so many pixels larger on every side than what they have of centres */
     int second, third;                  /* places in an index triple of the corners that follow clockwise: 1 and 2 or 2
                                          * and 1 */
 };
@@ -88,6 +89,10 @@ static inline bool triangle_look(struct smear_triangles *out, int k, const struc
         low[1] = min_i32(low[1], pair_y(p[i]->first));
         high[0] = max_i32(high[0], pair_x(p[i]->first));
         high[1] = max_i32(high[1], pair_y(p[i]->first));
+    }
+    for (int i = 0; i < 2; i++) {
+        low[i] = (int16_t)(low[i] - s->margin);
+        high[i] = (int16_t)(high[i] + s->margin);
     }
     const bool tiny = (int16_t)(high[0] - low[0]) <= 2 && (int16_t)(high[1] - low[1]) <= 2;
     low[0] = max_i32(low[0], pair_x(s->low));
@@ -216,6 +221,9 @@ SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct sme
         out->back = v4i_signs(back);
     }
     smear_v8i low = v8i_min(c0.first, v8i_min(c1.first, c2.first)), high = v8i_max(c0.first, v8i_max(c1.first, c2.first));
+    const smear_v8u margin = (smear_v8u)v8i_all((int16_t)s->margin);
+    low = (smear_v8i)((smear_v8u)low - margin);
+    high = (smear_v8i)((smear_v8u)high + margin);
     const smear_v4i large = (smear_v4i)((smear_v8i)((smear_v8u)high - (smear_v8u)low) > v8i_all(2)) != 0;
     low = v8i_max(low, (smear_v8i)v4u_all(s->low));
     high = v8i_min(high, (smear_v8i)v4u_all(s->high));

@@ -10,6 +10,7 @@
 
 #include "display/band.h"
 #include "display/points.h"
+#include "methods/smooth.h"
 #include "smear_memory.h"
 
 #if SMEAR_WITH_SUBFRAMES
@@ -259,8 +260,11 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     finish.row.x0 = tile_left(rows, run->first);
     finish.row.x1 = tile_right(rows, run->end - 1);
     smear_row_target(rows, row, &finish.background);
-    if (!static_is_cached(self->damage))
+    if (!static_is_cached(self->damage)) {
         smear_row_run(rows, background_job, &finish.row, FILL_STATIC | FILL_MOVING);
+        if (SMEAR_EDGES && bins_margin(&rows->bins) != 0)
+            smear_smooth_static(rows, row, self);
+    }
     stage_end(rows, &rows->stats->time.raster, start);
 
     start = stage_start(rows);

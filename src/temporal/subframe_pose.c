@@ -20,15 +20,28 @@ static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
     return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
+/* Whether a vertex whose places at open and close are given is shifted along an axis from instant to instant. Along its way
+ * it moves by itself, and steps that were not even would show; a way below two pixels does not do for that. */
+static inline bool is_shifted(const int32_t *open, int axis)
+{
+    const int32_t *close = open + PATH_POSE_WORDS;
+    const int32_t along = abs_i32(close[axis] - open[axis]);
+    return along < 512 || along < abs_i32(close[1 - axis] - open[1 - axis]);
+}
+
 /* Sets coordinate VERTEX_X or VERTEX_Y of all three vertices and returns their range. Between places within the guard
  * band a parabola may leave it. `middle`: of the frame. */
-static inline struct range place(struct posed *p, int axis, int32_t u, int32_t middle)
+static inline struct range place(struct posed *p, const struct subframes *f, int axis, int32_t u, int32_t middle)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
     const int open = p->segment->motion + axis;
     for (int i = 0; i < 3; i++)
         p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS],
                                              u);
+    if (SMEAR_EDGES && f->shift[axis] != 0)
+        for (int i = 0; i < 3; i++)
+            if (is_shifted(p->v[i] + p->segment->motion, axis))
+                p->record[i][axis] += f->shift[axis];
     struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
     if (r.low >= middle - guard && r.high <= middle + guard)
         return r;
@@ -63,13 +76,14 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     for (int i = 0; i < 3; i++)
         p->v[i] = bins_vertex(frame->bins, s, t->vertex[i]);
     const int32_t u = path_phase(time);
-    const bool moves = s->path && u != 0;       /* in the middle, vertices are where their records say */
-    const struct range x = moves ? place(p, VERTEX_X, u, frame->width << 7)
+    /* In the middle, vertices are where their records say. */
+    const bool moves = s->path && (u != 0 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0));
+    const struct range x = moves ? place(p, f, VERTEX_X, u, frame->width << 7)
                                  : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
     const struct range columns = pixels_of(x, tile->x0, tile->x1);
     if (columns.low >= columns.high)
         return false;
-    const struct range y = moves ? place(p, VERTEX_Y, u, frame->height << 7)
+    const struct range y = moves ? place(p, f, VERTEX_Y, u, frame->height << 7)
                                  : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
     const struct range rows = pixels_of(y, tile->y0, tile->y1);
     if (rows.low >= rows.high)

@@ -33,6 +33,7 @@ struct subframes {
     struct packed_sums sums;            /* of what is not background: of codes, or of light (light_sums.h) */
     bool blends;                /* blended draws change the background, too */
     uint32_t instants;
+    int32_t shift[2];           /* smooth edges: how far what moves is shifted along x and y at this instant, q8 px */
 
     /* What may be seen in the tile. Triangles beyond those listed are found by walking on from here. */
     uint32_t *listed;           /* moving triangles, then blended triangles */

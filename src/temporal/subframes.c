@@ -295,16 +295,45 @@ static uint32_t draw_middle(struct subframes *f, const struct smear_tile_plan *p
     return 0;
 }
 
+/* Returns the least number from `part` of n, in 1/256, on that shares no divisor with n. */
+static int32_t coprime(int32_t n, int32_t part)
+{
+    for (int32_t g = max_i32((n * part + 128) >> 8, 1);; g++) {
+        int32_t a = g, b = n;
+        while (b != 0) {
+            const int32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1)
+            return g;
+    }
+}
+
+/* Returns the place of instant k of n within the pixel along an axis, q8 px from its centre: each of n even steps once, those
+ * before and after the middle opposite each other, `g` steps from one instant to the next. */
+static int32_t shift_of(int32_t k, int32_t n, int32_t g)
+{
+    const int32_t steps = (2 * k + 1 - n) * g % (2 * n);       /* halves */
+    return (steps >= n ? steps - 2 * n : steps < -n ? steps + 2 * n : steps) * 128 / n;
+}
+
 /* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
 static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
 {
     *all = no_box;
+    const bool smooths = SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0;
     const bool plans = plan != NULL && plan->chooser != NULL;
     uint32_t samples = plans ? draw_middle(f, plan, all) : 0;
     const int32_t instants = (int32_t)f->instants, drawn = plans && (instants & 1) != 0 ? instants / 2 : -1;
+    const int32_t step[2] = { smooths ? coprime(instants, 70) : 0, smooths ? coprime(instants, 98) : 0 };
     for (int32_t k = 0; k < instants; k++) {
         if (k == drawn)
             continue;
+        if (smooths) {
+            f->shift[VERTEX_X] = shift_of(k, instants, step[VERTEX_X]);
+            f->shift[VERTEX_Y] = shift_of(k, instants, step[VERTEX_Y]);
+        }
         const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
         samples += add_instant(f, &box, k, samples, all);
     }

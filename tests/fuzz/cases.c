@@ -583,6 +583,9 @@ static void make_settings(struct fuzz_case *c)
         if (source_chance(s, c->large ? 2 : 12))
             c->frame.target = (uint16_t)option(s, 2, 1, SMEAR_BALANCED);
         c->frame.budget = source_chance(s, 6) ? (uint32_t)source_any(s) : 0;
+        const bool can = method == SMEAR_AUTO || method == SMEAR_SUBFRAMES;
+        if (can && source_chance(s, 4) && (!c->desc.reuse.buffer_age || c->desc.reuse.cache_static))
+            c->frame.edges = SMEAR_EDGES_SMOOTH;
     }
     if (has(&c->desc, SMEAR_SET_LAYERS))
         make_layers(c);

@@ -62,7 +62,8 @@ static const struct part frame_parts[] = {
     PART(smear_frame, filter.weights), PART(smear_frame, filter.camera_step), PART(smear_frame, filter.pingpong.passes),
     PART(smear_frame, filter.pingpong.taps), PART(smear_frame, filter.pingpong.base),
     PART(smear_frame, filter.pingpong.jitter), PART(smear_frame, filter.pingpong.bias),
-    PART(smear_frame, filter.pingpong.spread), PART(smear_frame, scale), PART(smear_frame, layer_count)
+    PART(smear_frame, filter.pingpong.spread), PART(smear_frame, scale), PART(smear_frame, layer_count),
+    PART(smear_frame, edges)
 };
 static const struct part layer_parts[] = {
     PART(smear_layer, mask), PART(smear_layer, method), PART(smear_layer, over), PART(smear_layer, two_camera),

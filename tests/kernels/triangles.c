@@ -35,7 +35,8 @@ static void make(struct fours *f, uint32_t *seed)
         f->index[i] = (uint16_t)(next(seed) >> 8) % VERTICES;
     const int second = (int)(flags & 1u) + 1;
     const int32_t low = (flags & 4u) != 0 ? (x >> 8) + 1 : 0;
-    f->setup = (struct triangles_setup){ pair_of(low, low / 2), pair_of(low + 320, (y >> 8) + 2), (flags & 2u) != 0, second, 3 - second };
+    f->setup = (struct triangles_setup){ pair_of(low, low / 2), pair_of(low + 320, (y >> 8) + 2), (flags & 2u) != 0,
+                                         (int)(flags >> 4 & 1u), second, 3 - second };
 }
 
 /* Keeps what is defined. */

@@ -39,10 +39,13 @@ static bool open_devices(struct render *r, struct failure *f)
     const int width = r->setup.width, height = r->setup.height;
     struct device_setup setup = setup_device(&r->setup, o);
     if (o->exact) {
-        if (!exact_open(&r->exact, width, height, o->format, o->dither, o->doubled, f))
+        const int places = present_places(&r->setup.present, width, height);
+        if (!exact_open(&r->exact, width, height, places, o->format, o->dither, o->doubled, f))
             return false;
         setup.format = SMEAR_XRGB8888;
         setup.methods = SMEAR_SET(SMEAR_NONE);
+        setup.width = width * places;
+        setup.height = height * places;
     }
     if (!device_open(&r->device, &setup, f))
         return false;

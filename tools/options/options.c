@@ -321,6 +321,16 @@ static const char *read_fog(void *to, const char *value)
              ? NULL : "needs 0 <= NEAR < FAR, a 256th of FAR apart";
 }
 
+static const char *read_edges(void *to, const char *value)
+{
+    static const char *const names[] = { "hard", "smooth", NULL };
+    int found = read_name(value, names);
+    if (found < 0)
+        return "needs hard or smooth";
+    ((struct render_options *)to)->edges = (smear_edges)found;
+    return NULL;
+}
+
 /* In the order of smear_format. */
 static const char *const format_names[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
                                             "l8", "l4", "l1", "l1pages", NULL };
@@ -447,6 +457,7 @@ static const struct option table[] = {
     { "--filter", true, read_filter },
     { "--clear", true, read_clear },
     { "--fog", true, read_fog },
+    { "--edges", true, read_edges },
     { "--format", true, read_format },
     { "--dither", true, read_dither },
     { "--double", true, read_double },

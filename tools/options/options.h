@@ -47,6 +47,7 @@ struct render_options {
     smear_light_space light;
     unsigned clear;
     struct present_fog fog;
+    smear_edges edges;
 
     double orbit;               /* turns of the camera about what it sees, over all frames; 0: none */
     int reach_px, tile;         /* 0: not given */

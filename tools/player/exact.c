@@ -7,7 +7,7 @@
 
 enum { DEFAULT_INSTANTS = 8 };
 
-bool exact_open(struct exact *exact, int width, int height, smear_format format,
+bool exact_open(struct exact *exact, int width, int height, int places, smear_format format,
                 smear_dither dither, smear_doubled doubled, struct failure *f)
 {
     const struct device_setup setup = { .width = width, .height = height, .threads = 1,
@@ -15,7 +15,8 @@ bool exact_open(struct exact *exact, int width, int height, smear_format format,
                                         .doubled = doubled };
     const struct presented nothing = { .draw_count = 0 };
     size_t pixels = (size_t)width * (size_t)height;
-    *exact = (struct exact){ .sum = calloc(pixels * 3, sizeof *exact->sum),
+    *exact = (struct exact){ .width = width, .height = height, .places = places,
+                             .sum = calloc(pixels * 3, sizeof *exact->sum),
                              .mean = calloc(pixels, sizeof *exact->mean) };
     if (exact->sum == NULL || exact->mean == NULL)
         return fail(f, "out of memory");
@@ -75,14 +76,16 @@ static void add_counts(smear_stats *sum, const smear_stats *counts)
 
 /* ------------------------------------------------------------------ the mean */
 
-static void add_picture(double *sum, const uint32_t *picture, size_t pixels,
-                        const double value[256])
+static void add_picture(const struct exact *exact, const uint32_t *picture, const double value[256])
 {
-    for (size_t i = 0; i < pixels; i++, sum += 3) {
-        sum[0] += value[picture[i] >> 16 & 255];
-        sum[1] += value[picture[i] >> 8 & 255];
-        sum[2] += value[picture[i] & 255];
-    }
+    const int places = exact->places, width = exact->width * places;
+    for (int y = 0; y < exact->height * places; y++)
+        for (int x = 0; x < width; x++, picture++) {
+            double *sum = exact->sum + 3 * ((size_t)(y / places) * (size_t)exact->width + (size_t)(x / places));
+            sum[0] += value[*picture >> 16 & 255];
+            sum[1] += value[*picture >> 8 & 255];
+            sum[2] += value[*picture & 255];
+        }
 }
 
 static uint32_t code_of(double mean, bool is_linear)
@@ -96,7 +99,8 @@ bool exact_draw(struct exact *exact, struct presenter *presenter, struct device 
 {
     const struct exposure e = exposure_of(time, options, instants);
     const bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
-    size_t pixels = (size_t)device->setup.width * (size_t)device->setup.height;
+    const size_t pixels = (size_t)exact->width * (size_t)exact->height;
+    const double all = (double)e.instants * exact->places * exact->places;
     double value[256];
     for (int code = 0; code < 256; code++)
         value[code] = is_linear ? present_srgb_decode((uint8_t)code) : code / 255.0;
@@ -110,13 +114,13 @@ bool exact_draw(struct exact *exact, struct presenter *presenter, struct device 
             return false;
         smear_get_stats(device->ctx, &instant);
         add_counts(counts, &instant);
-        add_picture(exact->sum, (const uint32_t *)(const void *)device->pixels, pixels, value);
+        add_picture(exact, (const uint32_t *)(const void *)device->pixels, value);
     }
     for (size_t i = 0; i < pixels; i++) {
         const double *sum = exact->sum + 3 * i;
-        exact->mean[i] = code_of(sum[0] / e.instants, is_linear) << 16 |
-                         code_of(sum[1] / e.instants, is_linear) << 8 |
-                         code_of(sum[2] / e.instants, is_linear);
+        exact->mean[i] = code_of(sum[0] / all, is_linear) << 16 |
+                         code_of(sum[1] / all, is_linear) << 8 |
+                         code_of(sum[2] / all, is_linear);
     }
     if (!device_show(&exact->display, exact->mean, f))
         return false;

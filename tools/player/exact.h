@@ -8,17 +8,18 @@
 
 struct exact {
     struct device display;      /* turns the mean into the wanted format */
+    int width, height, places;  /* pixels, and places within each along x and y */
     double *sum;                /* r g b of each pixel: linear light, or codes */
     uint32_t *mean;             /* 0x00RRGGBB */
 };
 
 /* `exact` is released by exact_close in any case. */
-bool exact_open(struct exact *exact, int width, int height, smear_format format,
+bool exact_open(struct exact *exact, int width, int height, int places, smear_format format,
                 smear_dither dither, smear_doubled doubled, struct failure *f);
 void exact_close(struct exact *exact);
 
 /* The mean of `instants` (0: 8) frames at the midpoints of the exposure, in exact->display.pixels
- * afterwards. `device` draws them: sharp, XRGB8888. Counts add up over the instants, as in the
+ * afterwards. `device` draws them: sharp, XRGB8888, `places` times as wide and high. Counts add up over the instants, as in the
  * library's own accumulation. A frame that is cut has one instant. */
 bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device,
                 double time, const struct present_options *options, int instants,

@@ -484,6 +484,12 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .light_space = (uint8_t)o->light, .cut = o->cut || o->instant_only,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target, .budget = o->budget,
                             .clear = o->clear, .layer = o->layer, .layer_count = (uint8_t)o->layer_count };
+    /* A sharp frame with smooth edges is one in which nothing moves. */
+    frame->edges = smear_method_is_temporal(o->method) ? (uint8_t)o->edges : SMEAR_EDGES_HARD;
+    if (degrees == 0 && frame->edges != SMEAR_EDGES_HARD) {
+        frame->method = (uint8_t)o->method;
+        frame->cut = 1;
+    }
     frame->shutter = (smear_shutter){ .degrees = (uint16_t)degrees, .exposure = (uint8_t)o->exposure,
                                       .poses = o->shutter_poses && degrees > 0 && !o->instant_only,
                                       .path = (uint8_t)o->path,
@@ -762,6 +768,7 @@ double presented_depth(const struct presented *presented, uint16_t code)
 
 struct mean {
     int width;
+    int places;                     /* within a pixel along x and y: so many pixels of the band make one */
     double value_of[256];           /* what a code counts */
     double *sum;                    /* r g b of each pixel */
 };
@@ -769,14 +776,16 @@ struct mean {
 static int add_band(void *user, const smear_band *band)
 {
     struct mean *mean = user;
+    const int places = mean->places;
     for (int y = 0; y < band->height; y++) {
         const uint32_t *row =
             (const uint32_t *)(const void *)((const char *)band->pixels + (size_t)y * band->stride);
-        double *sum = mean->sum + (size_t)(band->y + y) * (size_t)mean->width * 3;
-        for (int x = 0; x < mean->width; x++, sum += 3) {
+        double *sum = mean->sum + (size_t)((band->y + y) / places) * (size_t)mean->width * 3;
+        for (int x = 0; x < mean->width * places; x++) {
             sum[0] += mean->value_of[row[x] >> 16 & 255];
             sum[1] += mean->value_of[row[x] >> 8 & 255];
             sum[2] += mean->value_of[row[x] & 255];
+            sum += (x + 1) % places == 0 ? 3 : 0;
         }
     }
     return 0;
@@ -818,13 +827,21 @@ static bool room_for(struct room *room, const struct presented *presented, int w
     return true;
 }
 
+int present_places(const struct present_options *options, int width, int height)
+{
+    int places = options->edges == SMEAR_EDGES_SMOOTH ? 16 : 1;
+    while (places > 1 && (width * places > 2048 || height * places > 2048))
+        places /= 2;
+    return places;
+}
+
 bool presenter_exact(struct presenter *presenter, double time,
                      const struct present_options *options, int width, int height, int instants,
                      struct image *out, struct failure *f)
 {
     struct present_options sharp = *options;
     struct room room = { 0 };
-    struct mean mean = { .width = width };
+    struct mean mean = { .width = width, .places = present_places(options, width, height) };
     double open, close;
     bool ok = true;
     sharp.instant_only = true;
@@ -846,7 +863,7 @@ bool presenter_exact(struct presenter *presenter, double time,
     for (int i = 0; i < instants && ok; i++) {
         const struct presented *frame =
             presenter_frame(presenter, open + (close - open) * (i + 0.5) / instants, &sharp, f);
-        ok = frame != NULL && room_for(&room, frame, width, height, &mean, f);
+        ok = frame != NULL && room_for(&room, frame, width * mean.places, height * mean.places, &mean, f);
         if (!ok)
             break;
         int result = presented_submit(frame, room.ctx);
@@ -856,7 +873,7 @@ bool presenter_exact(struct presenter *presenter, double time,
             ok = fail(f, "the library refused the frame: %s", smear_error_text(result));
     }
     for (size_t i = 0; i < values && ok; i++) {
-        double value = mean.sum[i] / instants;
+        double value = mean.sum[i] / instants / (mean.places * mean.places);
         out->rgba[i / 3 * 4 + i % 3] = is_linear ? present_srgb_encode(value) : present_byte(value);
     }
     free(mean.sum);

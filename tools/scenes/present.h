@@ -58,6 +58,7 @@ struct present_options {
     smear_light_space light;
     uint32_t clear;                 /* 0xRRGGBB */
     struct present_fog fog;
+    smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of presenter_exact */
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
@@ -121,8 +122,13 @@ double presented_depth(const struct presented *presented, uint16_t code);
 void present_exposure(double time, const struct present_options *options, double *open,
                       double *close);
 
+/* Returns how many places within a pixel a truth looks at along x and y: with smooth edges 16, or as many as a frame can
+ * have; else one. */
+int present_places(const struct present_options *options, int width, int height);
+
 /* The truth: the mean of `instants` sharp frames at the midpoints of the exposure, each posed and
- * lit exactly, drawn by the library with SMEAR_NONE. Averages linear light or codes, as
+ * lit exactly, drawn by the library with SMEAR_NONE, at present_places within
+ * each pixel. Averages linear light or codes, as
  * options->light says. *out is allocated here, and empty on failure. */
 bool presenter_exact(struct presenter *presenter, double time,
                      const struct present_options *options, int width, int height, int instants,
