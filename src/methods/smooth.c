@@ -52,8 +52,8 @@ static void find(struct smoothing *s)
         t.x1 = min_i32(width, t.x0 + most);
         const struct smear_plane_rows plane = { t.x1 - t.x0, 0, 1, t.x0 };
         uint32_t *color = (uint32_t *)(void *)s->temporal->work;
-        s->below = (struct smear_raster_target){ .x0 = t.x0, .x1 = t.x1, .y0 = t.y1, .y1 = t.y1 + 1, .color = color,
-                                                 .depth = (uint16_t *)(void *)(color + plane.stride), .color_rows = plane,
+        s->below = (struct smear_raster_target){ .x0 = t.x0, .y0 = t.y1, .x1 = t.x1, .y1 = t.y1 + 1, .color = color,
+                                                 .color_rows = plane, .depth = (uint16_t *)(void *)(color + plane.stride),
                                                  .window_rows = plane, .tile_shift = t.tile_shift };
         if (has_below)
             smear_row_run(rows, below_job, &s->row, FILL_STATIC | FILL_MOVING);

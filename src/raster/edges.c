@@ -131,8 +131,8 @@ static const int8_t place[EDGE_PLACES][2] = { { 26, -102 }, { 77, 77 }, { -102, 
 struct smear_raster_target smear_edges_target(const struct smear_raster_target *t, const struct smear_edge_planes *planes, int k)
 {
     const struct smear_plane_rows rows = { t->x1 - t->x0, 0, t->y1 - t->y0, t->x0 };
-    return (struct smear_raster_target){ .x0 = t->x0, .x1 = t->x1, .y0 = t->y0, .y1 = t->y1, .color = planes->color[k],
-                                         .depth = planes->depth, .color_rows = rows, .window_rows = rows,
+    return (struct smear_raster_target){ .x0 = t->x0, .y0 = t->y0, .x1 = t->x1, .y1 = t->y1, .color = planes->color[k],
+                                         .color_rows = rows, .depth = planes->depth, .window_rows = rows,
                                          .tile_shift = t->tile_shift };
 }
 
