@@ -146,6 +146,11 @@ typedef struct smear_texture {
     uint16_t width, height;
     uint8_t format;             /* smear_texel_format */
     uint8_t wrap_u, wrap_v;     /* smear_wrap */
+    uint8_t levels;             /* smaller pictures that follow in `texels`, each half as wide and half as high as that before
+                                 * it (1 at least), down to 1 x 1 at most; `smear convert --mipmaps` makes them. Each triangle
+                                 * shows that whose texels are as large as its pixels, or the next larger picture: less
+                                 * shimmer, and fewer cache misses. Sizes are powers of two. Only where texels are nearest and
+                                 * repeat both ways; what moves under SMEAR_TIMEMASK shows the largest. 0: none */
 } smear_texture;
 
 typedef enum smear_alpha {

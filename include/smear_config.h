@@ -74,7 +74,8 @@
                                          * at another rate than the frames' */
 #define SMEAR_WITH_SCALES SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds */
+#ifndef SMEAR_WITH_BOUNDS               /* smear_mesh.bounds; smear_texture.levels: without it
+                                         * textures show their largest picture */
 #define SMEAR_WITH_BOUNDS SMEAR_WITH_ALL
 #endif
 #ifndef SMEAR_WITH_CURVES               /* paths that are no lines: SMEAR_PATH_CURVE, _ORIGIN, _SCREW */

@@ -417,12 +417,19 @@ int smear_check_overlay(const smear_overlay *overlay)
 
 /* ------------------------------------------------------------------ draw */
 
+/* Smaller pictures halve sizes that are powers of two, down to 1 x 1. */
+static bool has_levels(const smear_texture *t)
+{
+    return (t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0 && t->levels <= 12
+        && (t->width | t->height) >> t->levels != 0;
+}
+
 static bool is_texture(const smear_texture *t)
 {
     return SMEAR_TEXTURE_MOST && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1
         && t->height <= 4096 && t->format <= SMEAR_TEXEL_PALETTE8
         && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL) && t->wrap_u <= SMEAR_MIRROR
-        && t->wrap_v <= SMEAR_MIRROR;
+        && t->wrap_v <= SMEAR_MIRROR && (t->levels == 0 || has_levels(t));
 }
 
 static bool is_mesh(const smear_mesh *m)

@@ -73,7 +73,7 @@ static void mix_material(uint32_t h[2], const smear_material *m)
         bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
         bytes(m->alpha, m->cutoff, m->unlit, m->double_sided << 1 | m->bilinear),
         low(t->texels), high(t->texels), low(t->palette), high(t->palette),
-        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(0, t->format, t->wrap_u, t->wrap_v)
+        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v)
     };
     mix(h, word, (int)(sizeof word / sizeof *word));
 }

@@ -52,7 +52,7 @@ struct smear_blob_texture {
     uint32_t texels, palette;
     uint16_t palette_count;     /* texels are below it */
     uint16_t width, height;
-    uint8_t format, wrap_u, wrap_v, zero[3];
+    uint8_t format, wrap_u, wrap_v, levels, zero[2];
 };
 
 struct smear_blob_material {

@@ -68,14 +68,29 @@ static bool is_modest(const int32_t *value, int count)
 
 /* ------------------------------------------------------------------ what smear_submit takes */
 
+static bool are_levels(const struct smear_blob_texture *t)
+{
+    return t->levels == 0 || ((t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0 && t->levels <= 12
+                              && (t->width | t->height) >> t->levels != 0);
+}
+
+/* Of all levels: at most 2^25. */
+static uint32_t texels_of(const struct smear_blob_texture *t)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i <= t->levels; i++)
+        count += (uint32_t)max_i32(t->width >> i, 1) * (uint32_t)max_i32(t->height >> i, 1);
+    return count;
+}
+
 static bool are_textures(struct blob *b)
 {
     const struct smear_blob_texture *t = blob_table(b, BLOB_TEXTURE);
     for (uint32_t i = 0; i < blob_count(b, BLOB_TEXTURE); i++, t++) {
         if (t->width < 1 || t->width > 4096 || t->height < 1 || t->height > 4096
-            || t->format > SMEAR_TEXEL_PALETTE8 || t->wrap_u > SMEAR_MIRROR || t->wrap_v > SMEAR_MIRROR)
+            || t->format > SMEAR_TEXEL_PALETTE8 || t->wrap_u > SMEAR_MIRROR || t->wrap_v > SMEAR_MIRROR || !are_levels(t))
             return false;
-        uint32_t count = (uint32_t)t->width * t->height;
+        uint32_t count = texels_of(t);
         uint32_t size = t->format == SMEAR_TEXEL_8888 ? 4 : t->format == SMEAR_TEXEL_565 ? 2 : 1;
         if (!blob_has(b, t->texels, count, size))
             return false;
@@ -414,7 +429,7 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
         t->texture[i] = (smear_texture){
             .texels = blob_at(b, texture->texels), .palette = blob_at(b, texture->palette),
             .width = texture->width, .height = texture->height, .format = texture->format,
-            .wrap_u = texture->wrap_u, .wrap_v = texture->wrap_v
+            .wrap_u = texture->wrap_u, .wrap_v = texture->wrap_v, .levels = texture->levels
         };
     for (uint32_t i = 0; i < blob_count(b, BLOB_MATERIAL); i++, material++) {
         smear_material *m = &t->material[i];

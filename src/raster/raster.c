@@ -82,6 +82,25 @@ static inline struct bounds bounds_of(const int32_t *const v[3])
                             max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
 }
 
+SMEAR_INLINE void start(struct setup *s, const struct smear_raster_frame *frame, const struct smear_segment *segment, uint32_t color,
+                        const int32_t *const v[3], bool in_fog)
+{
+    s->frame = frame;
+    s->segment = segment;
+    s->color = color;
+    for (int i = 0; i < 3; i++)
+        s->v[i] = v[i];
+    if (SMEAR_WITH_FOG)
+        s->fog = FOG_NONE;
+    if (in_fog)
+        smear_fog_triangle(s);
+}
+
+static inline bool has_levels(const struct setup *s)
+{
+    return SMEAR_WITH_TEXTURE && SMEAR_WITH_BOUNDS && segment_textured(s->segment) && s->draw->sampler.levels != 0;
+}
+
 /* Draws a triangle of few pixels by the weights of its vertices. False where it needs gradients. */
 SMEAR_INLINE bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box, bool in_fog)
 {
@@ -118,19 +137,12 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
     bool known;
     struct cache_entry *entry = cache_find(target, triangle, continues, goes_on, &known);
     struct setup here, *s = entry != NULL ? &entry->s : &here;
+    struct smear_raster_draw smaller;
     s->target = target;
+    s->draw = &frame->draw[segment->draw];
     if (!known) {
-        s->frame = frame;
-        s->segment = segment;
-        s->draw = &frame->draw[segment->draw];
-        s->color = color;
-        for (int i = 0; i < 3; i++)
-            s->v[i] = v[i];
         s->bounds = bounds;
-        if (SMEAR_WITH_FOG)
-            s->fog = FOG_NONE;
-        if (in_fog)
-            smear_fog_triangle(s);
+        start(s, frame, segment, color, v, in_fog);
     }
     /* The planes start with the background's velocity: static triangles write theirs only over others, after the first
      * one that moves. */
@@ -142,6 +154,8 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
     if (!known) {
         const uint64_t area = setup_edges(s);
         SMEAR_ASSERT((int64_t)area > 0);
+        if (has_levels(s))
+            smear_setup_level(s, area, &smaller);
         if (draw_tiny(s, area, pixels, &box, in_fog)) {
             if (entry != NULL)
                 entry->triangle = SMEAR_NO_TRIANGLE;
@@ -151,6 +165,8 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
             smear_setup(s, area);
         if (entry != NULL)
             entry->triangle = triangle;
+    } else if (has_levels(s)) {
+        smear_setup_shrink(s, &smaller);
     }
     smear_cover(s, &box, small);
 }

@@ -473,6 +473,37 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
         t->block = (uint8_t)min_i32(t->block, s->fog - FOG_VARIES);
 }
 
+/* log2 x, q5: by the bits below the highest. */
+static int32_t log2_q5(uint64_t x)
+{
+    const int zeros = count_leading_zeros_64(x);
+    return (63 - zeros) * 32 + (int32_t)(x << zeros >> 58) - 32;
+}
+
+/* floor(log4(texels / pixels)) */
+void smear_setup_level(struct setup *s, uint64_t area, struct smear_raster_draw *smaller)
+{
+    const struct smear_sampler *m = &s->draw->sampler;
+    const int32_t u0 = setup_mesh_u(s, 0), v0 = setup_mesh_v(s, 0);
+    const int64_t turned = cross(setup_mesh_u(s, 1) - u0, setup_mesh_v(s, 2) - v0, setup_mesh_u(s, 2) - u0, setup_mesh_v(s, 1) - v0);
+    s->level = 0;
+    if (turned == 0)
+        return;
+    const int32_t texels = log2_q5(turned < 0 ? 0u - (uint64_t)turned : (uint64_t)turned)
+                         + 32 * (m->log2_width + m->log2_height + 16 - 2 * m->uv_shift);       /* pixels have 16 bits below the point */
+    s->level = (uint8_t)clamp_i32((texels - log2_q5(area)) >> 6, 0, m->levels);
+    smear_setup_shrink(s, smaller);
+}
+
+void smear_setup_shrink(struct setup *s, struct smear_raster_draw *smaller)
+{
+    if (s->level == 0)
+        return;
+    *smaller = *s->draw;
+    smear_sampler_shrink(&smaller->sampler, s->level);
+    s->draw = smaller;
+}
+
 /* ------------------------------------------------------------------ all of it */
 
 /* Without a texture and opaque: one colour throughout, which is then

@@ -106,6 +106,7 @@ struct setup {
     bool velocity_affine;
     bool clamp_velocity;
     uint16_t fog;                   /* FOG_NONE ... */
+    uint8_t level;                  /* of the texture: 0 is the largest */
 
     /* What few triangles have comes last: setups that are kept from row to row are cut where a frame needs no more
      * (setup_bytes). */
@@ -218,6 +219,13 @@ static inline uint64_t setup_edges(struct setup *s)
 
 /* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */
 void smear_setup(struct setup *s, uint64_t area);
+
+/* Finds the level of a texture that has some: so many times smaller that there is still a texel for each pixel. Of the whole
+ * triangle, so that it is the same in every tile row and band. Then smear_setup_shrink. */
+void smear_setup_level(struct setup *s, uint64_t area, struct smear_raster_draw *smaller);
+
+/* Where the level is not the largest the draw becomes `smaller`, a copy with that level of the texture. */
+void smear_setup_shrink(struct setup *s, struct smear_raster_draw *smaller);
 
 /* Does that for a textured triangle of few pixels without a motion of its own, whose area fits: setup_small.c. Returns false
  * where that would be too inexact, or its shape is that of a sliver. */

@@ -39,8 +39,30 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
         s->log2_width = (uint8_t)log2_width;
         s->log2_height = (uint8_t)log2_height;
     }
+    s->levels = SMEAR_WITH_BOUNDS && s->turns ? texture->levels : 0;
     s->scale[0] = scale_for(texture->width, uv_shift, &s->shift[0]);
     s->scale[1] = scale_for(texture->height, uv_shift, &s->shift[1]);
+}
+
+void smear_sampler_shrink(struct smear_sampler *s, int level)
+{
+    const uint32_t size = s->format == SMEAR_TEXEL_8888 ? 4 : s->format == SMEAR_TEXEL_565 ? 2 : 1;
+    const uint8_t *texels = (const uint8_t *)s->texels;
+    for (; level > 0; level--) {
+        texels += (uint32_t)s->width * (uint32_t)s->height * size;
+        if (s->log2_width > 0) {
+            s->width >>= 1;
+            s->log2_width--;
+            s->shift[0]--;
+        }
+        if (s->log2_height > 0) {
+            s->height >>= 1;
+            s->log2_height--;
+            s->shift[1]--;
+        }
+    }
+    s->texels = texels;
+    s->levels = 0;
 }
 
 int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio)

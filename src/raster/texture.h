@@ -20,6 +20,7 @@ struct smear_sampler {
     bool turns;                 /* nearest texels of both sizes powers of two, repeated:
                                  * a coordinate's upper bits say */
     uint8_t log2_width, log2_height;    /* with turns */
+    uint8_t levels;             /* with turns: smaller pictures behind the texels */
     int32_t scale[2];           /* u, v: ratio (q29, of 2^15 mesh units) to
                                  * texels (i32q16): mulh, then shift */
     int8_t shift[2];
@@ -27,6 +28,9 @@ struct smear_sampler {
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
                         bool bilinear, bool linear);
+
+/* The smaller picture `level`, 1 .. levels, instead. */
+void smear_sampler_shrink(struct smear_sampler *s, int level);
 
 /* u (axis 0) or v / 2^15 in q29 (mesh units over 2^15) to texels. Wraps: textures repeat. */
 int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio);

@@ -34,7 +34,7 @@ static const uint32_t arm_palette_0[5] = {
 };
 
 static const smear_texture arm_texture[1] = {
-    { arm_texels_0, arm_palette_0, 4, 4, SMEAR_TEXEL_PALETTE8, SMEAR_MIRROR, SMEAR_CLAMP },
+    { arm_texels_0, arm_palette_0, 4, 4, SMEAR_TEXEL_PALETTE8, SMEAR_MIRROR, SMEAR_CLAMP, 0 },
 };
 
 static const smear_material arm_material[4] = {

@@ -19,7 +19,7 @@ static const uint16_t side[] = {
     12, 13, 14, 12, 14, 15,  16, 17, 18, 16, 18, 19,  20, 21, 22, 20, 22, 23 };
 static uint16_t planks[32 * 32];
 static const smear_mesh crate = { corner, nullptr, corner_uv, nullptr, nullptr, side, 12, 24, 10, 0, 0, { 0, 0, 0 }, { 0 } };
-static const smear_texture texture = { planks, nullptr, 32, 32, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP };
+static const smear_texture texture = { planks, nullptr, 32, 32, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP, 0 };
 static const smear_material wood = { &texture, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0 };
 static smear::renderer<SMEAR_MEMORY(SCREEN)> screen;
 

@@ -112,7 +112,12 @@ static void make_texture(struct fuzz_case *c, smear_texture *t)
     t->format = (uint8_t)source_range(s, 0, SMEAR_TEXEL_PALETTE8);
     t->wrap_u = (uint8_t)source_range(s, 0, SMEAR_MIRROR);
     t->wrap_v = (uint8_t)source_range(s, 0, SMEAR_MIRROR);
-    t->texels = case_random(c, (size_t)t->width * t->height * bytes[t->format]);
+    size_t texels = (size_t)t->width * t->height;
+    const bool halves = (t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0;
+    const int most = halves ? source_range(s, 0, 12) : 0;
+    for (; t->levels < most && (t->width | t->height) >> (t->levels + 1) != 0; t->levels++)
+        texels += (size_t)((t->width >> (t->levels + 1)) + 1) * (size_t)((t->height >> (t->levels + 1)) + 1);
+    t->texels = case_random(c, texels * bytes[t->format]);
     t->palette = t->format == SMEAR_TEXEL_PALETTE8 ? case_random(c, 256 * 4) : NULL;
 }
 

@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         .clip = clip, .scale = data[0] & 1 ? 1 : 0.01, .fit = data[0] & 2 ? 10 : 0, .z_up = data[0] & 4,
         .texture = (enum convert_texture)((data[0] >> 3) % 5), .texture_edge = 1 << (data[1] & 7), .colors = 16,
         .flat = data[0] & 64, .influences = 1 + (data[1] >> 3 & 3), .clip_error_px = data[1] & 32 ? 1 : 0.1,
-        .rows = 240, .fov_degrees = 45
+        .rows = 240, .fov_degrees = 45, .mipmaps = (data[0] & 2) != 0
     };
     for (; o.clip_count < model.clip_count && o.clip_count < 8; o.clip_count++)
         clip[o.clip_count] = o.clip_count;

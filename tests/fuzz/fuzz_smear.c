@@ -139,6 +139,10 @@ static void take_texture(struct source *s, struct pool *p, smear_texture *t)
     t->wrap_u = take(s) % 3;
     t->wrap_v = take(s) % 3;
     size_t size = (size_t)t->width * t->height * bytes[t->format];
+    t->levels = (uint8_t)take_range(s, 0, 13);      /* what is refused, too; the rest is smaller than the whole */
+    if (t->levels > 0)
+        size *= 2;
+    size += 64;
     uint8_t *texels = pool_take(p, size);
     for (size_t i = 0; i < size; i++)
         texels[i] = (uint8_t)(i * 41 >> (i & 3));

@@ -679,7 +679,8 @@ static void test_every_kind_of_damage_has_its_reason(void)
         { -1, 16, 2, 0, SMEAR_MODEL_ERR_TABLE }, { -1, TABLES_AT + 8 * BLOB_MESH, 4, 2, SMEAR_MODEL_ERR_TABLE },
         { -1, TABLES_AT + 4 + 8 * BLOB_KEY_VALUE, 4, 1u << 31, SMEAR_MODEL_ERR_TABLE },
         { BLOB_TEXTURE, 10, 2, 0, SMEAR_MODEL_ERR_TEXTURE }, { BLOB_TEXTURE, 10, 2, 4096, SMEAR_MODEL_ERR_TEXTURE },
-        { BLOB_TEXTURE, 8, 2, 1, SMEAR_MODEL_ERR_TEXTURE }, { BLOB_TEXTURE, 14, 1, 3, SMEAR_MODEL_ERR_TEXTURE },
+        { BLOB_TEXTURE, 17, 1, 13, SMEAR_MODEL_ERR_TEXTURE }, { BLOB_TEXTURE, 8, 2, 1, SMEAR_MODEL_ERR_TEXTURE },
+        { BLOB_TEXTURE, 14, 1, 3, SMEAR_MODEL_ERR_TEXTURE },
         { BLOB_MATERIAL, 0, 2, 7, SMEAR_MODEL_ERR_MATERIAL }, { BLOB_MATERIAL, 6, 1, 3, SMEAR_MODEL_ERR_MATERIAL },
         { BLOB_MESH, 0, 4, 0, SMEAR_MODEL_ERR_MESH }, { BLOB_MESH, 24, 4, 5000, SMEAR_MODEL_ERR_MESH },
         { BLOB_MESH, 28, 2, 3, SMEAR_MODEL_ERR_MESH }, { BLOB_MESH, 30, 1, 63, SMEAR_MODEL_ERR_MESH },
@@ -882,6 +883,39 @@ static void test_pictures_shrink_in_linear_light(void)
     pile_free(pile);
 }
 
+static void test_mipmaps_are_halved_in_linear_light(void)
+{
+    uint8_t rgba[4 * 4 * 2];
+    struct model_material material = { .alpha = MODEL_ALPHA_OPAQUE, .image = 0, .wrap_u = MODEL_WRAP_REPEAT, .wrap_v = MODEL_WRAP_REPEAT };
+    struct image image = { .width = 4, .height = 2, .rgba = rgba };
+    struct model model = { .material_count = 1, .material = &material, .image_count = 1, .image = &image };
+    struct convert_options o = { .texture = CONVERT_RGB8888, .texture_edge = 128, .colors = 256, .mipmaps = true };
+    for (int i = 0; i < 8; i++) {
+        memset(rgba + 4 * i, i % 2 != 0 ? 255 : 0, 3);
+        rgba[4 * i + 3] = 255;
+    }
+    for (int wrap = 0; wrap < 2; wrap++) {
+        struct failure f = { { 0 } };
+        struct image picture = { 0 };
+        struct convert_pile *pile = calloc(1, sizeof *pile);
+        struct converter c = { .model = &model, .options = &o, .pile = pile, .f = &f, .picture = &picture,
+                               .texture = { .size = sizeof(struct out_texture) },
+                               .texture_report = { .size = sizeof(struct convert_texture_report) } };
+        int index = -1;
+        material.wrap_u = wrap == 0 ? MODEL_WRAP_REPEAT : MODEL_WRAP_CLAMP;
+        if (CHECK(texture_for(&c, &material, &index)) && CHECK_EQ(index, 0)) {
+            const struct out_texture *t = c.texture.data;
+            CHECK_EQ(t->texture.levels, wrap == 0 ? 2 : 0);
+            CHECK_EQ((int64_t)convert_texel_count(&t->texture), wrap == 0 ? 8 + 2 + 1 : 8);
+            for (int i = 8; wrap == 0 && i < 11; i++)           /* black and white, in equal parts */
+                CHECK_EQ(((const uint32_t *)t->texture.texels)[i], 0xffbcbcbcu);
+        }
+        list_free(&c.texture);
+        list_free(&c.texture_report);
+        pile_free(pile);
+    }
+}
+
 static void test_palettes_serve_their_picture(void)
 {
     enum { EDGE = 64 };
@@ -1080,6 +1114,7 @@ void suite_convert_tool(void)
     RUN(test_clips_are_seen_as_the_model_poses_them);
     RUN(test_triangles_are_ordered_for_the_vertex_cache);
     RUN(test_pictures_shrink_in_linear_light);
+    RUN(test_mipmaps_are_halved_in_linear_light);
     RUN(test_palettes_serve_their_picture);
     RUN(test_the_header_and_the_blob_in_the_tests_are_what_the_tool_writes);
     RUN(test_every_file_converts_and_its_blob_plays_the_same);

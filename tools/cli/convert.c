@@ -118,6 +118,13 @@ static const char *read_colors(void *to, const char *value)
     return read_whole(value, 2, 256, &c->options.colors, "needs a number from 2 to 256");
 }
 
+static const char *read_mipmaps(void *to, const char *value)
+{
+    (void)value;
+    ((struct convert_command *)to)->options.mipmaps = true;
+    return NULL;
+}
+
 static const char *read_texels(void *to, const char *value)
 {
     static const char *const names[] = { "nearest", "bilinear", NULL };
@@ -223,6 +230,7 @@ static const struct option table[] = {
     { "--scale", true, read_scale },            { "--fit", true, read_fit },
     { "--up", true, read_up },                  { "--texture", true, read_texture },
     { "--texture-size", true, read_texture_size }, { "--colors", true, read_colors },
+    { "--mipmaps", false, read_mipmaps },
     { "--filter", true, read_texels },          { "--normals", true, read_normals },
     { "--influences", true, read_influences },  { "--clip-error", true, read_clip_error },
     { "--distance", true, read_distance },      { "--rows", true, read_rows },
@@ -303,6 +311,8 @@ static void print_textures(FILE *to, const struct conversion *c)
                 format[c->texture[i].format]);
         if (t->colors > 0)
             fprintf(to, ", %d colours", t->colors);
+        if (c->texture[i].levels > 0)
+            fprintf(to, ", %d smaller pictures", c->texture[i].levels);
         if (c->same_texels[i] != i)
             fprintf(to, ", texels of %d\n", c->same_texels[i]);
         else
@@ -515,6 +525,8 @@ int command_convert(int count, char **text)
         return help_print("convert");
     if (status != STATUS_OK)
         return status;
+    if (command.options.mipmaps && command.options.bilinear)
+        return say_bad_usage("--mipmaps", "is for nearest texels, not for --filter bilinear");
     if (path == NULL)
         return say_bad_usage("convert", "needs a model or picture (smear help convert)");
     if (command.output == NULL)

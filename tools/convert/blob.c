@@ -69,7 +69,7 @@ static void put_arrays(struct blob_writer *w)
     for (int i = 0; i < w->c->texture_count; i++) {
         const smear_texture *t = &w->c->texture[i];
         int same = w->c->same_texels[i];
-        size_t count = (size_t)t->width * t->height;
+        size_t count = convert_texel_count(t);
         int size = t->format == SMEAR_TEXEL_8888 ? 4 : t->format == SMEAR_TEXEL_565 ? 2 : 1;
         w->texels[i] = same < i ? w->texels[same] : put_optional(&w->b, t->texels, count, size);
         w->palette[i] = same < i ? w->palette[same]
@@ -121,7 +121,8 @@ static void put_surfaces(struct blob_writer *w)
         buffer_byte(b, t->format);
         buffer_byte(b, t->wrap_u);
         buffer_byte(b, t->wrap_v);
-        put_array(b, "\0\0\0", 3, 1);
+        buffer_byte(b, t->levels);
+        put_array(b, "\0\0", 2, 1);
     }
     begin_table(w, BLOB_MATERIAL, c->model.material_count);
     for (int i = 0; i < c->model.material_count; i++) {

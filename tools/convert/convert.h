@@ -42,6 +42,7 @@ struct convert_options {
     enum convert_texture texture;
     int texture_edge;           /* 1..4096: pictures are shrunk until no edge is longer */
     int colors;                 /* of a palette, 2..256 */
+    bool mipmaps;               /* smaller pictures behind those whose sizes are powers of two and which repeat */
     bool bilinear;
     bool flat;                  /* normals are dropped */
     int influences;             /* joints per vertex at most, 1..4 */
@@ -60,6 +61,9 @@ struct convert_texture_report {
     int from_width, from_height, width, height, colors;
     double rms;                 /* in codes, against the smaller picture; 0: none lost */
 };
+
+/* Texels of a texture and of the smaller pictures behind it. */
+size_t convert_texel_count(const smear_texture *t);
 
 struct convert_clip_report {
     int keys, keys_in_file;

@@ -121,7 +121,7 @@ static void put_textures(struct header_writer *w)
         const smear_texture *t = &c->texture[i];
         if (c->same_texels[i] != i)
             continue;
-        put_numbers(w, "texels", i, t->texels, (size_t)t->width * t->height, kind[t->format]);
+        put_numbers(w, "texels", i, t->texels, convert_texel_count(t), kind[t->format]);
         put_numbers(w, "palette", i, t->palette, (size_t)c->palette_count[i], U32);
     }
     if (c->texture_count == 0)
@@ -132,8 +132,8 @@ static void put_textures(struct header_writer *w)
         put(w, "    { ");
         put_pointer(w, "texels", c->same_texels[i], true, ", ");
         put_pointer(w, "palette", c->same_texels[i], t->palette != NULL, ", ");
-        put(w, "%u, %u, %s, %s, %s },\n", t->width, t->height, format[t->format], wrap[t->wrap_u],
-            wrap[t->wrap_v]);
+        put(w, "%u, %u, %s, %s, %s, %u },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v],
+            t->levels);
     }
     close_table(w);
 }

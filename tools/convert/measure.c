@@ -29,7 +29,7 @@ static size_t mesh_arrays(const smear_model *m, uint32_t index)
 static size_t texel_bytes(const struct conversion *c, int index)
 {
     const smear_texture *t = &c->texture[index];
-    size_t count = (size_t)t->width * t->height;
+    size_t count = convert_texel_count(t);
     if (c->same_texels[index] != index)
         return 0;
     return t->format == SMEAR_TEXEL_8888 ? 4 * count

@@ -79,6 +79,46 @@ const struct image *shrunk_picture(struct converter *c, int index)
     return to;
 }
 
+/* Whether smaller pictures follow this one: a material repeats it both ways, and they halve evenly. */
+static bool has_levels(const struct converter *c, int image, const struct image *picture)
+{
+    const int w = picture->width, h = picture->height;
+    bool repeats = false;
+    for (int i = 0; i < c->model->material_count; i++) {
+        const struct model_material *m = &c->model->material[i];
+        repeats = repeats || (m->image == image && m->wrap_u == MODEL_WRAP_REPEAT && m->wrap_v == MODEL_WRAP_REPEAT);
+    }
+    return c->options->mipmaps && repeats && (w & (w - 1)) == 0 && (h & (h - 1)) == 0;
+}
+
+/* All levels of a picture one behind the other, as a picture of one row. */
+static bool leveled_picture(struct converter *c, const struct image *picture, int *levels, struct image *all)
+{
+    int w = picture->width, h = picture->height;
+    size_t size = (size_t)w * (size_t)h * 4;
+    for (*levels = 0; w > 1 || h > 1; ++*levels) {
+        w = w > 1 ? w / 2 : 1;
+        h = h > 1 ? h / 2 : 1;
+        size += (size_t)w * (size_t)h * 4;
+    }
+    *all = (struct image){ .width = (int)(size / 4), .height = 1, .rgba = pile_alloc(c->pile, size, 1, c->f) };
+    if (all->rgba == NULL)
+        return false;
+    struct image from = *picture;
+    size_t at = (size_t)from.width * (size_t)from.height * 4;
+    memcpy(all->rgba, picture->rgba, at);
+    from.rgba = all->rgba;
+    for (int i = 0; i < *levels; i++) {
+        struct image to = { .width = from.width > 1 ? from.width / 2 : 1, .height = from.height > 1 ? from.height / 2 : 1,
+                            .rgba = all->rgba + at };
+        for (int y = 0; y < to.height; y++)
+            for (int x = 0; x < to.width; x++, at += 4)
+                shrink_pixel(&from, &to, x, y, all->rgba + at);
+        from = to;
+    }
+    return true;
+}
+
 /* ------------------------------------------------------------------ colours instead of a texture */
 
 static int wrapped(double at, int size, enum model_wrap wrap)
@@ -376,8 +416,8 @@ static unsigned pack_565(uint32_t argb)
     return r << 11 | g << 5 | ((unsigned)channel_of(argb, 3) * 31 + 127) / 255;
 }
 
-/* Fills texels and palette; returns the squared error in codes. */
-static bool fill_texels(struct converter *c, const struct image *image, struct out_texture *t, double *error)
+/* Fills texels and palette; returns the squared error in codes of the first `whole` pixels. */
+static bool fill_texels(struct converter *c, const struct image *image, size_t whole, struct out_texture *t, double *error)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     size_t size = t->texture.format == SMEAR_TEXEL_8888 ? 4 : t->texture.format == SMEAR_TEXEL_565 ? 2 : 1;
@@ -407,12 +447,20 @@ static bool fill_texels(struct converter *c, const struct image *image, struct o
         } else {
             ((uint32_t *)texels)[i] = argb;
         }
-        *error += channel_error(argb, shown);
+        *error += i < whole ? channel_error(argb, shown) : 0;
     }
-    *error /= (double)count;
+    *error /= (double)whole;
     t->texture.texels = texels;
     t->texture.palette = palette;
     return true;
+}
+
+size_t convert_texel_count(const smear_texture *t)
+{
+    size_t count = 0;
+    for (int i = 0; i <= t->levels; i++)
+        count += (size_t)(t->width >> i > 0 ? t->width >> i : 1) * (size_t)(t->height >> i > 0 ? t->height >> i : 1);
+    return count;
 }
 
 static uint8_t wrap_of(enum model_wrap wrap)
@@ -454,10 +502,16 @@ bool texture_for(struct converter *c, const struct model_material *m, int *textu
     if (made.same < c->texture.count) {
         made.texture.texels = all[made.same].texture.texels;
         made.texture.palette = all[made.same].texture.palette;
+        made.texture.levels = all[made.same].texture.levels;
         made.palette_count = all[made.same].palette_count;
     } else {
+        struct image leveled = *image;
+        int levels = 0;
         double error;
-        if (!fill_texels(c, image, &made, &error))
+        if (has_levels(c, m->image, image) && !leveled_picture(c, image, &levels, &leveled))
+            return false;
+        made.texture.levels = (uint8_t)levels;
+        if (!fill_texels(c, &leveled, (size_t)image->width * (size_t)image->height, &made, &error))
             return false;
         report.rms = sqrt(error);
     }
