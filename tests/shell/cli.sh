@@ -760,8 +760,8 @@ usage --reach render "$plate" --reach 17 --tile 16
 usage --tile render "$plate" --method auto --tile 4
 usage --edges render "$plate" --method timemask --edges smooth
 usage --edges render "$plate" --edges soft
-claim "smooth edges without a shutter" render "$plate" --size 64x48 --shutter 0 --edges smooth -o edges.ppm
-claim "hard edges without a shutter" render "$plate" --size 64x48 --shutter 0 -o sharp.ppm
+claim "smooth edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 --edges smooth -o edges.ppm
+claim "hard edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.ppm
 claim "smooth edges are others than hard ones" differ edges.ppm sharp.ppm
 usage --reach render "$plate" --reach 50%
 for tile in 0 2 12 128 16.0 -8 ''; do
