@@ -123,6 +123,7 @@ fi
 needs python3 "python3" || true        # cli.sh reads statistics with it
 suite command-line sh tests/shell/cli.sh build/smear
 suite outputs sh tests/shell/outputs.sh build/smear
+suite arenas sh tests/shell/arenas.sh build/smear
 suite strangers sh tests/shell/strangers.sh build/smear
 suite build-hostile $make -s build/host/hostile
 suite limits sh tests/shell/limits.sh build/smear build/host/hostile
