@@ -182,8 +182,8 @@ void smear_points_draw(const struct smear_rows *rows, uint32_t *out, const uint1
         b.blends = point->mode != SMEAR_POINT_ADD;
         b.red_blue = (uint32_t)point->color[0] << 16 | point->color[2];
         b.green = point->color[1];
-        for (int k = 0; SMEAR_WITH_LINEAR && b.linear && k < 3; k++)
-            b.light[k] = smear_srgb_decode[point->color[k]];
+        for (int k = 0; SMEAR_WITH_LINEAR && k < 3; k++)
+            b.light[k] = b.linear ? smear_srgb_decode[point->color[k]] : 0;
         draw_row(p, &b, out + (first - x0), depth + (first - x0), n, first, y);
     }
 }

@@ -110,10 +110,10 @@ struct run {
     int32_t x0, x1;
 };
 
-/* Finds the next run of a band from column r->x1 on, which begins a unit, before column x1. */
+/* Finds the next run of a band before column x1, in units that begin at column r->x1 or later. */
 static inline bool next_run(const struct smear_edge_units *e, struct run *r, int band, int32_t x1)
 {
-    int32_t i = r->x1 >> EDGE_UNIT_LOG2;
+    int32_t i = (r->x1 + (1 << EDGE_UNIT_LOG2) - 1) >> EDGE_UNIT_LOG2;
     while (i << EDGE_UNIT_LOG2 < x1 && (e->bands[i] >> band & 1u) == 0)
         i++;
     r->x0 = i << EDGE_UNIT_LOG2;

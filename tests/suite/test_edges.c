@@ -18,6 +18,11 @@ static smear_desc desc_of(uint32_t methods)
     return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .tile = 16, .methods = (uint16_t)methods };
 }
 
+static size_t bytes_of(const smear_desc *desc)
+{
+    return 4 * (size_t)(desc->width * desc->height);
+}
+
 /* Frame number `last` of the busy scene, whose camera stands still; the caller frees it. */
 static uint8_t *picture_of(const smear_desc *desc, int method, smear_edges edges, bool linear, int last)
 {
@@ -44,9 +49,9 @@ static uint8_t *picture_of(const smear_desc *desc, int method, smear_edges edges
     }
     crew_stop(crew);
     CHECK(guards_intact(&r));
-    picture = malloc(PIXELS * 4);
+    picture = malloc(bytes_of(desc));
     if (picture != NULL)
-        memcpy(picture, r.picture, PIXELS * 4);
+        memcpy(picture, r.picture, bytes_of(desc));
     rig_end(&r);
     return picture;
 }
@@ -54,7 +59,7 @@ static uint8_t *picture_of(const smear_desc *desc, int method, smear_edges edges
 static void check_same(const smear_desc *desc, int method, bool linear, const uint8_t *want, int last)
 {
     uint8_t *got = picture_of(desc, method, SMEAR_EDGES_SMOOTH, linear, last);
-    CHECK(want != NULL && got != NULL && memcmp(want, got, PIXELS * 4) == 0);
+    CHECK(want != NULL && got != NULL && memcmp(want, got, bytes_of(desc)) == 0);
     free(got);
 }
 
@@ -103,6 +108,23 @@ static void test_narrow_strips_are_smooth(void)
         uint8_t *want = picture_of(&desc, SMEAR_AUTO, SMEAR_EDGES_SMOOTH, false, 0);
         CHECK(hard != NULL && want != NULL && memcmp(hard, want, PIXELS * 4) != 0);
         desc.workers = 3;
+        desc.idle = crew_idle;
+        check_same(&desc, SMEAR_AUTO, false, want, 0);
+        free(hard);
+        free(want);
+    }
+}
+
+/* The last unit of eight columns is cut by the picture's side. */
+static void test_any_width_is_smooth(void)
+{
+    for (int width = WIDTH - 8; width < WIDTH; width++) {
+        smear_desc desc = desc_of(SMEAR_SET(SMEAR_AUTO));
+        desc.width = (int16_t)width;
+        uint8_t *hard = picture_of(&desc, SMEAR_AUTO, SMEAR_EDGES_HARD, false, 0);
+        uint8_t *want = picture_of(&desc, SMEAR_AUTO, SMEAR_EDGES_SMOOTH, false, 0);
+        CHECK(hard != NULL && want != NULL && memcmp(hard, want, bytes_of(&desc)) != 0);
+        desc.workers = 2;
         desc.idle = crew_idle;
         check_same(&desc, SMEAR_AUTO, false, want, 0);
         free(hard);
@@ -182,6 +204,7 @@ void suite_edges(void)
     RUN(test_workers_parts_and_what_is_kept_make_no_difference);
     RUN(test_methods_beside_make_no_difference);
     RUN(test_narrow_strips_are_smooth);
+    RUN(test_any_width_is_smooth);
     RUN(test_what_is_kept_is_drawn_again);
     RUN(test_other_methods_refuse);
     RUN(test_tiles_kept_without_the_picture_refuse);
