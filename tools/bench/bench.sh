@@ -5,7 +5,7 @@
 #
 #     [MAKE=make] sh tools/bench/bench.sh PROGRAM [REPORT...]
 #
-# With reports (peers, accuracy, methods, filters, threads, memory, formats, blur, targets) only those. Files are kept in
+# With reports (peers, accuracy, methods, filters, threads, memory, formats, blur, edges, targets) only those. Files are kept in
 # build/bench.
 set -eu
 

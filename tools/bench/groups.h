@@ -15,5 +15,6 @@ bool methods_take(int index, struct take *out);
 bool threads_take(int index, struct take *out);
 bool filters_take(int index, struct take *out);
 bool blur_take(int index, struct take *out);
+bool edges_take(int index, struct take *out);
 
 #endif

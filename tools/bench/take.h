@@ -40,6 +40,8 @@ struct take {
     bool shutter_poses;
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
+    bool smooth;                /* edges */
+    bool kept;                  /* what stands still, from frame to frame */
     bool texels_565;            /* textures as RGB565 */
     bool fit_grid;              /* meshes on grids that fit them */
     int workers;                /* 0: one */

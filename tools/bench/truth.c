@@ -158,49 +158,76 @@ static bool fingerprint_exact(struct rig *rig, uint32_t *crc, struct failure *f)
     return true;
 }
 
-static bool draw_exact(struct rig *rig, struct float_image *out, struct failure *f)
+/* Adds a picture that is `places` times as wide and high as the sums. */
+static void add_picture(double *sum, const struct image *picture, int places, const double value[256])
 {
-    size_t values = 3 * (size_t)rig->take.width * (size_t)rig->take.height;
+    const int width = picture->width / places, height = picture->height / places;
+    const uint8_t *p = picture->rgba;
+    for (int y = 0; y < height * places; y++)
+        for (int x = 0; x < width * places; x++, p += 4) {
+            double *at = sum + 3 * ((size_t)(y / places) * (size_t)width + (size_t)(x / places));
+            for (int c = 0; c < 3; c++)
+                at[c] += value[p[c]];
+        }
+}
+
+/* The rig draws `places` times as wide and high. */
+static bool draw_exact(struct rig *rig, int instants, int places, struct float_image *out, struct failure *f)
+{
+    const int width = rig->take.width / places, height = rig->take.height / places;
+    size_t values = 3 * (size_t)width * (size_t)height;
     double *sum = calloc(values, sizeof *sum), value[256];
     bool ok = sum != NULL || fail(f, "no memory for a truth");
     for (int code = 0; code < 256; code++)
         value[code] = rig->take.linear ? ref_srgb_decode(code / 255.0) : code / 255.0;
-    for (int i = 0; i < TRUTH_EXACT_INSTANTS && ok; i++) {
+    for (int i = 0; i < instants && ok; i++) {
         struct image picture;
-        ok = instant(rig, (i + 0.5) / TRUTH_EXACT_INSTANTS, &picture, f);
-        for (size_t k = 0; k < values && ok; k++)
-            sum[k] += value[picture.rgba[k / 3 * 4 + k % 3]];
-        if (ok)
+        ok = instant(rig, (i + 0.5) / instants, &picture, f);
+        if (ok) {
+            add_picture(sum, &picture, places, value);
             image_free(&picture);
+        }
     }
-    ok = ok && float_image_alloc(out, rig->take.width, rig->take.height, 3, f);
+    ok = ok && float_image_alloc(out, width, height, 3, f);
     for (size_t i = 0; i < values && ok; i++) {
-        double mean = sum[i] / TRUTH_EXACT_INSTANTS;
+        double mean = sum[i] / ((double)instants * places * places);
         out->value[i] = (float)(rig->take.linear ? ref_srgb_encode(mean) : mean);
     }
     free(sum);
     return ok;
 }
 
-bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
+static bool exact(const struct take *of, int instants, int places, const char *folder, struct float_image *out, struct failure *f)
 {
     const struct take take = {
-        .scene = of->scene, .width = of->width, .height = of->height, .clip = of->clip,
+        .scene = of->scene, .width = of->width * places, .height = of->height * places, .clip = of->clip,
         .frame = of->frame, .later = of->later, .format = SMEAR_XRGB8888,
         .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
     };
     struct rig rig;
     uint32_t crc;
-    char path[PATH_LIMIT], kind[32];
+    char path[PATH_LIMIT], kind[48], within[16] = "";
     if (!rig_open(&rig, &take, f))
         return false;
-    snprintf(kind, sizeof kind, "%s-%.0f", take.linear ? "linear" : "encoded", 1000.0 * take.later);
+    if (places > 1)
+        snprintf(within, sizeof within, "-%d", places);
+    snprintf(kind, sizeof kind, "%s-%.0f%s", take.linear ? "linear" : "encoded", 1000.0 * take.later, within);
     bool ok = fingerprint_exact(&rig, &crc, f)
-           && kept_path(path, folder, take.scene, TRUTH_EXACT_INSTANTS, kind, crc, f);
-    if (ok && !read_kept(path, rig.take.width, rig.take.height, out))
-        ok = draw_exact(&rig, out, f) && keep(path, out, f);
+           && kept_path(path, folder, take.scene, instants, kind, crc, f);
+    if (ok && !read_kept(path, rig.take.width / places, rig.take.height / places, out))
+        ok = draw_exact(&rig, instants, places, out, f) && keep(path, out, f);
     rig_close(&rig);
     return ok;
+}
+
+bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
+{
+    return exact(of, TRUTH_EXACT_INSTANTS, 1, folder, out, f);
+}
+
+bool truth_of_pixels(const struct take *of, int places, const char *folder, struct float_image *out, struct failure *f)
+{
+    return exact(of, TRUTH_INSTANTS, places, folder, out, f);
 }
 
 bool truth_exact(const char *scene, bool linear, double later, const char *folder,

@@ -27,6 +27,10 @@ bool truth_exact(const char *scene, bool linear, double later, const char *folde
 /* The same of the scene, frame and light of a take. */
 bool truth_of_take(const struct take *take, const char *folder, struct float_image *out, struct failure *f);
 
+/* The same of TRUTH_INSTANTS instants, each in the mean of `places` x `places` even places within the pixel: what smooth edges
+ * are measured against. Edges of at most 2048 / places pixels. */
+bool truth_of_pixels(const struct take *of, int places, const char *folder, struct float_image *out, struct failure *f);
+
 /* Rounded to codes: what the command line writes. *out is allocated here. */
 bool truth_round(const struct float_image *truth, struct image *out, struct failure *f);
 
