@@ -69,6 +69,7 @@ for format in rgb565 rgb565be rgb555 rgb332 l8 l4 l1 l1pages; do
 done
 claim "dither, light, shutter, exposure, samples" as_render $race 6-7 $small --format rgb332 \
     --dither blue --light encoded --shutter 300 --exposure trailing --method reconstruct --samples 5
+claim "smooth edges" as_render $race 3-4 $small --edges smooth
 claim "poses at the shutter" as_render $race 6-7 $small --poses shutter
 claim "a cut" as_render $race 6-7 $small --cut 7
 claim "threads" as_render $race 6-7 $small --threads 3
@@ -153,6 +154,10 @@ claim "shutter ends at 360" setting "$(printf '1 key ]\\n%.0s' 1 2 3 4 5 6 7 8 9
 claim "n: samples" setting '1 key m\n1 key m\n1 key n\n' --method accumulate --samples 12
 claim "N: samples" setting '1 key m\n1 key m\n1 key m\n1 key m\n1 key m\n1 key N\n' --method timemask --samples 16
 claim "l: light" setting '1 key l\n' --light encoded
+claim "h: smooth edges" setting '1 key h\n' --edges smooth
+claim "h: hard edges again" setting '1 key h\n1 key h\n' --edges hard
+claim "smooth edges, where a method has them" setting '1 key h\n1 key b\n' --method none
+claim "smooth edges come back with the method" setting '1 key h\n1 key m\n1 key M\n' --edges smooth
 claim "f: format" setting '1 key f\n' --format rgb565
 claim "F: format" setting '1 key F\n' --format l1pages
 claim "d: dither" setting '1 key f\n1 key d\n' --format rgb565 --dither none
@@ -404,6 +409,7 @@ wrong --exact --exact --method accumulate
 wrong --stats --stats x.json
 wrong --nonsense --nonsense
 wrong --method --method magic
+wrong --edges --edges smooth --method reconstruct
 wrong --frames --frames
 wrong two one two
 wrong --clip builtin:demo/race --clip 1

@@ -30,8 +30,14 @@ static smear_method other_method(smear_method now, int way)
     return method_list[(at + way + method_count) % method_count].method;
 }
 
-/* Slots of timemask are 8, 16 or 32; switching to it must not fail for a number of taps. */
-static void fit_samples(struct render_options *o)
+smear_edges control_edges(const struct view *v, const struct render_options *o)
+{
+    const bool has_smooth = (o->method == SMEAR_AUTO || o->method == SMEAR_SUBFRAMES) && (!o->keep_display || o->cache_static);
+    return has_smooth ? v->edges : SMEAR_EDGES_HARD;
+}
+
+/* What the method does not have must not keep it from being chosen. Slots of timemask are 8, 16 or 32. */
+static void fit_method(const struct view *v, struct render_options *o)
 {
     if (o->method == SMEAR_TIMEMASK && o->samples != 8 && o->samples != 16)
         o->samples = 0;
@@ -39,6 +45,7 @@ static void fit_samples(struct render_options *o)
         o->reconstruct = 0;
     if (o->method != SMEAR_CAMERA && o->method != SMEAR_HALF)
         o->filter = SMEAR_FILTER_DEFAULT;
+    o->edges = control_edges(v, o);
 }
 
 /* Other options for one lane; told when they do not work. */
@@ -59,6 +66,7 @@ static void apply_both(struct view *v, const struct render_options *main)
         left.method = v->left.options.method;
         left.samples = v->left.options.samples;
         left.reconstruct = v->left.options.reconstruct;
+        left.edges = control_edges(v, &left);
         apply(v, &v->left, &left);
     }
 }
@@ -70,7 +78,7 @@ static void do_blur(struct view *v, int way)
     if (o.method != SMEAR_NONE)
         v->blurred = o.method;
     o.method = o.method != SMEAR_NONE ? SMEAR_NONE : v->blurred;
-    fit_samples(&o);
+    fit_method(v, &o);
     apply(v, &v->main, &o);
     view_say(v, "blur %s", o.method == SMEAR_NONE ? "off" : "on");
 }
@@ -79,7 +87,7 @@ static void do_method(struct view *v, int way)
 {
     struct render_options o = v->main.options;
     o.method = other_method(o.method, way);
-    fit_samples(&o);
+    fit_method(v, &o);
     apply(v, &v->main, &o);
     view_say(v, "method %s", control_method_name(o.method));
 }
@@ -159,6 +167,17 @@ static void do_dither(struct view *v, int way)
     view_say(v, "dither %s", names[o.dither]);
 }
 
+static void do_edges(struct view *v, int way)
+{
+    struct render_options o = v->main.options;
+    (void)way;
+    v->edges = v->edges == SMEAR_EDGES_HARD ? SMEAR_EDGES_SMOOTH : SMEAR_EDGES_HARD;
+    o.edges = control_edges(v, &o);
+    apply_both(v, &o);
+    view_say(v, "edges %s%s", v->edges == SMEAR_EDGES_HARD ? "hard" : "smooth",
+             o.edges == v->edges ? "" : ", where settings allow it");
+}
+
 /* ------------------------------------------------------------------ time */
 
 static void do_pause(struct view *v, int way)
@@ -211,7 +230,7 @@ static void do_split(struct view *v, int way)
     if (!v->is_split || v->left.is_open)
         return;
     o.method = SMEAR_NONE;
-    fit_samples(&o);
+    fit_method(v, &o);
     apply(v, &v->left, &o);
 }
 
@@ -224,7 +243,7 @@ static void do_left(struct view *v, int way)
     struct render_options o = v->left.options;
     o.method = other_method(o.method, way);
     o.samples = v->main.options.samples;
-    fit_samples(&o);
+    fit_method(v, &o);
     apply(v, &v->left, &o);
     view_say(v, "left %s", control_method_name(o.method));
 }
@@ -469,6 +488,7 @@ const struct control control_list[] = {
     { "l", { 'l', 0 }, do_light, "light: linear, encoded" },
     { "f F", { 'f', 'F' }, do_format, "format of the panel" },
     { "d", { 'd', 0 }, do_dither, "dither" },
+    { "h", { 'h', 0 }, do_edges, "edges: hard, smooth (auto, subframes)" },
     { "v", { 'v', 0 }, do_split, "split screen" },
     { "V", { 'V', 0 }, do_left, "method of its left half" },
     { "> <", { '>', '<' }, do_divider, "its divider (or drag, right button)" },

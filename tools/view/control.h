@@ -14,6 +14,9 @@ struct control {
 
 extern const struct control control_list[];     /* keys null ends it */
 
+/* The edges that these options get: those asked for, or hard where there are no others. */
+smear_edges control_edges(const struct view *view, const struct render_options *options);
+
 /* Keys, drags and wheels; anything else is left alone. */
 void control_event(struct view *view, const struct event *event);
 

@@ -53,8 +53,9 @@ static void add_settings(struct page *p, const struct view *v)
             control_method_name(o->method), samples, o->shutter_degrees);
     else
         add(p, "%s%s  shutter %d", control_method_name(o->method), samples, o->shutter_degrees);
-    add(p, "%dx%d %s  %s light", v->main.setup.width, v->main.setup.height,
-        options_format_name(o->format), o->light == SMEAR_LIGHT_LINEAR ? "linear" : "encoded");
+    add(p, "%dx%d %s  %s light%s", v->main.setup.width, v->main.setup.height,
+        options_format_name(o->format), o->light == SMEAR_LIGHT_LINEAR ? "linear" : "encoded",
+        o->edges == SMEAR_EDGES_HARD ? "" : "  smooth edges");
 }
 
 static void add_time(struct page *p, const struct view *v)

@@ -75,6 +75,7 @@ struct view {
     bool is_split;
     int divider;                    /* thousandths of the panel's width */
     smear_method blurred;           /* what `b` goes back to */
+    smear_edges edges;              /* where settings allow smooth ones */
 
     int64_t at;                     /* 64ths of frames */
     int frames_apart;               /* frames from the picture before */

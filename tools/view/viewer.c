@@ -572,6 +572,7 @@ static int open_lanes(struct view *v, const struct render_options *options)
         struct render_options left = *options;
         left.method = v->wish.split;
         left.reconstruct = 0;
+        left.edges = control_edges(v, &left);
         v->is_split = true;
         if (!lane_open(&v->left, &left, v->source, &f))
             return say_bad_input(v->source->name, &f);
@@ -633,6 +634,7 @@ static void release(struct view *v)
 int view_run(struct view *v, const struct render_options *options)
 {
     v->blurred = options->method != SMEAR_NONE ? options->method : SMEAR_AUTO;
+    v->edges = options->edges;
     v->look = v->wish.look;
     v->divider = 500;
     v->speed = VIEW_UNITS;
