@@ -760,6 +760,7 @@ usage --reach render "$plate" --reach 17 --tile 16
 usage --tile render "$plate" --method auto --tile 4
 usage --edges render "$plate" --method timemask --edges smooth
 usage --edges render "$plate" --edges soft
+usage --edges render "$plate" --edges smooth --keep-display
 claim "smooth edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 --edges smooth -o edges.ppm
 claim "hard edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.ppm
 claim "smooth edges are others than hard ones" differ edges.ppm sharp.ppm

@@ -406,6 +406,7 @@ wrong --check --check x
 wrong --out --out null
 wrong -o -o x.png
 wrong --exact --exact --method accumulate
+wrong --edges --edges smooth --board rp2040
 wrong --stats --stats x.json
 wrong --nonsense --nonsense
 wrong --method --method magic
@@ -438,6 +439,17 @@ sees_all() { # METHOD: every debug view of two halves of a screen; frames stay w
 for method in auto none accumulate reconstruct subframes timemask camera pingpong half object layered; do
     claim "all debug views of $method" sees_all $method
 done
+
+smooth_edges() { # methods that have none are drawn with hard ones
+    for method in none timemask object; do
+        view $race $small --edges smooth --split $method --frames 2 --crc || return 1
+        equals "$(crcs)" "$(render_crcs $race 0-1 $small --edges smooth)" || return 1
+    done
+    echo '0 key b' >"$base/in/keys"
+    view $race $small --edges smooth --frames 2 --play "$base/in/keys" --crc || return 1
+    equals "$(crcs)" "$(render_crcs $race 0-1 $small --method none)"
+}
+claim "smooth edges beside hard ones" smooth_edges
 
 controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
 claim "the page of tools lists all controls" eval '"$smear" help view >help && controls help >wanted &&

@@ -58,7 +58,7 @@ static const char *const render_help[] = {
     "                        background has its colour, and nothing is drawn beyond it [none]\n"
     "  --edges hard|smooth   auto, subframes: what lies on both sides of an edge is mixed where it\n"
     "                        passes a pixel; --exact: of 16 x 16 places in each pixel, or as many\n"
-    "                        as make a picture of 2048 [hard]\n"
+    "                        as make a picture of 2048; with --keep-display beside --keep-still [hard]\n"
     "\n",
     "Blur\n"
     "  --shutter DEG|SECONDS 360 is the whole frame time; rounded to whole degrees, up to 3600;\n"

@@ -85,8 +85,6 @@ int setup_change(const struct render_options *o, const struct source *source, st
     out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
     if (o->tile == 4 && (is_temporal_method(o) || is_layered_method(o) || o->scatter || o->method == SMEAR_HALF))
         return say_bad_usage("--tile", "4 is for none, accumulate, reconstruct, camera and pingpong");
-    if (o->edges != SMEAR_EDGES_HARD && !o->exact && o->method != SMEAR_AUTO && o->method != SMEAR_SUBFRAMES)
-        return say_bad_usage("--edges", "smooth is for auto and subframes, and for --exact");
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
 

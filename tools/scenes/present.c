@@ -484,8 +484,9 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .light_space = (uint8_t)o->light, .cut = o->cut || o->instant_only,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target, .budget = o->budget,
                             .clear = o->clear, .layer = o->layer, .layer_count = (uint8_t)o->layer_count };
+    if (o->method == SMEAR_AUTO || o->method == SMEAR_SUBFRAMES)
+        frame->edges = (uint8_t)o->edges;
     /* A sharp frame with smooth edges is one in which nothing moves. */
-    frame->edges = smear_method_is_temporal(o->method) ? (uint8_t)o->edges : SMEAR_EDGES_HARD;
     if (degrees == 0 && frame->edges != SMEAR_EDGES_HARD) {
         frame->method = (uint8_t)o->method;
         frame->cut = 1;
