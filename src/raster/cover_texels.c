@@ -30,8 +30,7 @@ static inline int32_t weigh(struct beyond b, int32_t w1, int32_t w2)
 enum light_kind {
     LIGHT_NONE,
     LIGHT_WHITE,            /* red, green and blue alike */
-    LIGHT_COLORED,
-    LIGHT_IN_FOG            /* any, and one part of fog */
+    LIGHT_COLORED
 };
 
 /* Coordinates of v[0] (q15 mesh units) and changes of them; depth, units q11; e, q15; light, 16 bits. */
@@ -42,7 +41,8 @@ struct few_texels {
     int from_u, from_v;
     uint32_t mask_u, mask_v;
     enum light_kind kind;
-    int32_t light[4];               /* r g b a */
+    bool in_fog;                    /* one part of it */
+    int32_t light[4];               /* r g b a; in white light those of r and g are not set */
     struct beyond to_light[4];
 };
 
@@ -217,7 +217,7 @@ SMEAR_INLINE void put_texel(const struct setup *s, const struct few_texels *k, i
                 return;
         }
         uint32_t pixel = k->kind == LIGHT_NONE ? p : light_texel(k, p, w1, w2, frame_is_linear(s->frame));
-        if (SMEAR_WITH_FOG && k->kind == LIGHT_IN_FOG)
+        if (SMEAR_WITH_FOG && k->in_fog)
             pixel = fog_pixel(s->frame, pixel, fog_even_part(s));
         target_put(t, at, pixel);
     }
@@ -269,19 +269,15 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
     k.kind = LIGHT_NONE;
     if (s->segment->shade != SHADE_NONE && !load_light(&k, s))
         return false;
-    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
-        if (fog_varies(s))
-            return false;
-        if (k.kind == LIGHT_NONE)
-            load_flat_light(&k, UINT32_MAX, frame_is_linear(s->frame));
-        k.kind = LIGHT_IN_FOG;
-    }
+    if (SMEAR_WITH_FOG && fog_varies(s))
+        return false;
+    k.in_fog = fog_of(s) != FOG_NONE;
     const bool turns = load_turns(&k, m);
     if (!turns)
         k.from_v = -1;
 #if FEW_COPIES
     const bool narrow = target_is_direct(s->target);
-    if (turns && k.kind == LIGHT_NONE && draw_is_opaque(s->draw)
+    if (turns && k.kind == LIGHT_NONE && !k.in_fog && draw_is_opaque(s->draw)
         && m->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (narrow)
             draw_few(s, &k, area, box, FEW_NARROW);

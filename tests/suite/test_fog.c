@@ -269,23 +269,28 @@ static void test_workers_and_parts_draw_the_same_fog(void)
         }
 }
 
-/* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
-/* Triangles of a pixel or two, which bands cut: each has one part of fog. */
-static void test_bands_cut_no_fog(void)
+enum { TINY = 1500 };
+
+/* Triangles of a pixel or two. */
+static smear_mesh tiny_triangles(void)
 {
-    enum { TRIANGLES = 1500 };
-    static int16_t place[TRIANGLES * 9];
-    static uint16_t index[TRIANGLES * 3];
-    uint8_t *picture = NULL;
+    static int16_t place[TINY * 9];
+    static uint16_t index[TINY * 3];
     random_state = 71;
-    for (int i = 0; i < TRIANGLES * 3; i++)
+    for (int i = 0; i < TINY * 3; i++)
         for (int k = 0; k < 3; k++) {
             const int size = k == 2 ? 20 : 26, at = k == 2 ? between(-1500, -800) : between(-700, 700);
             place[3 * i + k] = (int16_t)(i % 3 == 0 ? at : place[3 * (i - i % 3) + k] + between(-size, size));
             index[i] = (uint16_t)i;
         }
-    const smear_mesh mesh = { .position = place, .index = index, .vertex_count = TRIANGLES * 3,
-                              .triangle_count = TRIANGLES, .shift = STEP };
+    return (smear_mesh){ .position = place, .index = index, .vertex_count = TINY * 3, .triangle_count = TINY, .shift = STEP };
+}
+
+/* Those that bands cut have one part of fog each. */
+static void test_bands_cut_no_fog(void)
+{
+    uint8_t *picture = NULL;
+    const smear_mesh mesh = tiny_triangles();
     const smear_material material = { .color = { 255, 255, 255, 255 }, .double_sided = 1, .unlit = 1 };
     const smear_draw draw = { .mesh = &mesh, .material = &material };
     const smear_camera camera = camera_at(0, 0, 0, 0);
@@ -306,6 +311,48 @@ static void test_bands_cut_no_fog(void)
     free(picture);
 }
 
+/* White texels in grey light and grey fog are grey, and as triangles without a texture. */
+static void test_tiny_triangles_with_texels_have_their_fog(void)
+{
+    static int16_t uv[TINY * 6];
+    static uint8_t grey[TINY * 12];
+    static const uint32_t white = 0xffffffffu;
+    static const smear_texture texture = { .texels = &white, .width = 1, .height = 1 };
+    uint8_t *picture = NULL;
+    smear_mesh mesh = tiny_triangles();
+    for (int i = 0; i < TINY * 3; i++)
+        memset(grey + 4 * i, 40 + i * 7 % 160, 4), grey[4 * i + 3] = 255;
+    mesh.color = grey;
+    const smear_camera camera = camera_at(0, 0, 0, 0);
+    const smear_fog fog = { .color = 0x808080, .near_plane = q16(fog_near), .far_plane = q16(fog_far) };
+    for (int k = 0; k < 4; k++) {
+        struct rig r;
+        const smear_desc desc = desc_of(SMEAR_SET(SMEAR_NONE));
+        const smear_material material = { .texture = k % 2 == 1 ? &texture : NULL, .double_sided = 1, .unlit = 1 };
+        const smear_draw draw = { .mesh = &mesh, .material = &material };
+        const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .fog = &fog,
+                                    .light_space = (uint8_t)(k < 2 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED) };
+        mesh.uv = k % 2 == 1 ? uv : NULL;
+        if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK)) {
+            int colored = 0, other = 0;
+            for (int i = 0; i < PIXELS; i++) {
+                const uint8_t *p = r.picture + 4 * i;
+                colored += p[0] != p[1] || p[1] != p[2];
+                other += k % 2 == 1 && picture != NULL && abs(p[0] - picture[4 * i]) > 4;
+            }
+            CHECK_EQ(colored, 0);
+            CHECK(other <= 2);                  /* of one depth, another one may be in front */
+            free(picture);
+            picture = malloc(PIXELS * 4);
+            if (CHECK(picture != NULL))
+                memcpy(picture, r.picture, PIXELS * 4);
+        }
+        rig_end(&r);
+    }
+    free(picture);
+}
+
+/* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
 static void test_what_is_kept_is_drawn_again_in_other_fog(void)
 {
     struct rig r[2];
@@ -366,6 +413,7 @@ void suite_fog(void)
     RUN(test_what_is_nearer_than_fog_stays_as_it_is);
     RUN(test_workers_and_parts_draw_the_same_fog);
     RUN(test_bands_cut_no_fog);
+    RUN(test_tiny_triangles_with_texels_have_their_fog);
     RUN(test_what_is_kept_is_drawn_again_in_other_fog);
     RUN(test_the_text_of_bad_fog_names_the_field);
 }
