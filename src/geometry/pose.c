@@ -237,7 +237,7 @@ static void place_deformed(struct smear_placement *out, const struct smear_draw_
     struct smear_projection term[3] = { out->now, out->now, out->now };
     /* The parabola's share of each: 1, -2, 1 times t (t + 1) / 2. */
     const bool bends = p->position[2] != p->position[0];
-    const int32_t bend = bends ? (int32_t)(((int64_t)time * time + ((int64_t)time << 24)) >> 25) : 0;
+    const int32_t bend = bends ? (int32_t)((int64_t)time * (time + (1 << 24)) >> 25) : 0;
     const int32_t older = part_at(p, -bend), last = part_at(p, time) - 2 * older;
     const int32_t weight[3] = { (1 << 24) - last - older, last, older };
     out->extra_count = bends ? 2 : 1;

@@ -536,6 +536,47 @@ static void test_deformation_scales_with_objects(void)
     rig_end(&r);
 }
 
+/* The square's upper edge at a time in frames, falling: positions of one and two frames ago tell where it is while the shutter
+ * is open, as those of that moment do. */
+static void bend_square(int16_t position[12], double time)
+{
+    for (int k = 0; k < 12; k++)
+        position[k] = (int16_t)(square_position[k] + (k < 6 || k % 3 == 2 ? 0.0 : (k % 3 == 0 ? 32.0 : 16.0) * time * (8.0 + time)));
+}
+
+static void test_vertices_follow_the_curve_of_three_poses(void)
+{
+    static const uint8_t methods[] = { SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_AUTO, SMEAR_TIMEMASK };
+    static const double time[2][2] = { { -1, -2 }, { -0.25, 0.25 } };
+    static int16_t bent[2][2][12];
+    struct rig r;
+    smear_desc desc = small_desc(WIDTH, HEIGHT);
+    desc.methods = SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
+    for (int i = 0; i < 4; i++)
+        bend_square(bent[i / 2][i % 2], time[i / 2][i % 2]);
+    for (int m = 0; m < 4 && rig_begin(&r, &desc, false); m++) {
+        uint8_t *picture[2];
+        for (int poses = 0; poses < 2; poses++) {
+            struct stage s;
+            stage_make(&s, methods[m]);
+            s.frame.samples = 16;
+            s.frame.shutter.poses = (uint8_t)poses;
+            s.draw[1].close = &s.square;
+            s.draw[1].open_position = bent[poses][0];
+            s.draw[1].close_position = bent[poses][1];
+            picture[poses] = rig_copy(&r, &s.frame, s.draw, 2);
+        }
+        int different = 0;
+        for (int k = 0; k < WIDTH * HEIGHT * 4 && CHECK(picture[0] != NULL && picture[1] != NULL); k++)
+            different += abs(picture[0][k] - picture[1][k]) > 2;
+        if (!CHECK(different <= 8))
+            say("      method %d: %d bytes differ\n", methods[m], different);
+        free(picture[0]);
+        free(picture[1]);
+        rig_end(&r);
+    }
+}
+
 /* ------------------------------------------------------------------ the shutter and the frame time */
 
 /* Length of the motion from the square's streak in its middle row: the square, 16 px wide, covers the pixels between the
@@ -631,6 +672,7 @@ void suite_motion(void)
     RUN(test_the_blur_ends_in_the_frame_in_which_motion_ends);
     RUN(test_rotation_translation_and_objects_scale_apart);
     RUN(test_deformation_scales_with_objects);
+    RUN(test_vertices_follow_the_curve_of_three_poses);
     RUN(test_fixed_shutters_keep_the_length_of_streaks);
     RUN(test_the_exposure_of_a_fixed_shutter_is_exact);
 }
