@@ -153,8 +153,8 @@ static void place(struct smear_assembly *a, const struct smear_context *c, struc
         return;
     const struct smear_instant open = smear_instant_at(&c->shot, -65536), close = smear_instant_at(&c->shot, 65536);
     a->path = true;
-    smear_draw_poses_place(&a->key[0], p, &c->shot, a->mesh, &open);
-    smear_draw_poses_place(&a->key[1], p, &c->shot, a->mesh, &close);
+    smear_draw_poses_place(&a->motion.key[0], p, &c->shot, a->mesh, &open);
+    smear_draw_poses_place(&a->motion.key[1], p, &c->shot, a->mesh, &close);
 }
 
 /* Makes everything the assembler needs of draw `i` at an instant. False where nothing of it is in view. */

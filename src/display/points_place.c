@@ -147,7 +147,7 @@ static void make_lens(struct lens *l, const struct smear_rows *rows, const struc
     const uint64_t square = (uint64_t)((int64_t)m[0] * m[0]) + (uint64_t)((int64_t)m[1] * m[1])
                           + (uint64_t)((int64_t)m[2] * m[2]);
     l->unit = (int32_t)(sqrt_floor_64(square) >> 1);
-    l->depth_shift = l->projection.depth_shift;
+    l->depth_shift = l->projection.depths.depth_shift;
     /* Pixels per unit at distance 1 are focal height / 2. */
     const uint32_t pixels = (uint32_t)max_i32(narrow_sat((int64_t)l->shot->camera[0].focal * l->viewport.height >> 17), 1);
     l->pixel = is_orthographic(&l->projection) ? 0 : 65536u / pixels;
@@ -360,20 +360,20 @@ static bool place(smear_point *point, struct lens *l)
         unscale(&end[1].h, shift, p);
         shift = 0;
     }
-    const int32_t near = max_i32(scale_sat(p->near_distance, clamp_i32(-shift, -31, 31)), 1);
-    const int32_t far = p->far_distance == INT32_MAX ? INT32_MAX : scale_sat(p->far_distance, clamp_i32(-shift, -31, 31));
+    const int32_t near = max_i32(scale_sat(p->depths.near_distance, clamp_i32(-shift, -31, 31)), 1);
+    const int32_t far = p->depths.far_distance == INT32_MAX ? INT32_MAX : scale_sat(p->depths.far_distance, clamp_i32(-shift, -31, 31));
     const uint32_t seen = clip_near(end, near);
     if (seen == 0 || (end[0].h.distance > far && end[1].h.distance > far))
         return false;
     const int32_t radius = radius_of(l, point->size, (end[0].h.w >> 1) + (end[1].h.w >> 1) + 1, shift + 8);
     const struct dot dot = dot_of(radius, (seen >> 1) * ((255u - point->fade) * 257u + (point->fade == 0)) >> 15);
-    p->depth_shift = (int16_t)(l->depth_shift - (is_orthographic(p) ? 0 : shift));
+    p->depths.depth_shift = (int16_t)(l->depth_shift - (is_orthographic(p) ? 0 : shift));
     for (int e = 0; e < 2; e++) {
         const int32_t nearer = scale_sat(point->size, clamp_i32(p->distance_scale - 17, -31, 31));
         if (is_orthographic(p))
             end[e].h.distance = max_i32(sub_wrap(end[e].h.distance, nearer), near);
         end[e].h.w = max_i32(end[e].h.w, 1);
-        smear_project(&end[e].s, p, &end[e].h, &l->viewport);
+        smear_project(&end[e].s, &p->depths, &end[e].h, &l->viewport);
     }
     const int32_t middle = (end[0].s.depth >> 1) + (end[1].s.depth >> 1);
     const uint32_t nearer = mulh_u32((uint32_t)middle << 4, (uint32_t)radius * l->pixel << 2), /* in 4 steps */

@@ -378,8 +378,9 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
 {
     const struct smear_placement *at = &b->d->at;
     const struct smear_projection *p = &at->now;
+    const struct smear_depths *depths = &p->depths;
     const struct place_setup setup = {
-        p->m, p->near_distance, p->far_distance, p->depth_mantissa, p->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
+        p->m, depths->near_distance, depths->far_distance, depths->depth_mantissa, depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
         b->a->viewport.width << 7, b->a->viewport.height << 7
     };
     const bool by_fours = !is_orthographic(p) && !(SMEAR_WITH_DEFORM && at->extra_count != 0);

@@ -29,7 +29,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached
 
 static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
 {
-    return key == MIDDLE ? &d->at : &d->key[key];
+    return key == MIDDLE ? &d->at : &d->motion.key[key];
 }
 
 static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
@@ -232,12 +232,20 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
 
 /* ------------------------------------------------------------------ clipped */
 
-/* What a triangle is clipped against: the exposure, or one of PATH_INTERVALS parts of it. */
-struct cut {
-    struct smear_projection projection[KEYS];
+/* A triangle while it is clipped. It is large and lies on the stack: there is one, and all ways to clip work on it. */
+struct clipping {
+    struct smear_clip_polygon polygon;      /* vertex[0 .. 2] are the triangle's own, in the mesh's order */
+    /* What it is clipped against: the exposure, or one of PATH_INTERVALS parts of it. */
+    struct smear_depths depths[KEYS];
     int codes[KEYS];
-    uint8_t interval;           /* as in struct smear_path_bounds */
+    uint8_t interval;                       /* as in struct smear_path_bounds */
+    struct smear_face face;
 };
+
+static struct smear_homogeneous *place_at(struct smear_clip_vertex *v, int key)
+{
+    return key == MIDDLE ? &v->now : &v->pose[key];
+}
 
 /* Exchanges the present pose, which is the one that is clipped, with another one. */
 static void exchange(struct smear_clip_polygon *p, int key)
@@ -251,58 +259,69 @@ static void exchange(struct smear_clip_polygon *p, int key)
 }
 
 /* Clips to what is in front of the near plane and within the guard band at all three instants. */
-static void clip_all(struct smear_clip_polygon *p, const struct cut *cut)
+static void clip_all(struct clipping *c)
 {
-    smear_clip_polygon(p, &cut->projection[MIDDLE], cut->codes[MIDDLE]);
+    struct smear_clip_polygon *p = &c->polygon;
+    smear_clip_polygon(p, &c->depths[MIDDLE], c->codes[MIDDLE]);
     for (int key = OPEN; key <= CLOSE && p->count != 0; key++) {
         exchange(p, key);
-        smear_clip_polygon(p, &cut->projection[key], cut->codes[key] & ~OUT_FAR);
+        smear_clip_polygon(p, &c->depths[key], c->codes[key] & ~OUT_FAR);
         exchange(p, key);
     }
 }
 
-static void project_corner(struct smear_screen screen[KEYS], const struct smear_clip_vertex *v,
-                           const struct cut *cut, const struct smear_viewport *viewport)
+/* Divides what is left. Places on the screen take the room of those before the division: x, y, and depth for w. The distance in
+ * the middle becomes the corner's record in the pool: word + 1, or 0. */
+static void project_corners(struct clipping *c, const struct smear_viewport *viewport)
 {
-    for (int key = 0; key < KEYS; key++) {
-        smear_project(&screen[key], &cut->projection[key], key == MIDDLE ? &v->now : &v->pose[key], viewport);
-        screen_clamp(&screen[key], viewport);
+    for (int i = 0; i < c->polygon.count; i++) {
+        struct smear_clip_vertex *v = clip_corner(&c->polygon, i);
+        for (int key = 0; key < KEYS; key++) {
+            struct smear_homogeneous *h = place_at(v, key);
+            struct smear_screen screen;
+            smear_project(&screen, &c->depths[key], h, viewport);
+            screen_clamp(&screen, viewport);
+            *h = (struct smear_homogeneous){ screen.x, screen.y, screen.depth, 0 };
+        }
     }
 }
 
-/* What clipping leaves of a triangle. */
-struct polygon {
-    struct smear_clip_polygon clip;
-    struct smear_screen screen[SMEAR_CLIP_MAX][KEYS];
-    uint32_t stored[SMEAR_CLIP_MAX];    /* as in struct path_vertex */
-    uint8_t interval;
-};
-
-static int64_t area_at(const struct polygon *p, int i, int k, int key)
+static struct smear_screen screen_at(struct clipping *c, int corner, int key)
 {
-    return area_of(&p->screen[0][key], &p->screen[i][key], &p->screen[k][key]);
+    const struct smear_homogeneous *h = place_at(clip_corner(&c->polygon, corner), key);
+    return (struct smear_screen){ h->x, h->y, h->w };
 }
 
-static uint32_t store_corner(const struct path_batch *b, struct polygon *p, int i)
+static int64_t area_at(struct clipping *c, int i, int k, int key)
+{
+    const struct smear_screen p0 = screen_at(c, 0, key), p1 = screen_at(c, i, key), p2 = screen_at(c, k, key);
+    return area_of(&p0, &p1, &p2);
+}
+
+static uint32_t store_corner(const struct path_batch *b, struct smear_clip_vertex *v, const struct smear_screen screen[KEYS])
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *s = b->segment;
-    const struct smear_clip_vertex *v = clip_corner(&p->clip, i);
-    if (p->stored[i] > s->base)
-        return p->stored[i] - 1;
+    const uint32_t stored = (uint32_t)v->now.distance;
+    if (stored > s->base)
+        return stored - 1;
     uint32_t word = g->vertex_words, *record = g->pool + word;
     g->vertex_words = word + s->stride;
-    p->stored[i] = word + 1;
-    store_path(record, s, p->screen[i]);
+    v->now.distance = (int32_t)(word + 1);
+    store_path(record, s, screen);
     smear_vertex_store_clipped(record, s, v);
     return word;
 }
 
 /* Adds one triangle of the fan, whose corners are clockwise when it is seen from its side. Returns false where there is
  * no room. */
-static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], const struct smear_face *face)
+static bool add_fan(struct path_batch *b, struct clipping *c, const int fan[3])
 {
-    const struct smear_screen *const corner[3] = { p->screen[fan[0]], p->screen[fan[1]], p->screen[fan[2]] };
+    struct smear_screen screen[3][KEYS];
+    for (int i = 0; i < 3; i++)
+        for (int key = 0; key < KEYS; key++)
+            screen[i][key] = screen_at(c, fan[i], key);
+    const struct smear_screen *const corner[3] = { screen[0], screen[1], screen[2] };
     struct smear_path_bounds bounds;
     if (!find_bounds(&bounds, b->a, b->d, corner))
         return true;
@@ -313,8 +332,8 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
         return true;
     if (!has_room(b))
         return false;
-    bounds.interval = p->interval;
-    if (p->interval != 0) {
+    bounds.interval = c->interval;
+    if (c->interval != 0) {
         bounds.flags |= PATH_INTERVAL;
         /* The travel counts for the whole exposure. */
         bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_INTERVALS, 65535);
@@ -322,55 +341,45 @@ static bool add_fan(struct path_batch *b, struct polygon *p, const int fan[3], c
     const struct smear_segment *s = b->segment;
     uint16_t offset[3];
     for (int k = 0; k < 3; k++)
-        offset[k] = (uint16_t)(store_corner(b, p, fan[k]) - s->base);
-    list_triangle(b, &bounds, offset, face);
+        offset[k] = (uint16_t)(store_corner(b, clip_corner(&c->polygon, fan[k]), corner[k]) - s->base);
+    list_triangle(b, &bounds, offset, &c->face);
     return true;
 }
 
-/* Adds what is left of a triangle, if it is seen from the side that is drawn (face->back: counter-clockwise) at some
+/* Clips the triangle and adds what is left, if it is seen from the side that is drawn (c->face.back: counter-clockwise) at some
  * instant. Returns false where there is no room. */
-static bool add_cut(struct path_batch *b, const struct smear_clip_vertex corner[3], const struct cut *cut,
-                    const struct smear_face *face)
+static bool add_cut(struct path_batch *b, struct clipping *c)
 {
     const struct smear_assembly *d = b->d;
-    struct polygon p;
-    for (int i = 0; i < 3; i++)
-        p.clip.vertex[i] = corner[i];
-    smear_clip_start(&p.clip, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
-    clip_all(&p.clip, cut);
-    p.interval = cut->interval;
-    for (int i = 0; i < p.clip.count; i++) {
-        project_corner(p.screen[i], clip_corner(&p.clip, i), cut, &b->a->viewport);
-        p.stored[i] = 0;
-    }
+    smear_clip_start(&c->polygon, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
+    clip_all(c);
+    project_corners(c, &b->a->viewport);
+    const int count = c->polygon.count;
     bool seen = false;
     for (int key = 0; key < KEYS && !seen; key++) {
         int64_t area = 0;
-        for (int i = 2; i < p.clip.count; i++)
-            area += area_at(&p, i - 1, i, key);
-        seen = ((area > 0) != d->mirrored) == face->back && area != 0;
+        for (int i = 2; i < count; i++)
+            area += area_at(c, i - 1, i, key);
+        seen = ((area > 0) != d->mirrored) == c->face.back && area != 0;
     }
     if (!seen)
         return true;
-    bool turn = d->mirrored == face->back;      /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < p.clip.count; i++) {
+    bool turn = d->mirrored == c->face.back;    /* the fan runs against the clock on the side that is drawn */
+    for (int i = 2; i < count; i++) {
         const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
-        if (!add_fan(b, &p, fan, face))
+        if (!add_fan(b, c, fan))
             return false;
     }
     return true;
 }
 
-/* Brings a projection to fewer bits of scale, as its vertices are. */
-static void lower_scale(struct smear_projection *p, int scale)
+/* Brings planes and depths to fewer bits of scale, as vertices are. */
+static void lower_scale(struct smear_depths *d, int down)
 {
-    int down = p->scale - scale;
-    p->scale = (int16_t)scale;
-    p->distance_scale = (int16_t)(p->distance_scale - down);
-    p->depth_shift = (int16_t)(p->depth_shift - down);
-    p->near_distance = max_i32(scale_sat(p->near_distance, clamp_i32(-down, -31, 31)), 1);
-    if (p->far_distance != INT32_MAX)
-        p->far_distance = scale_sat(p->far_distance, clamp_i32(-down, -31, 31));
+    d->depth_shift = (int16_t)(d->depth_shift - down);
+    d->near_distance = max_i32(scale_sat(d->near_distance, clamp_i32(-down, -31, 31)), 1);
+    if (d->far_distance != INT32_MAX)
+        d->far_distance = scale_sat(d->far_distance, clamp_i32(-down, -31, 31));
 }
 
 /* Returns a coordinate at time u (q16, -1 .. 1) of the path from open over middle to close. */
@@ -380,11 +389,13 @@ static int32_t on_path(int64_t open, int64_t middle, int64_t close, int32_t u)
     return (int32_t)(middle + (along * u >> 17));
 }
 
-static void place_on_path(struct smear_homogeneous *out, const struct smear_homogeneous key[KEYS], int32_t u)
+/* Places `out` on the path of `v`. */
+static void place_on_path(struct smear_homogeneous *out, const struct smear_clip_vertex *v, int32_t u)
 {
-    out->x = on_path(key[OPEN].x, key[MIDDLE].x, key[CLOSE].x, u);
-    out->y = on_path(key[OPEN].y, key[MIDDLE].y, key[CLOSE].y, u);
-    out->w = on_path(key[OPEN].w, key[MIDDLE].w, key[CLOSE].w, u);
+    const struct smear_homogeneous *open = &v->pose[OPEN], *middle = &v->now, *close = &v->pose[CLOSE];
+    out->x = on_path(open->x, middle->x, close->x, u);
+    out->y = on_path(open->y, middle->y, close->y, u);
+    out->w = on_path(open->w, middle->w, close->w, u);
     out->distance = out->w;
 }
 
@@ -398,38 +409,36 @@ static void scale_homogeneous(struct smear_homogeneous *h, int down)
 /* Adds a triangle that the near plane cuts at some instants, each time elsewhere: what is in front of the plane
  * throughout would be too little. In a short interval of the exposure that is about what is in front in its middle; at
  * its ends a little of that may lie behind, though not behind the eye. */
-static SMEAR_NOINLINE bool add_intervals(struct path_batch *b, const struct smear_clip_vertex corner[3],
-                                         struct cut *cut, const struct smear_face *face)
+static SMEAR_NOINLINE bool add_intervals(struct path_batch *b, struct clipping *c)
 {
+    const struct smear_assembly *d = b->d;
+    struct smear_clip_vertex corner[3];
     /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
-    int scale = min_i32(cut->projection[MIDDLE].scale,
-                        min_i32(cut->projection[OPEN].scale, cut->projection[CLOSE].scale)) - 2;
-    struct smear_homogeneous at[3][KEYS];
+    const int16_t own[KEYS] = { d->motion.key[OPEN].now.scale, d->motion.key[CLOSE].now.scale, d->at.now.scale };
+    const int scale = min_i32(own[MIDDLE], min_i32(own[OPEN], own[CLOSE])) - 2;
     for (int i = 0; i < 3; i++) {
-        at[i][MIDDLE] = corner[i].now;
-        at[i][OPEN] = corner[i].pose[OPEN];
-        at[i][CLOSE] = corner[i].pose[CLOSE];
+        corner[i] = c->polygon.vertex[i];
         for (int k = 0; k < KEYS; k++)
-            scale_homogeneous(&at[i][k], cut->projection[k].scale - scale);
+            scale_homogeneous(place_at(&corner[i], k), own[k] - scale);
     }
-    lower_scale(&cut->projection[MIDDLE], scale);
-    cut->projection[OPEN] = cut->projection[CLOSE] = cut->projection[MIDDLE];
+    lower_scale(&c->depths[MIDDLE], own[MIDDLE] - scale);
+    c->depths[OPEN] = c->depths[CLOSE] = c->depths[MIDDLE];
     for (int key = OPEN; key <= CLOSE; key++)
-        cut->projection[key].near_distance = max_i32(cut->projection[MIDDLE].near_distance >> 2, 1);
+        c->depths[key].near_distance = max_i32(c->depths[MIDDLE].near_distance >> 2, 1);
     for (int k = 0; k < KEYS; k++)
-        cut->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
+        c->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
     const int32_t step = 131072 / PATH_INTERVALS;
     for (int interval = 0; interval < PATH_INTERVALS; interval++) {
-        struct smear_clip_vertex part[3];
         int32_t begin = interval * step - 65536;
         for (int i = 0; i < 3; i++) {
-            part[i] = corner[i];
-            place_on_path(&part[i].pose[OPEN], at[i], begin);
-            place_on_path(&part[i].now, at[i], begin + step / 2);
-            place_on_path(&part[i].pose[CLOSE], at[i], begin + step);
+            struct smear_clip_vertex *part = &c->polygon.vertex[i];
+            *part = corner[i];
+            place_on_path(&part->pose[OPEN], &corner[i], begin);
+            place_on_path(&part->now, &corner[i], begin + step / 2);
+            place_on_path(&part->pose[CLOSE], &corner[i], begin + step);
         }
-        cut->interval = (uint8_t)(interval + 1);
-        if (!add_cut(b, part, cut, face))
+        c->interval = (uint8_t)(interval + 1);
+        if (!add_cut(b, c))
             return false;
     }
     return true;
@@ -448,7 +457,7 @@ static void place_corners(struct smear_clip_vertex corner[3], const struct smear
     for (int i = 0; i < 3; i++) {
         placement_transform(&corner[i].now, &d->at, index[i]);
         for (int key = OPEN; key <= CLOSE; key++)
-            placement_transform(&corner[i].pose[key], &d->key[key], index[i]);
+            placement_transform(&corner[i].pose[key], &d->motion.key[key], index[i]);
     }
 }
 
@@ -460,12 +469,12 @@ static int32_t safe_distance(const struct smear_clip_vertex corner[3], const str
     int64_t travel = 0;
     for (int key = OPEN; key <= CLOSE; key++)
         for (int i = 0; i < 3; i++) {
-            const int up = clamp_i32(now->scale - d->key[key].now.scale, -31, 31);
+            const int up = clamp_i32(now->scale - d->motion.key[key].now.scale, -31, 31);
             const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
                                          : (int64_t)corner[i].pose[key].w * ((int64_t)1 << up);
             travel = corner[i].now.w - there > travel ? corner[i].now.w - there : travel;
         }
-    const int64_t safe = travel + now->near_distance + 8;
+    const int64_t safe = travel + now->depths.near_distance + 8;
     return safe < 1 << 28 ? (int32_t)safe : 1 << 28;
 }
 
@@ -475,33 +484,31 @@ static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport 
 {
     int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
     for (int i = 0; i < p->count && beside != 0; i++) {
-        const struct smear_clip_vertex *v = clip_corner(p, i);
+        struct smear_clip_vertex *v = clip_corner(p, i);
         for (int key = 0; key < KEYS; key++)
-            beside &= smear_outcode_behind(key == MIDDLE ? &v->now : &v->pose[key], viewport);
+            beside &= smear_outcode_behind(place_at(v, key), viewport);
     }
     return beside != 0;
 }
 
-/* Whether nothing of the triangle that is nearer than `distance` in the middle of the exposure is seen at any time. */
-static bool is_apart(const struct smear_clip_vertex corner[3], const struct path_batch *b, int32_t distance)
+/* Whether nothing of the triangle p->vertex[0 .. 2] that is nearer than `distance` in the middle of the exposure is seen at any
+ * time. One plane leaves these vertices as they are: new corners lie behind them. */
+static bool is_apart(struct smear_clip_polygon *p, const struct path_batch *b, int32_t distance)
 {
-    struct smear_clip_polygon polygon;
-    struct smear_projection behind = b->d->at.now;
+    struct smear_depths behind = b->d->at.now.depths;
     behind.far_distance = distance;
-    for (int i = 0; i < 3; i++)
-        polygon.vertex[i] = corner[i];
-    smear_clip_start(&polygon, CLIP_POSES, false, false);
-    smear_clip_polygon(&polygon, &behind, OUT_FAR);
-    return is_beside(&polygon, &b->a->viewport);
+    smear_clip_start(p, CLIP_POSES, false, false);
+    smear_clip_polygon(p, &behind, OUT_FAR);
+    return is_beside(p, &b->a->viewport);
 }
 
 static bool is_behind(const struct smear_placement *p, uint32_t index)
 {
     struct smear_homogeneous h;
     if (p->extra_count == 0)
-        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.near_distance;
+        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.depths.near_distance;
     placement_transform(&h, p, index);
-    return h.w < p->now.near_distance;
+    return h.w < p->now.depths.near_distance;
 }
 
 /* Whether the near plane cuts the triangle, or passes it during the exposure. */
@@ -520,12 +527,11 @@ static bool passes_near(const struct path_batch *b, const uint16_t index[3])
 }
 
 /* Finds one distance for all triangles of a draw, so that their edges still meet: the largest of DOUBLINGS + 1 for
- * which is_apart() holds for all triangles but those for which it never does. */
-static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
+ * which is_apart() holds for all triangles but those for which it never does. Works on *p. */
+static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b, struct smear_clip_polygon *p)
 {
     enum { DOUBLINGS = 5 };
     const smear_mesh *mesh = b->d->mesh;
-    struct smear_clip_vertex corner[3];
     int32_t least = 0;
     int doublings = DOUBLINGS;
     uint32_t first = 0, end = mesh->triangle_count;         /* the triangles that pass the near plane lie between */
@@ -537,15 +543,15 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b)
                 continue;
             if (!passes_near(b, index))
                 continue;
-            place_corners(corner, b->d, index);
+            place_corners(p->vertex, b->d, index);
             last = i;
             if (pass == 0) {
                 first = least == 0 ? i : first;
-                least = max_i32(least, safe_distance(corner, b->d));
+                least = max_i32(least, safe_distance(p->vertex, b->d));
                 continue;
             }
             int here = doublings;
-            while (here >= 0 && ((least >> (29 - here)) != 0 || !is_apart(corner, b, least << here)))
+            while (here >= 0 && ((least >> (29 - here)) != 0 || !is_apart(p, b, least << here)))
                 here--;
             doublings = here >= 0 ? here : doublings;
         }
@@ -562,34 +568,32 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
                                             uint32_t triangle, uint32_t codes, bool back)
 {
     const struct smear_assembly *d = b->d;
-    struct smear_clip_vertex corner[3];
-    struct smear_face face = smear_face_of(d, triangle, back);
-    struct cut cut = { .interval = 0 };
-    for (int i = 0; i < 3; i++) {
-        struct smear_clip_vertex *v = &corner[i];
-        uint32_t index = vertex[i]->tag & 0xffffu;
-        placement_transform(&v->now, &d->at, index);
-        for (int key = OPEN; key <= CLOSE; key++)
-            placement_transform(&v->pose[key], &d->key[key], index);
-        smear_vertex_for_clipping(v, d, b->segment, index, &face);
-    }
+    struct clipping c;
     int near_codes = 0;
     for (int key = 0; key < KEYS; key++) {
-        cut.codes[key] = code_at(codes, key);
-        cut.projection[key] = placement_of(d, key)->now;
-        near_codes |= cut.codes[key] & OUT_NEAR;
+        c.codes[key] = code_at(codes, key);
+        c.depths[key] = placement_of(d, key)->now.depths;
+        near_codes |= c.codes[key] & OUT_NEAR;
     }
-    if (near_codes == 0 || is_orthographic(&d->at.now))
-        return add_cut(b, corner, &cut, &face);
-    if (b->apart == 0)
-        b->apart = find_apart(b);
-    if (safe_distance(corner, d) > b->apart || !is_apart(corner, b, b->apart))
-        return add_intervals(b, corner, &cut, &face);
-    cut.projection[MIDDLE].near_distance = b->apart;
+    const bool passes = near_codes != 0 && !is_orthographic(&d->at.now);
+    if (passes && b->apart == 0)
+        b->apart = find_apart(b, &c.polygon);
+    c.interval = 0;
+    c.face = smear_face_of(d, triangle, back);
+    struct smear_clip_vertex *corner = c.polygon.vertex;
+    const uint16_t index[3] = { (uint16_t)vertex[0]->tag, (uint16_t)vertex[1]->tag, (uint16_t)vertex[2]->tag };
+    place_corners(corner, d, index);
+    for (int i = 0; i < 3; i++)
+        smear_vertex_for_clipping(&corner[i], d, b->segment, index[i], &c.face);
+    if (!passes)
+        return add_cut(b, &c);
+    if (safe_distance(corner, d) > b->apart || !is_apart(&c.polygon, b, b->apart))
+        return add_intervals(b, &c);
+    c.depths[MIDDLE].near_distance = b->apart;
     for (int key = 0; key < KEYS; key++)
-        cut.codes[key] = (cut.codes[key] & ~OUT_NEAR) | OUT_GUARD;
-    cut.codes[MIDDLE] |= OUT_NEAR;
-    return add_cut(b, corner, &cut, &face);
+        c.codes[key] = (c.codes[key] & ~OUT_NEAR) | OUT_GUARD;
+    c.codes[MIDDLE] |= OUT_NEAR;
+    return add_cut(b, &c);
 }
 
 /* ------------------------------------------------------------------ the loop */

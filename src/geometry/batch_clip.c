@@ -26,7 +26,7 @@ void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_ass
                               const struct smear_screen *screen, const struct smear_viewport *viewport)
 {
     /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
-    int scale = d->at.now.scale - d->pose[pose].scale;
+    int scale = d->at.now.scale - d->motion.measured.pose[pose].scale;
     int zeros = count_leading_zeros((uint32_t)now->w);
     int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
     /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
@@ -68,10 +68,10 @@ static void clip_and_project(struct clipped *c, const struct batch *b,
         smear_vertex_for_clipping(v, d, s, index, &c->face);
     }
     smear_clip_start(&c->polygon, poses, segment_textured(s), segment_colored(s));
-    smear_clip_polygon(&c->polygon, &d->at.now, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
+    smear_clip_polygon(&c->polygon, &d->at.now.depths, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
     c->area = 0;
     for (int i = 0; i < c->polygon.count; i++) {
-        smear_project(&c->screen[i], &d->at.now, &clip_corner(&c->polygon, i)->now, &b->a->viewport);
+        smear_project(&c->screen[i], &d->at.now.depths, &clip_corner(&c->polygon, i)->now, &b->a->viewport);
         if (i >= 2)
             c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
     }

@@ -7,13 +7,12 @@
 enum plane { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANES };
 
 /* Returns the signed distance from a plane: negative outside, below 2^43. */
-static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear_projection *p,
-                           enum plane plane)
+static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear_depths *depths, enum plane plane)
 {
     const struct smear_homogeneous *h = &v->now;
     switch (plane) {
-    case PLANE_NEAR:   return (int64_t)h->distance - p->near_distance;
-    case PLANE_FAR:    return (int64_t)p->far_distance - h->distance;
+    case PLANE_NEAR:   return (int64_t)h->distance - depths->near_distance;
+    case PLANE_FAR:    return (int64_t)depths->far_distance - h->distance;
     case PLANE_LEFT:   return (int64_t)h->w * SMEAR_GUARD_PX + h->x;
     case PLANE_RIGHT:  return (int64_t)h->w * SMEAR_GUARD_PX - h->x;
     case PLANE_TOP:    return (int64_t)h->w * SMEAR_GUARD_PX + h->y;
@@ -22,17 +21,17 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
 }
 
 /* Tells the sign of the distance: a < -2048 w where floor(a / 2048) < -w. */
-static bool is_outside(const struct smear_clip_vertex *v, const struct smear_projection *p, enum plane plane)
+static bool is_outside(const struct smear_clip_vertex *v, const struct smear_depths *depths, enum plane plane)
 {
 #if SMEAR_ONE_COPY
-    return distance_to(v, p, plane) < 0;
+    return distance_to(v, depths, plane) < 0;
 #else
     const struct smear_homogeneous *h = &v->now;
     SMEAR_STATIC_ASSERT(SMEAR_GUARD_PX == 1 << 11, "the shift");
     int32_t a = plane >= PLANE_TOP ? h->y : h->x;
     switch (plane) {
-    case PLANE_NEAR:    return h->distance < p->near_distance;
-    case PLANE_FAR:     return h->distance > p->far_distance;
+    case PLANE_NEAR:    return h->distance < depths->near_distance;
+    case PLANE_FAR:     return h->distance > depths->far_distance;
     case PLANE_LEFT:
     case PLANE_TOP:     return a >> 11 < -h->w;
     default:            return -a >> 11 < -h->w;
@@ -60,11 +59,11 @@ static void mix_homogeneous(struct smear_homogeneous *out, const struct smear_ho
 }
 
 /* Brings a new vertex onto its plane: rounding may leave it a step outside, and W must be positive to divide by it. */
-static void settle(struct smear_homogeneous *h, const struct smear_projection *p, enum plane plane)
+static void settle(struct smear_homogeneous *h, const struct smear_depths *depths, enum plane plane)
 {
     if (plane <= PLANE_FAR) {
-        h->distance = plane == PLANE_NEAR ? p->near_distance : p->far_distance;
-        if (!is_orthographic(p))
+        h->distance = plane == PLANE_NEAR ? depths->near_distance : depths->far_distance;
+        if (!depths_are_even(depths))
             h->w = h->distance;
     } else if (h->w < 1) {
         h->w = 1;
@@ -74,27 +73,27 @@ static void settle(struct smear_homogeneous *h, const struct smear_projection *p
 /* Finds the vertex where the edge from `in` to `out` meets the plane. */
 static void cut(struct smear_clip_polygon *polygon, struct smear_clip_vertex *result,
                 const struct smear_clip_vertex *in, const struct smear_clip_vertex *out,
-                const struct smear_projection *p, enum plane plane)
+                const struct smear_depths *depths, enum plane plane)
 {
-    int64_t d = distance_to(in, p, plane);
-    int32_t t = ratio_q30(d, d - distance_to(out, p, plane));
+    int64_t d = distance_to(in, depths, plane);
+    int32_t t = ratio_q30(d, d - distance_to(out, depths, plane));
     mix_homogeneous(&result->now, &in->now, &out->now, t);
-    settle(&result->now, p, plane);
+    settle(&result->now, depths, plane);
     for (int i = 0; i < polygon->poses; i++)
         mix_homogeneous(&result->pose[i], &in->pose[i], &out->pose[i], t);
     for (int i = 0; i < 2 && polygon->textured; i++)
-        result->uv[i] = mix(in->uv[i], out->uv[i], t);
+        result->uv[i] = (int16_t)mix(in->uv[i], out->uv[i], t);
     for (int i = 0; i < CLIP_COLORS && polygon->colored; i++)
-        result->color[i] = mix(in->color[i], out->color[i], t);
+        result->color[i] = (uint16_t)mix(in->color[i], out->color[i], t);
 }
 
-static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_projection *p, enum plane plane)
+static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_depths *depths, enum plane plane)
 {
     const int count = polygon->count;
     uint32_t outside = 0;       /* a bit per corner */
     int kept = count;
     for (int i = 0; i < count; i++) {
-        const bool is_out = is_outside(clip_corner(polygon, i), p, plane);
+        const bool is_out = is_outside(clip_corner(polygon, i), depths, plane);
         outside |= (uint32_t)is_out << i;
         kept -= is_out;
     }
@@ -115,7 +114,7 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_pr
             continue;
         const uint8_t corner = polygon->order[fresh++];
         cut(polygon, &polygon->vertex[corner], clip_corner(polygon, is_out ? next : i),
-            clip_corner(polygon, is_out ? i : next), p, plane);
+            clip_corner(polygon, is_out ? i : next), depths, plane);
         order[result++] = corner;
     }
     while (fresh < SMEAR_CLIP_ROOM)
@@ -151,14 +150,14 @@ void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bo
         p->order[i] = (uint8_t)i;
 }
 
-void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_projection *projection, int codes)
+void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths *depths, int codes)
 {
     if (codes & OUT_NEAR)
-        clip_plane(p, projection, PLANE_NEAR);
+        clip_plane(p, depths, PLANE_NEAR);
     if (codes & OUT_FAR)
-        clip_plane(p, projection, PLANE_FAR);
+        clip_plane(p, depths, PLANE_FAR);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
     if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p))
         for (int plane = PLANE_LEFT; plane < PLANES; plane++)
-            clip_plane(p, projection, (enum plane)plane);
+            clip_plane(p, depths, (enum plane)plane);
 }

@@ -18,8 +18,8 @@ enum {
 struct smear_clip_vertex {
     struct smear_homogeneous now;
     struct smear_homogeneous pose[CLIP_ROOM(CLIP_POSES)];   /* open, close; each in its own projection's scale */
-    int32_t uv[2];                                          /* mesh units */
-    int32_t color[CLIP_ROOM(CLIP_COLORS)];                  /* 0 .. 65535 */
+    int16_t uv[2];                                          /* mesh units */
+    uint16_t color[CLIP_ROOM(CLIP_COLORS)];                 /* 0 .. 65535 */
 };
 
 /* A triangle cut by six planes has at most nine corners. Cut in three poses it may have more, but hardly ever has. */
@@ -49,6 +49,6 @@ void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bo
 /* Clips the polygon; `count` is 0 when nothing is left. `codes` is the union of the outcodes of its corners: only
  * those planes are looked at. An edge is always cut from its inner towards its outer end, so two triangles
  * that share it get the same new vertex, bit for bit. */
-void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_projection *projection, int codes);
+void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths *depths, int codes);
 
 #endif

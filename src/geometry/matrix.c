@@ -132,24 +132,25 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
 /* Sets the near and far plane and the factor of depth units, in the scale of `distance`. */
 static void set_distances(struct smear_projection *p, const smear_camera *camera)
 {
+    struct smear_depths *d = &p->depths;
     int scale = p->distance_scale;
     /* Rows stay below 2^30, so what lies farther is in front of a plane that is clamped there. */
-    p->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
-    p->far_distance = camera->far_plane == 0 ? INT32_MAX
-                                             : max_i32(p->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
-    if (is_orthographic(p)) {
+    d->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
+    d->far_distance = camera->far_plane == 0 ? INT32_MAX
+                                             : max_i32(d->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
+    if (depths_are_even(d)) {
         /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
-        uint32_t range = (uint32_t)(p->far_distance - p->near_distance);
+        uint32_t range = (uint32_t)(d->far_distance - d->near_distance);
         int zeros = count_leading_zeros(range);
         struct factor k = factor_from((int64_t)recip_norm_precise(range << zeros) * SMEAR_DEPTH_NEAR,
                                       zeros - 61 + 11);
-        p->depth_mantissa = k.mantissa;
-        p->depth_shift = (int16_t)(k.exponent + 32);
+        d->depth_mantissa = k.mantissa;
+        d->depth_shift = (int16_t)(k.exponent + 32);
     } else {
         /* units q11 = near NEAR 2^11 2^scale / W; transform.c adds the exponent of 1 / W */
         struct factor k = factor_from((int64_t)camera->near_plane * SMEAR_DEPTH_NEAR, -16 + 11 + scale);
-        p->depth_mantissa = k.mantissa;
-        p->depth_shift = (int16_t)(k.exponent - 29);
+        d->depth_mantissa = k.mantissa;
+        d->depth_shift = (int16_t)(k.exponent - 29);
     }
 }
 
@@ -157,7 +158,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
                            const smear_camera *camera, int height_px)
 {
     const struct factor one = { 1 << 29, -29 };
-    p->orthographic = camera->half_height > 0;
+    p->depths.orthographic = camera->half_height > 0;
 
     /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
     struct factor pixels;

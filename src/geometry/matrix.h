@@ -9,6 +9,21 @@
 
 #include "base/fixed.h"
 
+/* What clipping and the division know of a projection: its near and far plane, and what makes depths of distances. */
+struct smear_depths {
+    int32_t near_distance, far_distance;    /* in the units of `distance`; far INT32_MAX: none */
+    int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance)
+                                 * 2^depth_shift, see transform.c */
+    int16_t depth_shift;
+    bool orthographic;
+};
+
+/* Whether the camera is orthographic: depths go with distances, not with 1/distance. */
+static inline bool depths_are_even(const struct smear_depths *d)
+{
+    return SMEAR_WITH_VIEWS && d->orthographic;
+}
+
 /* Positions of one draw, from mesh steps to the screen. For a vertex v (int16 each):
  *
  *     row r = floor(sum v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
@@ -19,19 +34,12 @@
  * constant and distance in row 3, in steps of its own. */
 struct smear_projection {
     int32_t m[4][4];
-    int32_t near_distance, far_distance;    /* in the units of `distance`; far INT32_MAX: none */
-    int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance)
-                                 * 2^depth_shift, see transform.c */
-    int16_t depth_shift;
+    struct smear_depths depths;
     int16_t scale;              /* log2 of X, Y, W per pixel or unit; negative for huge scenes */
     int16_t distance_scale;     /* log2 of `distance` per unit */
-    bool orthographic;
 };
 
-static inline bool is_orthographic(const struct smear_projection *p)
-{
-    return SMEAR_WITH_VIEWS && p->orthographic;
-}
+static inline bool is_orthographic(const struct smear_projection *p) { return depths_are_even(&p->depths); }
 
 /* A draw's transform and its mesh's scale, seen from a camera: mantissas with one exponent. */
 struct smear_view {

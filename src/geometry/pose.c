@@ -298,16 +298,17 @@ void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, 
 {
     const bool curves = deforms_on_curve(p, shot);
     const int i = a->moves++;
-    a->pose[i] = *project_pose(p, shot, k, a->mesh);
-    a->pose_position[i] = p->position[curves ? 1 : k];
+    struct smear_measured_poses *m = &a->motion.measured;
+    m->pose[i] = *project_pose(p, shot, k, a->mesh);
+    m->position[i] = p->position[curves ? 1 : k];
     if (!SMEAR_PARTS_OF_DEFORMS || (!curves && p->deform == 256))
         return;
-    struct smear_projection both[2] = { a->pose[i], a->pose[i] };
+    struct smear_projection both[2] = { m->pose[i], m->pose[i] };
     const int32_t part = curves ? part_at(p, smear_shot_time(shot, k))
                                 : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
     const int32_t weight[2] = { part, (1 << 24) - part };
     a->has_rest = a->has_rest || weight[1] != 0;
     smear_projection_weigh(both, weight, 2, curves ? ROOM_WITHIN : ROOM_USUAL, p->camera[0]);
-    a->pose[i] = both[0];
-    a->rest[i] = both[1];
+    m->pose[i] = both[0];
+    m->rest[i] = both[1];
 }

@@ -17,8 +17,8 @@ static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
     return scale_sat(high, clamp_i32(shift, -31, 31));
 }
 
-void smear_project(struct smear_screen *out, const struct smear_projection *p,
-                   const struct smear_homogeneous *in, const struct smear_viewport *viewport)
+void smear_project(struct smear_screen *out, const struct smear_depths *d, const struct smear_homogeneous *in,
+                   const struct smear_viewport *viewport)
 {
     SMEAR_ASSERT(in->w > 0);
     int zeros = count_leading_zeros((uint32_t)in->w);
@@ -40,11 +40,10 @@ void smear_project(struct smear_screen *out, const struct smear_projection *p,
     out->y = (viewport->height << 7) + y;
 
     int32_t depth;
-    if (is_orthographic(p))
-        depth = times_recip(sub_wrap(p->far_distance, in->distance), (uint32_t)p->depth_mantissa,
-                            p->depth_shift);
+    if (depths_are_even(d))
+        depth = times_recip(sub_wrap(d->far_distance, in->distance), (uint32_t)d->depth_mantissa, d->depth_shift);
     else
-        depth = times_recip(p->depth_mantissa, r, p->depth_shift + zeros);
+        depth = times_recip(d->depth_mantissa, r, d->depth_shift + zeros);
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 

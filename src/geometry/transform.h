@@ -73,18 +73,18 @@ void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_pr
 
 /* Divides a position by its w, which must be positive. |x| and |y| of the result stay below 2^30, far outside the guard
  * band: sums of two fit. */
-void smear_project(struct smear_screen *out, const struct smear_projection *p,
-                   const struct smear_homogeneous *in, const struct smear_viewport *viewport);
+void smear_project(struct smear_screen *out, const struct smear_depths *d, const struct smear_homogeneous *in,
+                   const struct smear_viewport *viewport);
 
 /* Does what smear_project does, without a call for what a camera with a perspective mostly sees. */
-static inline void project_inline(struct smear_screen *out, const struct smear_projection *p,
+static inline void project_inline(struct smear_screen *out, const struct smear_depths *d,
                                   const struct smear_homogeneous *in, const struct smear_viewport *viewport)
 {
     SMEAR_ASSERT(in->w > 0);
     int zeros = count_leading_zeros((uint32_t)in->w);
     const int down = 21 - zeros;
-    if (down <= 0 || is_orthographic(p)) {
-        smear_project(out, p, in, viewport);
+    if (down <= 0 || depths_are_even(d)) {
+        smear_project(out, d, in, viewport);
         return;
     }
     const int32_t r = (int32_t)recip_norm((uint32_t)in->w << zeros);        /* 1/w = r 2^(zeros - 61) */
@@ -92,7 +92,7 @@ static inline void project_inline(struct smear_screen *out, const struct smear_p
     const int32_t half = 1 << (down - 1);
     out->x = (viewport->width << 7) + ((mulh_i32(in->x, r) + half) >> down);
     out->y = (viewport->height << 7) + ((mulh_i32(in->y, r) + half) >> down);
-    const int32_t depth = scale_sat(mulh_i32(p->depth_mantissa, r), clamp_i32(p->depth_shift + zeros, -31, 31));
+    const int32_t depth = scale_sat(mulh_i32(d->depth_mantissa, r), clamp_i32(d->depth_shift + zeros, -31, 31));
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 

@@ -28,8 +28,8 @@ static int sides_beside(const struct smear_placement *p, const smear_mesh *m, co
         const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
         struct smear_homogeneous h;
         smear_transform_vertex(&h, &p->now, corner);
-        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.near_distance ? OUT_NEAR : 0)
-               | (h.distance > p->now.far_distance ? OUT_FAR : 0);
+        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.depths.near_distance ? OUT_NEAR : 0)
+               | (h.distance > p->now.depths.far_distance ? OUT_FAR : 0);
     }
     return sides;
 }
@@ -41,7 +41,7 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
         return false;
     int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT);
     for (int i = 0; SMEAR_WITH_SUBFRAMES && d->path && i < 2; i++)
-        sides = sides_beside(&d->key[i], d->mesh, viewport, sides);
+        sides = sides_beside(&d->motion.key[i], d->mesh, viewport, sides);
     return sides != 0;
 }
 
@@ -167,12 +167,8 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
 {
     if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
-    if (segment_colored(s)) {
-        uint16_t channel[4] = { 0, 0, 0, 0 };
-        for (int c = 0; c < CLIP_COLORS; c++)
-            channel[c] = (uint16_t)v->color[c];
-        store_color(record + s->color, channel);
-    }
+    if (SMEAR_WITH_GOURAUD && segment_colored(s))
+        store_color(record + s->color, v->color);
 }
 
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,

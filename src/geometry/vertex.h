@@ -108,6 +108,13 @@ struct smear_placement {
 /* Vertices may be anywhere on the line through two positions of the mesh. */
 #define SMEAR_PARTS_OF_DEFORMS ((SMEAR_WITH_SCALES || SMEAR_WITH_CURVES) && SMEAR_WITH_DEFORM)
 
+/* Velocity is measured between these poses or, where there is one, between it and the drawn instant. */
+struct smear_measured_poses {
+    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    const int16_t *position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
+    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_PARTS_OF_DEFORMS ? 2 : 1];
+};
+
 /* One draw with everything that does not change from triangle to triangle. */
 struct smear_assembly {
     const smear_mesh *mesh;
@@ -115,17 +122,16 @@ struct smear_assembly {
     uint32_t first, end;                /* its triangles that are assembled; those with a path are not cut */
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
-    bool path;                          /* `key` is set, and records get a path (path.h); moves is 0 */
+    bool path;                          /* motion.key is set, and records get a path (path.h); moves is 0 */
     bool flat;                          /* triangles have one colour each, though vertices have normals or colours */
+    bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */
     bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
     struct smear_placement at;          /* the instant that is drawn */
-    /* Velocity is measured between these poses or, where there is one, between it and the drawn instant. */
-    struct smear_projection pose[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
-    const int16_t *pose_position[SMEAR_WITH_RECONSTRUCT ? 2 : 1];
-    bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by `rest` */
-    struct smear_projection rest[SMEAR_WITH_RECONSTRUCT && SMEAR_PARTS_OF_DEFORMS ? 2 : 1];
-    struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];       /* shutter open and close */
+    union {                             /* large, and on the stack: `measured` where moves is not 0, `key` with a path */
+        struct smear_measured_poses measured;
+        struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];   /* shutter open and close */
+    } motion;
     struct smear_shading shading;
 };
 
@@ -170,10 +176,11 @@ static inline void placement_transform(struct smear_homogeneous *h, const struct
 static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
                                   uint32_t index)
 {
-    transform_vertex(h, &d->pose[pose], d->pose_position[pose] + 3 * index);
+    const struct smear_measured_poses *m = &d->motion.measured;
+    transform_vertex(h, &m->pose[pose], m->position[pose] + 3 * index);
     if (SMEAR_PARTS_OF_DEFORMS && d->has_rest) {
         struct smear_homogeneous rest;
-        transform_vertex(&rest, &d->rest[pose], d->mesh->position + 3 * index);
+        transform_vertex(&rest, &m->rest[pose], d->mesh->position + 3 * index);
         homogeneous_add(h, &rest);
     }
 }
@@ -184,11 +191,11 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
                                     const struct smear_viewport *viewport)
 {
     placement_transform(h, p, index);
-    if (h->distance < p->now.near_distance)
+    if (h->distance < p->now.depths.near_distance)
         return OUT_NEAR | smear_outcode_behind(h, viewport);
-    project(screen, &p->now, h, viewport);
+    project(screen, &p->now.depths, h, viewport);
     int code = outcode_sides(screen, viewport);
-    return h->distance > p->now.far_distance ? code | OUT_FAR : code;
+    return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
 }
 
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */

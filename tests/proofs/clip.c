@@ -28,9 +28,9 @@ static void any_vertex(struct smear_clip_vertex *v)
         v->pose[i] = pose;
     }
     for (int i = 0; i < 2; i++)
-        v->uv[i] = any_int;
+        v->uv[i] = (int16_t)any_int;
     for (int i = 0; i < CLIP_ROOM(CLIP_COLORS); i++)
-        v->color[i] = any_int;
+        v->color[i] = (uint16_t)any_int;
 }
 
 int main(void)
@@ -39,8 +39,8 @@ int main(void)
     smear_clip_start(&polygon, CLIP_POSES, true, true);
     for (int plane = PLANE_NEAR; plane < PLANES; plane++)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
-            struct smear_projection p = { .near_distance = any_coordinate(), .far_distance = any_coordinate(),
-                                          .orthographic = orthographic != 0 };
+            struct smear_depths p = { .near_distance = any_coordinate(), .far_distance = any_coordinate(),
+                                      .orthographic = orthographic != 0 };
             struct smear_clip_vertex in, out, between;
             any_vertex(&in);
             any_vertex(&out);

@@ -28,7 +28,7 @@ static int crossings(int count, uint32_t outside)
 /* Cuts `count` corners of which those in `outside` lie behind the plane. Returns whether all is as it should be. */
 static bool cuts_well(int count, uint32_t outside)
 {
-    static const struct smear_projection projection = { .near_distance = NEAR, .far_distance = INT32_MAX };
+    static const struct smear_depths depths = { .near_distance = NEAR, .far_distance = INT32_MAX };
     struct smear_clip_polygon p = { 0 };
     smear_clip_start(&p, CLIP_POSES, true, true);
     p.count = count;
@@ -38,13 +38,13 @@ static bool cuts_well(int count, uint32_t outside)
         p.vertex[i].now = (struct smear_homogeneous){ i, -i, w, w };
         inside -= i < count && w < NEAR;
     }
-    clip_plane(&p, &projection, PLANE_NEAR);
+    clip_plane(&p, &depths, PLANE_NEAR);
     const int full = inside + crossings(count, outside), most = full < SMEAR_CLIP_MAX ? full : SMEAR_CLIP_MAX;
     bool good = names_all_once(&p) && p.count <= most && p.count >= (inside < 3 ? 0 : inside);
     if (crossings(count, outside) <= 2 && full <= SMEAR_CLIP_MAX)   /* a convex polygon loses nothing */
         good = good && p.count == (full < 3 ? 0 : full);
     for (int i = 0; i < p.count; i++)
-        good = good && !is_outside(clip_corner(&p, i), &projection, PLANE_NEAR);
+        good = good && !is_outside(clip_corner(&p, i), &depths, PLANE_NEAR);
     return good;
 }
 

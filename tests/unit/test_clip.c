@@ -11,9 +11,9 @@ void suite_clip(void);
 
 enum { NEAR_AT = 1 << 12, FAR_AT = 1 << 22 };
 
-static struct smear_projection lens(bool orthographic)
+static struct smear_depths lens(bool orthographic)
 {
-    return (struct smear_projection){
+    return (struct smear_depths){
         .near_distance = NEAR_AT, .far_distance = FAR_AT, .orthographic = orthographic
     };
 }
@@ -29,9 +29,9 @@ static struct smear_clip_vertex vertex_at(int32_t x, int32_t y, int32_t w, bool 
             between(-(1 << 29), 1 << 29)
         };
     for (int i = 0; i < 2; i++)
-        v.uv[i] = between(-32768, 32767);
+        v.uv[i] = (int16_t)between(-32768, 32767);
     for (int i = 0; i < 4; i++)
-        v.color[i] = between(0, 65535);
+        v.color[i] = (uint16_t)between(0, 65535);
     return v;
 }
 
@@ -51,7 +51,7 @@ static struct smear_clip_vertex vertex_within(int32_t w, int32_t spread, bool or
 }
 
 /* Codes as the assembler sets them, of the one vertex, without the sides. */
-static int codes_of(const struct smear_clip_vertex *v, const struct smear_projection *p)
+static int codes_of(const struct smear_clip_vertex *v, const struct smear_depths *p)
 {
     if (v->now.distance < p->near_distance)
         return OUT_NEAR;
@@ -63,7 +63,7 @@ static int codes_of(const struct smear_clip_vertex *v, const struct smear_projec
 }
 
 /* Clips the triangle of v[0 .. 2]; returns how many corners it has then. */
-static int clip(struct smear_clip_vertex v[SMEAR_CLIP_MAX], const struct smear_projection *p, int codes)
+static int clip(struct smear_clip_vertex v[SMEAR_CLIP_MAX], const struct smear_depths *p, int codes)
 {
     struct smear_clip_polygon polygon;
     for (int i = 0; i < 3; i++)
@@ -97,7 +97,7 @@ static bool same_vertex(const struct smear_clip_vertex *a, const struct smear_cl
 static void test_what_lies_inside_is_left_alone(void)
 {
     random_state = 1;
-    struct smear_projection p = lens(false);
+    struct smear_depths p = lens(false);
     for (int n = 0; n < 200; n++) {
         struct smear_clip_vertex v[SMEAR_CLIP_MAX], before[3];
         for (int i = 0; i < 3; i++) {
@@ -113,7 +113,7 @@ static void test_what_lies_inside_is_left_alone(void)
 
 static void test_only_the_planes_named_by_the_codes_cut(void)
 {
-    struct smear_projection p = lens(false);
+    struct smear_depths p = lens(false);
     random_state = 2;
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
     v[0] = vertex_at(0, 0, FAR_AT * 2, false);
@@ -127,7 +127,7 @@ static void test_only_the_planes_named_by_the_codes_cut(void)
 
 static void test_what_lies_outside_is_gone(void)
 {
-    struct smear_projection p = lens(false);
+    struct smear_depths p = lens(false);
     random_state = 3;
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
     for (int i = 0; i < 3; i++)
@@ -143,7 +143,7 @@ static void test_what_lies_outside_is_gone(void)
 
 static void test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three(void)
 {
-    struct smear_projection p = lens(false);
+    struct smear_depths p = lens(false);
     random_state = 4;
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
     v[0] = vertex_at(0, 0, NEAR_AT / 2, false);
@@ -160,7 +160,7 @@ static void test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three(void)
 static void test_a_plane_cuts_at_its_place(void)
 {
     /* From 1/2 to 3/2 near distances: the middle of the edge, in every attribute. */
-    struct smear_projection p = lens(false);
+    struct smear_depths p = lens(false);
     random_state = 5;
     for (int n = 0; n < 100; n++) {
         struct smear_clip_vertex v[SMEAR_CLIP_MAX], a, b;
@@ -187,7 +187,7 @@ static void test_other_poses_are_cut_at_the_same_place_of_the_surface(void)
     /* Poses that are the present one moved by a constant stay so, bit for bit. */
     random_state = 6;
     for (int n = 0; n < 300; n++) {
-        struct smear_projection p = lens(n & 1);
+        struct smear_depths p = lens(n & 1);
         struct smear_clip_vertex v[SMEAR_CLIP_MAX];
         int codes = 0;
         for (int i = 0; i < 3; i++) {
@@ -217,7 +217,7 @@ static bool comes_after(const struct smear_homogeneous *a, const struct smear_ho
  * has a distance in its closing pose. Sorted, so that two lists can be compared. */
 static int on_edge(struct smear_clip_vertex out[SMEAR_CLIP_MAX], struct smear_clip_vertex a,
                    struct smear_clip_vertex b, struct smear_clip_vertex c, int turn,
-                   const struct smear_projection *p)
+                   const struct smear_depths *p)
 {
     struct smear_clip_vertex v[SMEAR_CLIP_MAX];
     a.pose[1].distance = b.pose[1].distance = 0;
@@ -246,7 +246,7 @@ static void test_both_triangles_at_an_edge_get_the_same_new_vertices(void)
     random_state = 7;
     int compared = 0, differ = 0;
     for (int n = 0; n < 400; n++) {
-        struct smear_projection p = lens(n % 5 == 4);
+        struct smear_depths p = lens(n % 5 == 4);
         struct smear_clip_vertex a = random_vertex(p.orthographic), b = random_vertex(p.orthographic);
         struct smear_clip_vertex c = random_vertex(p.orthographic), d = random_vertex(p.orthographic);
         if (n & 1) {        /* mostly in view: one end of the edge */
@@ -280,7 +280,7 @@ static void test_nothing_is_left_outside(void)
     random_state = 8;
     int most = 0;
     for (int n = 0; n < 3000; n++) {
-        struct smear_projection p = lens(n % 4 == 3);
+        struct smear_depths p = lens(n % 4 == 3);
         struct smear_clip_vertex v[SMEAR_CLIP_MAX];
         int codes = 0;
         for (int i = 0; i < 3; i++) {
@@ -308,7 +308,7 @@ static void test_attributes_stay_between_their_corners(void)
 {
     random_state = 9;
     for (int n = 0; n < 1000; n++) {
-        struct smear_projection p = lens(false);
+        struct smear_depths p = lens(false);
         struct smear_clip_vertex v[SMEAR_CLIP_MAX];
         int codes = 0;
         int32_t low = INT32_MAX, high = INT32_MIN;
@@ -334,7 +334,7 @@ static void test_a_cut_keeps_the_order_of_the_corners(void)
     /* Twice the area of the clipped polygon has the sign of the triangle's, in x and y at equal w. */
     random_state = 10;
     for (int n = 0; n < 500; n++) {
-        struct smear_projection p = lens(true);
+        struct smear_depths p = lens(true);
         struct smear_clip_vertex v[SMEAR_CLIP_MAX];
         int codes = 0;
         for (int i = 0; i < 3; i++) {
@@ -361,7 +361,7 @@ static void test_a_full_polygon_never_outgrows_its_room(void)
 {
     random_state = 17;
     for (int n = 0; n < 4000; n++) {
-        const struct smear_projection p = lens(false);
+        const struct smear_depths p = lens(false);
         struct smear_clip_polygon polygon;
         smear_clip_start(&polygon, CLIP_POSES, true, true);
         polygon.count = between(3, SMEAR_CLIP_MAX);

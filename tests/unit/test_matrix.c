@@ -69,13 +69,13 @@ static void test_rows_stay_below_2_to_the_30_for_any_input(void)
         struct smear_projection p;
         smear_view_compose(&view, &object, &mesh, &camera.pose);
         smear_projection_make(&p, &view, &camera, between(1, 2048));
-        for (int row = 0; row < (p.orthographic ? 4 : 3); row++)
+        for (int row = 0; row < (p.depths.orthographic ? 4 : 3); row++)
             if (!CHECK(row_bound(p.m[row]) <= 1 << 30)) {
                 CHECK_EQ(n, row);
                 return;
             }
-        if (!CHECK(p.near_distance >= 1) || !CHECK(p.far_distance > p.near_distance)
-            || !CHECK(!p.orthographic || (p.m[2][0] == 0 && p.m[2][1] == 0 && p.m[2][2] == 0 && p.m[2][3] >= 1)))
+        if (!CHECK(p.depths.near_distance >= 1) || !CHECK(p.depths.far_distance > p.depths.near_distance)
+            || !CHECK(!p.depths.orthographic || (p.m[2][0] == 0 && p.m[2][1] == 0 && p.m[2][2] == 0 && p.m[2][3] >= 1)))
             return;
     }
 }
@@ -117,9 +117,9 @@ static void test_planes_lie_at_their_distances(void)
         smear_view_compose(&view, &object, &mesh, &camera.pose);
         smear_projection_make(&p, &view, &camera, 240);
         double unit = ldexp(1, p.distance_scale);
-        CHECK_CLOSE(p.near_distance, camera.near_plane / 65536.0 * unit, 1);
+        CHECK_CLOSE(p.depths.near_distance, camera.near_plane / 65536.0 * unit, 1);
         double far = camera.far_plane / 65536.0 * unit;
-        CHECK_CLOSE(p.far_distance, fmin(far, INT32_MAX), 1);
+        CHECK_CLOSE(p.depths.far_distance, fmin(far, INT32_MAX), 1);
         /* The object's origin, in the same units. */
         const int16_t zero[3] = { 0, 0, 0 };
         struct smear_homogeneous h;
@@ -133,7 +133,7 @@ static void test_planes_lie_at_their_distances(void)
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &open_end.pose);
     smear_projection_make(&p, &view, &open_end, 240);
-    CHECK_EQ(p.far_distance, INT32_MAX);
+    CHECK_EQ(p.depths.far_distance, INT32_MAX);
 }
 
 /* ------------------------------------------------------------------ sums of poses */
@@ -302,7 +302,7 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
         for (int k = 1; k < count; k++)
             smear_projection_add(&p[0], &p[k]);
         smear_transform_vertex(&h, &p[0], v);
-        CHECK(p[0].near_distance >= 1 && p[0].far_distance > p[0].near_distance);
+        CHECK(p[0].depths.near_distance >= 1 && p[0].depths.far_distance > p[0].depths.near_distance);
         if (!CHECK(!orthographic || h.w >= 1))
             return;
     }

@@ -138,7 +138,7 @@ static double worst_position(enum kind kind, bool orthographic, int height, doub
             smear_transform_vertex(&h, &p, v);
             if (!CHECK(h.w > 0))
                 return INFINITY;
-            smear_project(&s, &p, &h, &viewport);
+            smear_project(&s, &p.depths, &h, &viewport);
             double ex = fabs((s.x - viewport.width * 128) / 256.0 - want.x);
             double ey = fabs((s.y - viewport.height * 128) / 256.0 - want.y);
             worst = fmax(worst, fmax(ex, ey));
@@ -193,9 +193,9 @@ static void test_the_near_plane_has_the_largest_depth_and_far_things_the_smalles
         struct smear_homogeneous h;
         struct smear_screen s;
         smear_transform_vertex(&h, &p, v);
-        smear_project(&s, &p, &h, &viewport);
+        smear_project(&s, &p.depths, &h, &viewport);
         if (z == 256) {
-            CHECK_EQ(h.distance, p.near_distance);
+            CHECK_EQ(h.distance, p.depths.near_distance);
             CHECK_NEAR(s.depth, SMEAR_DEPTH_MAX, 1 << 14);
         }
         CHECK(s.depth <= last && s.depth >= SMEAR_DEPTH_MIN);
@@ -214,14 +214,14 @@ static void test_orthographic_depth_runs_evenly_from_near_to_far(void)
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &camera.pose);
     smear_projection_make(&p, &view, &camera, 200);
-    CHECK(p.orthographic);
+    CHECK(p.depths.orthographic);
     const struct smear_viewport viewport = { 200, 200 };
     for (int z = 256; z <= 101 * 256; z += 256) {
         const int16_t v[3] = { 128, 64, (int16_t)-z };
         struct smear_homogeneous h;
         struct smear_screen s;
         smear_transform_vertex(&h, &p, v);
-        smear_project(&s, &p, &h, &viewport);
+        smear_project(&s, &p.depths, &h, &viewport);
         double units = (double)SMEAR_DEPTH_NEAR * 2048 * (101 * 256 - z) / (100 * 256);
         CHECK_CLOSE(s.depth, fmax(units, SMEAR_DEPTH_MIN), 8192.0);
         CHECK_EQ(s.x, 100 * 256 + 50 * 256);        /* size does not depend on distance */
@@ -246,7 +246,7 @@ static void test_any_positive_w_and_any_place_project_without_overflow(void)
             for (int32_t w = 1; w > 0 && w < 1 << 30; w = w * 3 + 1) {
                 struct smear_homogeneous h = { value[i], value[j], w, w };
                 struct smear_screen s;
-                smear_project(&s, &p, &h, &viewport);
+                smear_project(&s, &p.depths, &h, &viewport);
                 double x = 256.0 * h.x / w, got = s.x - viewport.width * 128;
                 /* Right within the guard band, and beyond it where it is beyond it. The high product has steps of
                  * 2^-8 px for w from 2^10 on, larger ones below. */
