@@ -288,6 +288,7 @@ STACK_PROGRAM ?= 300
 .PHONY: stack-test
 ## the library's worst stack fits the one that TARGET has for it
 stack-test:
+	$(if $(STACK),,$(error TARGET=$(TARGET) does not say how large its stack is))@true
 	$(MAKE) --no-print-directory -s BUILD=$(BUILD)/stack OPT="$(OPT) -fcallgraph-info=su" $(BUILD)/stack/libsmear.a
 	awk -f platform/stack.awk $(BUILD)/stack/src/*.ci $(BUILD)/stack/src/*/*.ci > $(BUILD)/stack.txt
 	awk -v room='smear_render $(STACK) smear_work $(STACK_WORK)' -v own=$(STACK_PROGRAM) \

@@ -39,6 +39,9 @@ targets() {
         for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33 lm3s6965evb microbit gba raspi0; do
             suite "symbols-$target" $make -s TARGET=$target symbols-test
         done
+        for target in cortex-m0plus cortex-m3 lm3s6965evb raspi0; do
+            suite "stack-$target" $make -s TARGET=$target stack-test
+        done
         suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
         suite tiny $make -s TARGET=microbit tiny-test
         suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
@@ -73,6 +76,7 @@ targets() {
         suite target-rv32imc $make -s TARGET=rv32imc target-test
         suite symbols-rv32imc $make -s TARGET=rv32imc symbols-test
         suite demo-rv32imc $make -s TARGET=rv32imc demo-test
+        suite stack-rv32imc $make -s TARGET=rv32imc stack-test
     fi
     if needs arm-linux-gnueabi-gcc "gcc-arm-linux-gnueabi libc6-dev-armel-cross" && needs qemu-arm-static "qemu-user-static"; then
         suite target-linux-armel $make -s TARGET=linux-armel target-test

@@ -22,6 +22,9 @@ LDLIBS  += -lgcc
 PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/platform.c \
                 $(addprefix platform/common/,arena.c arguments.c memory.c semihost.c)
 
+# Of the linker script.
+STACK = $(shell sed -n 's/^link_stack_bytes = \([0-9]*\);/\1/p' platform/cortexm/$(LAYOUT))
+
 RUN       := platform/cortexm/run.sh $(BOARD)
 RUN_BENCH := platform/cortexm/run.sh $(BENCH_BOARD) -icount shift=6
 

@@ -27,6 +27,9 @@ BENCH_LDFLAGS := -T kernel.ld
 RUN       := env IMAGE_AT=0x8000 sh platform/common/qemu.sh qemu-system-arm -M raspi0
 RUN_BENCH := sh platform/raspi0/cost.sh
 
+# Of kernel.ld.
+STACK := 65536
+
 DISPLAY_SRC := platform/raspi0/display.c
 DEMO_SCREEN := $(SCREEN)
 DEMO_LOOPS  := $(SCREEN):6

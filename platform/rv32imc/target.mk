@@ -21,6 +21,9 @@ SCRIPTS       := platform/rv32imc/virt.ld
 TEST_LDFLAGS  := -T virt.ld
 BENCH_LDFLAGS := -T virt.ld
 
+# Of virt.ld.
+STACK := 6144
+
 RUN       := platform/rv32imc/run.sh
 RUN_BENCH := platform/rv32imc/run.sh -icount shift=0
 
