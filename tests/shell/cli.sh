@@ -758,6 +758,7 @@ done
 usage --reach render "$plate" --reach 65
 usage --reach render "$plate" --reach 17 --tile 16
 usage --tile render "$plate" --method auto --tile 4
+claim "time masks have room" render builtin:test/ortho --size 8x8 --tile 8 --method timemask -o room.ppm
 usage --edges render "$plate" --method timemask --edges smooth
 usage --edges render "$plate" --edges soft
 usage --edges render "$plate" --edges smooth --keep-display

@@ -195,13 +195,14 @@ bool device_draw(struct device *device, const struct presented *presented, struc
         return false;
     for (;;) {
         smear_stats stats;
-        if (!draw(device, presented, &device->submit_ticks, f))
-            return false;
+        const bool is_drawn = draw(device, presented, &device->submit_ticks, f);
         smear_get_stats(device->ctx, &stats);
         smear_desc larger = device->desc;
         larger.max_triangles *= 2;
-        if (is_limited(device) || stats.parts_added == 0 || smear_memory_size(&larger) == 0)
-            return true;
+        const bool lacks_room = is_drawn ? stats.parts_added != 0 : device->result == SMEAR_ERR_ROOM;
+        if (is_limited(device) || !lacks_room || smear_memory_size(&larger) == 0)
+            return is_drawn;
+        *f = (struct failure){ "" };
         if (!make_context(device, &larger, f))
             return false;
     }
