@@ -107,6 +107,15 @@ static long number_of(const char *name, long low, long high, long otherwise)
     exit(2);
 }
 
+static int turns_of(const char *name)
+{
+    const long degrees = number_of(name, 0, 270, 0);
+    if (degrees % 90 == 0)
+        return (int)(degrees / 90);
+    fprintf(stderr, "smear: %s: needs 0, 90, 180 or 270 (\"%ld\")\n", name, degrees);
+    exit(2);
+}
+
 static const char *text_of(const char *name)
 {
     const char *text = getenv(name);
@@ -158,7 +167,7 @@ bool display_open(smear_desc *desc)
     display.height = desc->height;
     display.format = (smear_format)desc->format;
     display.look.zoom = (int)number_of("SMEAR_ZOOM", 1, 8, 0);
-    display.look.turns = (int)number_of("SMEAR_ROTATE", 0, 270, 0) / 90;
+    display.look.turns = turns_of("SMEAR_ROTATE");
     display.frames = number_of("SMEAR_FRAMES", 1, 999999999, 0);
     long fps = number_of("SMEAR_FPS", 0, 100000, 60);
     display.period_us = fps > 0 ? 1e6 / (double)fps : 0.0;

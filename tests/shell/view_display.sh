@@ -37,6 +37,7 @@ refuses() { # the shutter is changed by a key, so frames differ from then on
 claim "what differs is told, with pictures; keys arrive" refuses
 claim "a recording" eval 'SMEAR_RECORD=rec frames 2 oled && exists rec'
 claim "no number" eval '! SMEAR_FRAMES=x show oled && has err "SMEAR_FRAMES"'
+claim "no quarter turn" eval '! SMEAR_FRAMES=1 SMEAR_ROTATE=45 show oled && has err "SMEAR_ROTATE"'
 claim "no such output" eval '! SMEAR_OUT=paper show oled && has err "SMEAR_OUT=paper"'
 claim "no display" eval '! SMEAR_OUT= SMEAR_FRAMES=1 show oled && has err "smear: no display: x11: DISPLAY is not set"'
 claim "checked where there is no display" eval 'SMEAR_OUT= SMEAR_FRAMES=3 SMEAR_CHECK=gold show oled'
