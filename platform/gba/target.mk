@@ -39,7 +39,7 @@ TARGET_TESTS := golden
 SYMBOLS_HOOKS := gba_enter_stage
 
 # Of gba.ld.
-STACK := 7168
+STACK := 6144
 
 DISPLAY_SRC := platform/gba/display.c
 DEMO_SCREEN := gba
