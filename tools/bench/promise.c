@@ -211,6 +211,15 @@ static bool is_chosen(const struct options *o, const struct promise_scene *s)
     return by_name || strstr(list, word) != NULL;
 }
 
+static bool has_scenes(const struct options *o)
+{
+    for (int i = 0; i < promise_scene_count; i++)
+        if (is_chosen(o, &promise_scenes[i]) && take_is_there(promise_scenes[i].scene))
+            return true;
+    fprintf(stderr, "smear: --scenes: none of these is there (\"%s\")\n", o->scenes);
+    return false;
+}
+
 static bool read_options(struct options *o, int count, char **text)
 {
     *o = (struct options){ .light = { true, true } };
@@ -224,6 +233,10 @@ static bool read_options(struct options *o, int count, char **text)
             setenv("SMEAR_ASSETS", text[++i], 1);
         } else if (strcmp(text[i], "--light") == 0 && has_value) {
             const bool linear = strcmp(text[++i], "linear") == 0;
+            if (!linear && strcmp(text[i], "encoded") != 0) {
+                fprintf(stderr, "smear: --light: needs linear or encoded (\"%s\")\n", text[i]);
+                return false;
+            }
             o->light[!linear] = false;
         } else {
             fprintf(stderr, "smear: %s: no option of promise (smear help bench)\n", text[i]);
@@ -239,7 +252,7 @@ int promise_command(const char *program, int count, char **text)
     struct options o;
     struct failure f = { "" };
     const struct counter counter = { .program = program, .folder = "build/bench" };
-    if (!read_options(&o, count, text))
+    if (!read_options(&o, count, text) || !has_scenes(&o))
         return 2;
     if ((mkdir("build", 0777) != 0 && errno != EEXIST) || (mkdir(counter.folder, 0777) != 0 && errno != EEXIST)) {
         fprintf(stderr, "smear: %s: cannot make the folder (%s)\n", counter.folder, strerror(errno));
