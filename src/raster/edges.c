@@ -41,6 +41,8 @@ static inline bool differs(const uint32_t *a, const uint32_t *b, int32_t n)
     for (; i + 4 <= n; i += 4)
         if (v4u_any(steps_of(v4u_load(a + i), v4u_load(b + i), LEAST_STEP)))
             return true;
+    if (i < n && n >= 4)            /* the last ones, with some again */
+        return v4u_any(steps_of(v4u_load(a + n - 4), v4u_load(b + n - 4), LEAST_STEP));
 #endif
     for (; i < n; i++)
         if (is_step(a[i], b[i], LEAST_STEP))
@@ -241,43 +243,44 @@ void smear_edges_draw(const struct smear_edge_units *e, const struct smear_raste
 
 /* ------------------------------------------------------------------ means */
 
-static uint32_t mean_of(const uint32_t color[EDGE_PLACES + 1], bool linear)
+static inline uint32_t linear_mean(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
-    uint32_t out = 0;
-    for (int shift = 16; shift >= 0; shift -= 8) {
-        uint32_t sum = 0;
-        for (int i = 0; i <= EDGE_PLACES; i++)
-            sum += linear ? smear_srgb_decode[color[i] >> shift & 255u] : color[i] >> shift & 255u;
-        out = out << 8 | (linear ? smear_srgb_encode[(sum + 2u) >> 6] : (sum + 2u) >> 2);
-    }
-    return out;
+    const uint32_t sum = (uint32_t)smear_srgb_decode[a & 255u] + smear_srgb_decode[b & 255u] + smear_srgb_decode[c & 255u]
+                       + smear_srgb_decode[d & 255u];
+    return smear_srgb_encode[(sum + 2u) >> 6];
+}
+
+static inline uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool linear)
+{
+    if (linear)
+        return linear_mean(a >> 16, b >> 16, c >> 16, d >> 16) << 16 | linear_mean(a >> 8, b >> 8, c >> 8, d >> 8) << 8
+             | linear_mean(a, b, c, d);
+    const uint32_t low = 0xff00ffu;         /* red and blue at once: sums have 10 bits */
+    const uint32_t red_blue = (a & low) + (b & low) + (c & low) + (d & low) + 0x20002u;
+    const uint32_t green = (a >> 8 & 255u) + (b >> 8 & 255u) + (c >> 8 & 255u) + (d >> 8 & 255u) + 2u;
+    return (red_blue >> 2 & low) | (green >> 2) << 8;
 }
 
 /* Takes the mean of pixels of a row, of which other places begin at `at` of their planes. */
 static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_planes *planes, int32_t at, bool linear)
 {
-    for (int32_t x = 0; x < n; x++, at++) {
+    const uint32_t *p = planes->color[0] + at, *q = planes->color[1] + at, *r = planes->color[2] + at;
+    int32_t x = 0;
 #if SMEAR_VECTORS
-        for (; x + 4 <= n; x += 4, at += 4) {
-            const smear_v4u first = v4u_load(row + x);
-            smear_v4u other = v4u_all(0);
-            for (int k = 0; k < EDGE_PLACES; k++)
-                other |= steps_of(first, v4u_load(planes->color[k] + at), LEAST_CHANGE);
-            if (v4u_any(other))
-                break;
-        }
-        if (x == n)
-            return;
-#endif
-        uint32_t color[EDGE_PLACES + 1] = { row[x] };
-        bool differs = false;
-        for (int k = 0; k < EDGE_PLACES; k++) {
-            color[k + 1] = planes->color[k][at];
-            differs = differs || is_step(color[0], color[k + 1], LEAST_CHANGE);
-        }
-        if (differs)
-            row[x] = mean_of(color, linear);
+    for (; x + 4 <= n; x += 4) {
+        const smear_v4u first = v4u_load(row + x);
+        const smear_v4u other = steps_of(first, v4u_load(p + x), LEAST_CHANGE) | steps_of(first, v4u_load(q + x), LEAST_CHANGE)
+                              | steps_of(first, v4u_load(r + x), LEAST_CHANGE);
+        if (!v4u_any(other))
+            continue;
+        for (int k = 0; k < 4; k++)
+            if (other[k] != 0)
+                row[x + k] = mean_of(row[x + k], p[x + k], q[x + k], r[x + k], linear);
     }
+#endif
+    for (; x < n; x++)
+        if (is_step(row[x], p[x], LEAST_CHANGE) || is_step(row[x], q[x], LEAST_CHANGE) || is_step(row[x], r[x], LEAST_CHANGE))
+            row[x] = mean_of(row[x], p[x], q[x], r[x], linear);
 }
 
 void smear_edges_mean(const struct smear_edge_units *e, const struct smear_raster_target *t, const struct smear_edge_planes *planes,
