@@ -39,7 +39,7 @@ TARGET_TESTS := golden
 SYMBOLS_HOOKS := gba_enter_stage
 
 # Of gba.ld.
-STACK := 6144
+STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/gba/gba.ld)
 
 DISPLAY_SRC := platform/gba/display.c
 DEMO_SCREEN := gba

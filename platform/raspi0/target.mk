@@ -28,7 +28,7 @@ RUN       := env IMAGE_AT=0x8000 sh platform/common/qemu.sh qemu-system-arm -M r
 RUN_BENCH := sh platform/raspi0/cost.sh
 
 # Of kernel.ld.
-STACK := 65536
+STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/raspi0/kernel.ld)
 
 DISPLAY_SRC := platform/raspi0/display.c
 DEMO_SCREEN := $(SCREEN)

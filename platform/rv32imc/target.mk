@@ -22,7 +22,7 @@ TEST_LDFLAGS  := -T virt.ld
 BENCH_LDFLAGS := -T virt.ld
 
 # Of virt.ld.
-STACK := 6144
+STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/rv32imc/virt.ld)
 
 RUN       := platform/rv32imc/run.sh
 RUN_BENCH := platform/rv32imc/run.sh -icount shift=0

@@ -567,7 +567,8 @@ static void test_vertices_follow_the_curve_of_three_poses(void)
             picture[poses] = rig_copy(&r, &s.frame, s.draw, 2);
         }
         int different = 0;
-        for (int k = 0; k < WIDTH * HEIGHT * 4 && CHECK(picture[0] != NULL && picture[1] != NULL); k++)
+        const bool have_both = CHECK(picture[0] != NULL && picture[1] != NULL);
+        for (int k = 0; k < WIDTH * HEIGHT * 4 && have_both; k++)
             different += abs(picture[0][k] - picture[1][k]) > 2;
         if (!CHECK(different <= 8))
             say("      method %d: %d bytes differ\n", methods[m], different);

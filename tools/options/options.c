@@ -518,7 +518,7 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--keep-display", "goes with --method auto, subframes and timemask");
     if (o->dither == SMEAR_DITHER_DIFFUSE && (o->format < SMEAR_L4 || o->keep_display))
         return say_bad_usage("--dither", "diffuse goes with --format l4, l1 and l1pages, without --keep-display");
-    if (o->edges != SMEAR_EDGES_HARD && !o->exact && o->method != SMEAR_AUTO && o->method != SMEAR_SUBFRAMES)
+    if (o->edges != SMEAR_EDGES_HARD && !o->exact && !method_smooths_edges(o->method))
         return say_bad_usage("--edges", "smooth is for auto and subframes, and for --exact");
     if (o->edges != SMEAR_EDGES_HARD && o->keep_display && !o->cache_static)
         return say_bad_usage("--edges", "smooth goes with --keep-display where there is --keep-still, too");

@@ -199,6 +199,7 @@ bool device_draw(struct device *device, const struct presented *presented, struc
         smear_get_stats(device->ctx, &stats);
         smear_desc larger = device->desc;
         larger.max_triangles *= 2;
+        /* What does not fit is drawn in parts, or, by a time mask, refused. */
         const bool lacks_room = is_drawn ? stats.parts_added != 0 : device->result == SMEAR_ERR_ROOM;
         if (is_limited(device) || !lacks_room || smear_memory_size(&larger) == 0)
             return is_drawn;

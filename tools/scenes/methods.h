@@ -4,6 +4,7 @@
 #define SMEAR_TOOLS_METHODS_H
 
 #include <smear.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 struct method {
@@ -23,6 +24,12 @@ extern const int method_count;
 /* Null when there is none. */
 const struct method *method_named(const char *name);
 const struct method *method_of(smear_method method);
+
+/* Whether frame.edges may be smooth. */
+static inline bool method_smooths_edges(smear_method method)
+{
+    return method == SMEAR_AUTO || method == SMEAR_SUBFRAMES;
+}
 
 /* "NAME, NAME or NAME" of all, in a text that stays. */
 const char *method_names(void);

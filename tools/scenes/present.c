@@ -2,6 +2,7 @@
 /* present.c - from the floats of a scene to the integers of the library; present.h has the rules */
 #include "tools/scenes/present.h"
 
+#include "tools/scenes/methods.h"
 #include "tools/scenes/present_surface.h"
 
 #include <limits.h>
@@ -484,7 +485,7 @@ static bool fill_frame(smear_frame *frame, const struct present_options *o, stru
                             .light_space = (uint8_t)o->light, .cut = o->cut || o->instant_only,
                             .samples = (uint16_t)o->samples, .target = (uint16_t)o->target, .budget = o->budget,
                             .clear = o->clear, .layer = o->layer, .layer_count = (uint8_t)o->layer_count };
-    if (o->method == SMEAR_AUTO || o->method == SMEAR_SUBFRAMES)
+    if (method_smooths_edges(o->method))
         frame->edges = (uint8_t)o->edges;
     /* A sharp frame with smooth edges is one in which nothing moves. */
     if (degrees == 0 && frame->edges != SMEAR_EDGES_HARD) {

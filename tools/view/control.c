@@ -32,7 +32,7 @@ static smear_method other_method(smear_method now, int way)
 
 smear_edges control_edges(const struct view *v, const struct render_options *o)
 {
-    const bool has_smooth = (o->method == SMEAR_AUTO || o->method == SMEAR_SUBFRAMES) && (!o->keep_display || o->cache_static);
+    const bool has_smooth = method_smooths_edges(o->method) && (!o->keep_display || o->cache_static);
     return has_smooth ? v->edges : SMEAR_EDGES_HARD;
 }
 
